@@ -1,0 +1,11 @@
+# What was found and what is left out.
+function(cotan_summary target what reason)
+  if(TARGET ${target})
+    message(STATUS "cotan: ${what}: yes")
+  else()
+    message(STATUS "cotan: ${what}: no (${reason})")
+  endif()
+endfunction()
+cotan_summary(cotan_render "Vulkan renderer" "needs the Vulkan headers and glslangValidator")
+cotan_summary(cotan "command line tool" "COTAN_RENDER_ONLY is on")
+cotan_summary(core_test "tests" "COTAN_TESTS is off")
