@@ -1,0 +1,457 @@
+// Cotan portable text: the frame. Include lang.h first.
+//
+// A frame is three covectors t, b, n. Applied to a decoded texel m of a normal map it gives the
+// perturbed normal  normalize(t*m.x + b*m.y + n*m.z).
+//
+// Every function cotan_frame_NAME takes the same arguments:
+//   n             interpolated surface normal. Unit length, except where a function says that it
+//                 normalises. Any space, the same as dpdx and dpdy; the frame comes out in it.
+//   dpdx, dpdy    differences of position along two directions, in that space. In a pixel shader
+//                 the screen derivatives of a camera-relative position. The position must not
+//                 be normalised first: that is wrong by 11 degrees at 45 degrees of grazing
+//                 (docs/theory.md). eye - position, which is its negative, reverses t and b.
+//   duvdx, duvdy  differences of texture coordinates along the same two directions.
+// Who supplies the differences does not matter: screen derivatives, the edges of a triangle, the
+// rows and columns of a raster in uv space.
+//
+// t points along increasing u, b along increasing v (not "up": whether green points along +v is
+// the decoder's business, see normal.h).
+//
+// Sources: C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5 (2006), cited as
+// [2006]; its follow-up of 2013, cited as [2013]; M. Mikkelsen, Surface Gradient Based Bump
+// Mapping Framework, JCGT 9(3) 2020, cited as [2020].
+
+#ifndef COTAN_FRAME_H
+#define COTAN_FRAME_H
+
+struct cotan_frame {
+    cotan_vec3 t; // cotangent: covector along grad u
+    cotan_vec3 b; // cobitangent: covector along grad v
+    cotan_vec3 n; // normal
+};
+
+// ---- guards ---------------------------------------------------------------------------------
+
+COTAN_FUNCTION cotan_real cotan_sum_abs(cotan_vec3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+COTAN_FUNCTION cotan_real cotan_max_abs(cotan_vec3 a)
+{
+    return max(abs(a.x), max(abs(a.y), abs(a.z)));
+}
+
+// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+COTAN_FUNCTION cotan_real cotan_sign(cotan_real x)
+{
+    return x < cotan_real(0.0) ? cotan_real(-1.0) : cotan_real(1.0);
+}
+
+// The four differences, made safe: either all finite and scaled by powers of two so that the
+// largest position component and the largest uv component lie in [1,2), or all zero.
+struct cotan_differences {
+    cotan_vec3 dpdx;
+    cotan_vec3 dpdy;
+    cotan_vec2 duvdx;
+    cotan_vec2 duvdy;
+};
+
+// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
+// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
+// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
+// unchanged by it, bit for bit.
+COTAN_FUNCTION cotan_differences cotan_scale_differences(
+    cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= COTAN_HUGE;
+    bool uv_usable =
+        p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= COTAN_HUGE;
+    cotan_differences d;
+    d.dpdx = p_usable ? dpdx : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    d.dpdy = p_usable ? dpdy : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    d.duvdx = uv_usable ? duvdx : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
+    d.duvdy = uv_usable ? duvdy : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
+    cotan_real p_scale =
+        cotan_power_of_two_scale(max(cotan_max_abs(d.dpdx), cotan_max_abs(d.dpdy)));
+    cotan_real uv_scale = cotan_power_of_two_scale(
+        max(max(abs(d.duvdx.x), abs(d.duvdx.y)), max(abs(d.duvdy.x), abs(d.duvdy.y))));
+    d.dpdx = d.dpdx * p_scale;
+    d.dpdy = d.dpdy * p_scale;
+    d.duvdx = d.duvdx * uv_scale;
+    d.duvdy = d.duvdy * uv_scale;
+    return d;
+}
+
+// A unit vector along v, or `otherwise` where v is zero, shorter than 1e-6 of the clamp range of
+// cotan_power_of_two_scale, or not finite. `otherwise` is returned as it is.
+COTAN_FUNCTION cotan_vec3 cotan_normalize_or(cotan_vec3 v, cotan_vec3 otherwise)
+{
+    bool usable = cotan_sum_abs(v) <= COTAN_HUGE;
+    v = usable ? v : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    v = v * cotan_power_of_two_scale(cotan_max_abs(v));
+    cotan_real length2 = dot(v, v);
+    cotan_vec3 unit = v * cotan_inversesqrt(max(length2, cotan_real(1e-12)));
+    return length2 > cotan_real(1e-12) ? unit : otherwise;
+}
+
+// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
+// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
+// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
+COTAN_FUNCTION cotan_vec3 cotan_safe_normal(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy)
+{
+    cotan_vec3 z = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(1.0));
+    return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
+}
+
+// ---- applying a frame -----------------------------------------------------------------------
+
+// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
+// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
+// stands in the frame, so unit or what the caller gave.
+// m: decoded texel, along (+u, +v, outwards); any length.
+COTAN_FUNCTION cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
+{
+    cotan_vec3 v = f.t * m.x + f.b * m.y + f.n * m.z;
+    cotan_real length2 = dot(v, v);
+    bool usable = length2 > cotan_real(1e-12) && length2 <= COTAN_HUGE;
+    cotan_vec3 unit = v * cotan_inversesqrt(usable ? length2 : cotan_real(1.0));
+    return usable ? unit : f.n;
+}
+
+// The inverse of cotan_apply, for baking: the m, unit length, that cotan_apply(f, m) turns into
+// `target`. Exact for any independent t, b, n; the transpose would do only for an orthonormal
+// frame. m.z <= 0 means that the target lies below the horizon of the frame; it is returned as
+// it is, for the caller to count or clamp.
+// Degenerate: a frame whose three covectors are dependent (or zero) gives (0,0,1).
+// Source: the adjugate of [t b n]; cf. the decode and encode remarks in MikkTSpace.
+COTAN_FUNCTION cotan_vec3 cotan_encode(cotan_frame f, cotan_vec3 target)
+{
+    cotan_vec3 bn = cross(f.b, f.n);
+    cotan_vec3 nt = cross(f.n, f.t);
+    cotan_vec3 tb = cross(f.t, f.b);
+    cotan_real determinant = dot(f.t, bn);
+    cotan_real s = cotan_sign(determinant);
+    cotan_vec3 m = cotan_vec3(dot(target, bn), dot(target, nt), dot(target, tb)) * s;
+    cotan_vec3 flat_m = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(1.0));
+    bool usable = abs(determinant) > cotan_real(0.0) && abs(determinant) <= COTAN_HUGE;
+    cotan_vec3 unit = cotan_normalize_or(m, flat_m);
+    return usable ? unit : flat_m;
+}
+
+// ---- the frames -----------------------------------------------------------------------------
+
+// `cotangent`, the default. The cotangent frame of [2013] with two departures:
+// - it carries the sign of n . (dpdx x dpdy), so it is right for y-up and y-down targets, both
+//   world handednesses, mirrored transforms, back faces and uv-space rasters alike ([2013] is
+//   right only where that sign is positive);
+// - it is total: no input gives a NaN or an infinity.
+// t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
+// do not depend on the scale of the object (truth S of docs/theory.md). View independent. t and b
+// are perpendicular to n.
+// n need not be unit; f.n is.
+// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
+// cotan_apply returns n; so do uv that vary less than about 1e-6 of the footprint's length (the
+// frame fades to the plain normal there). uv along one line give t parallel to b.
+// Source: [2013] 'cotangent_frame'; the sign and the guards are ours.
+COTAN_FUNCTION cotan_frame cotan_frame_cotangent(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, d.dpdx, d.dpdy);
+    cotan_vec3 dpdy_perp = cross(d.dpdy, f.n);
+    cotan_vec3 dpdx_perp = cross(f.n, d.dpdx);
+    cotan_vec3 t = dpdy_perp * d.duvdx.x + dpdx_perp * d.duvdy.x;
+    cotan_vec3 b = dpdy_perp * d.duvdx.y + dpdx_perp * d.duvdy.y;
+    cotan_real longest2 = max(dot(t, t), dot(b, b));
+    cotan_real scale = cotan_inversesqrt(max(longest2, cotan_real(1e-12)));
+    scale = scale * cotan_sign(dot(d.dpdx, dpdy_perp));
+    f.t = t * scale;
+    f.b = b * scale;
+    return f;
+}
+
+// `cotangent-2013`: as printed in 2013, for comparison. Right only where n . (dpdx x dpdy) > 0;
+// elsewhere t and b are both reversed. n unit. Constant uv, zero area give NaN or infinities.
+// Source: [2013] 'cotangent_frame'.
+COTAN_FUNCTION cotan_frame cotan_frame_cotangent_2013(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 dpdy_perp = cross(dpdy, n);
+    cotan_vec3 dpdx_perp = cross(n, dpdx);
+    cotan_vec3 t = dpdy_perp * duvdx.x + dpdx_perp * duvdy.x;
+    cotan_vec3 b = dpdy_perp * duvdx.y + dpdx_perp * duvdy.y;
+    cotan_real scale = cotan_inversesqrt(max(dot(t, t), dot(b, b)));
+    cotan_frame f;
+    f.t = t * scale;
+    f.b = b * scale;
+    f.n = n;
+    return f;
+}
+
+// `nonperspective`: the shortcut of [2013] that takes the edge perpendiculars to be the edges.
+// Exact only where the surface faces the camera: foreshortening, with or without perspective,
+// breaks it (45 degrees of tilt: 9.8 degrees mean). View dependent, so nothing can be baked for
+// it. n unit. Constant uv give NaN.
+// Source: [2013] 'Non-perspective optimization'.
+COTAN_FUNCTION cotan_frame cotan_frame_nonperspective(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 t = dpdx * duvdx.x + dpdy * duvdy.x;
+    cotan_vec3 b = dpdx * duvdx.y + dpdy * duvdy.y;
+    cotan_real scale = cotan_inversesqrt(max(dot(t, t), dot(b, b)));
+    cotan_frame f;
+    f.t = t * scale;
+    f.b = b * scale;
+    f.n = n;
+    return f;
+}
+
+// The inverse of the matrix with rows r0, r1, r2, without the division by the determinant, times
+// the column (x, y, 0): the linear system that [2006] solves. Its matrix form, in rows and dots.
+COTAN_FUNCTION cotan_vec3 cotan_adjugate_times(
+    cotan_vec3 r0, cotan_vec3 r1, cotan_vec3 r2, cotan_vec2 column)
+{
+    cotan_vec3 c0 = cotan_vec3(r0.x, r1.x, r2.x);
+    cotan_vec3 c1 = cotan_vec3(r0.y, r1.y, r2.y);
+    cotan_vec3 c2 = cotan_vec3(r0.z, r1.z, r2.z);
+    cotan_vec3 a = cross(c1, c2);
+    cotan_vec3 b = cross(c2, c0);
+    cotan_vec3 c = cross(c0, c1);
+    cotan_vec3 v = cotan_vec3(column.x, column.y, cotan_real(0.0));
+    return cotan_vec3(dot(a, v), dot(b, v), dot(c, v));
+}
+
+// `paper-full`: the general solution of [2006], a full 3x3 inverse; t and b lie in the plane of
+// dpdx and dpdy and are divided by the longer of the two. n unit. Degenerate input gives NaN.
+// Source: [2006] 'compute_tangent_frame'.
+COTAN_FUNCTION cotan_frame cotan_frame_paper_full(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 face = cross(dpdx, dpdy);
+    cotan_real determinant = dot(cross(dpdx, dpdy), face);
+    cotan_vec3 t =
+        cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.x, duvdy.x)) / determinant;
+    cotan_vec3 b =
+        cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.y, duvdy.y)) / determinant;
+    cotan_real longest = max(sqrt(dot(t, t)), sqrt(dot(b, b)));
+    cotan_frame f;
+    f.t = t / longest;
+    f.b = b / longest;
+    f.n = n;
+    return f;
+}
+
+// `paper-nodet`: [2006] without the determinant, t and b each of unit length, which is wrong on
+// stretched uv by as much as an orthonormal frame (2:1: 9.5 degrees mean) and on sheared uv by
+// less. n unit. Degenerate input gives NaN.
+// Source: [2006] 'compute_tangent_frame_01'.
+COTAN_FUNCTION cotan_frame cotan_frame_paper_nodet(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 face = cross(dpdx, dpdy);
+    cotan_vec3 t = cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.x, duvdy.x));
+    cotan_vec3 b = cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.y, duvdy.y));
+    cotan_frame f;
+    f.t = t * cotan_inversesqrt(dot(t, t));
+    f.b = b * cotan_inversesqrt(dot(b, b));
+    f.n = n;
+    return f;
+}
+
+// `paper-transpose`: paper-nodet with the inverse transpose written out as two cross products.
+// The same values. n unit. Degenerate input gives NaN.
+// Source: [2006] 'compute_tangent_frame_02'.
+COTAN_FUNCTION cotan_frame cotan_frame_paper_transpose(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 face = cross(dpdx, dpdy);
+    cotan_vec3 r0 = cross(dpdy, face);
+    cotan_vec3 r1 = cross(face, dpdx);
+    cotan_vec3 t = r0 * duvdx.x + r1 * duvdy.x;
+    cotan_vec3 b = r0 * duvdx.y + r1 * duvdy.y;
+    cotan_frame f;
+    f.t = t * cotan_inversesqrt(dot(t, t));
+    f.b = b * cotan_inversesqrt(dot(b, b));
+    f.n = n;
+    return f;
+}
+
+// `paper-orthogonal`: paper-transpose with dpdx and dpdy taken as orthogonal and equally long.
+// Fails on foreshortening like `nonperspective`. n unit. Degenerate input gives NaN.
+// Source: [2006] 'compute_tangent_frame_03'.
+COTAN_FUNCTION cotan_frame cotan_frame_paper_orthogonal(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 t = dpdx * duvdx.x + dpdy * duvdy.x;
+    cotan_vec3 b = dpdx * duvdx.y + dpdy * duvdy.y;
+    cotan_frame f;
+    f.t = t * cotan_inversesqrt(dot(t, t));
+    f.b = b * cotan_inversesqrt(dot(b, b));
+    f.n = n;
+    return f;
+}
+
+// `unit`: cotangents, each divided by its own length, as ports of [2013] do. Wrong on stretched
+// uv (2:1: 9.5 degrees mean, 17.9 at most). Departs from those ports in that it carries the sign
+// of n . (dpdx x dpdy) instead of a platform switch. n unit. Constant u or v gives NaN.
+COTAN_FUNCTION cotan_frame cotan_frame_unit(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_vec3 dpdy_perp = cross(dpdy, n);
+    cotan_vec3 dpdx_perp = cross(n, dpdx);
+    cotan_vec3 t = dpdy_perp * duvdx.x + dpdx_perp * duvdy.x;
+    cotan_vec3 b = dpdy_perp * duvdx.y + dpdx_perp * duvdy.y;
+    cotan_real s = cotan_sign(dot(dpdx, dpdy_perp));
+    cotan_frame f;
+    f.t = t * (s * cotan_inversesqrt(dot(t, t)));
+    f.b = b * (s * cotan_inversesqrt(dot(b, b)));
+    f.n = n;
+    return f;
+}
+
+// `orthonormal`: tangent first, t along dP/du in the plane of n, b = +-n x t; the best tangent-free
+// reading of maps that were baked for MikkTSpace. Right on conformal uv, wrong by a fixed amount
+// on anisotropic ones. Total, like `cotangent`; n need not be unit, f.n is.
+// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences
+// give t = b = 0.
+// Source: [2020], the basis built from derivatives.
+COTAN_FUNCTION cotan_frame cotan_frame_orthonormal(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, d.dpdx, d.dpdy);
+    cotan_vec3 sigma_x = d.dpdx - f.n * dot(d.dpdx, f.n);
+    cotan_vec3 sigma_y = d.dpdy - f.n * dot(d.dpdy, f.n);
+    cotan_real side = cotan_sign(dot(d.dpdy, cross(f.n, d.dpdx)));
+    cotan_real determinant = d.duvdx.x * d.duvdy.y - d.duvdx.y * d.duvdy.x;
+    cotan_real s = cotan_sign(determinant);
+    cotan_vec3 t = (sigma_x * d.duvdy.y - sigma_y * d.duvdx.y) * s;
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    f.t = abs(determinant) > cotan_real(0.0) ? cotan_normalize_or(t, zero) : zero;
+    f.b = cross(f.n, f.t) * (s * side);
+    return f;
+}
+
+// `gradient`: the true surface gradients of u and v, metric: |t| is the change of u per unit of
+// length. A map applied with it means bumps of a fixed height in world units, so bumps fade as
+// the object grows (truth E of docs/theory.md). t/|t| as in `cotangent`; only the scale differs:
+// 1 / (n . (dpdx x dpdy)). Total; n need not be unit, f.n is.
+// Degenerate input: zero area, n in the face plane (where the division would overflow), constant
+// uv or non-finite differences give t = b = 0.
+// Source: [2020] section 3, after Blinn 1978; with the sign of the determinant kept.
+COTAN_FUNCTION cotan_frame cotan_frame_gradient(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, d.dpdx, d.dpdy);
+    cotan_vec3 dpdy_perp = cross(d.dpdy, f.n);
+    cotan_vec3 dpdx_perp = cross(f.n, d.dpdx);
+    cotan_real determinant = dot(d.dpdx, dpdy_perp);
+    // Undo the two scales in one product: gradients go with uv / position.
+    cotan_real p_scale = cotan_power_of_two_scale(max(cotan_max_abs(dpdx), cotan_max_abs(dpdy)));
+    cotan_real uv_scale = cotan_power_of_two_scale(
+        max(max(abs(duvdx.x), abs(duvdx.y)), max(abs(duvdy.x), abs(duvdy.y))));
+    bool usable = abs(determinant) > cotan_real(1e-12);
+    cotan_real scale = p_scale / (usable ? determinant : cotan_real(1.0)) / uv_scale;
+    usable = usable && abs(scale) <= COTAN_HUGE;
+    scale = usable ? scale : cotan_real(0.0);
+    f.t = (dpdy_perp * d.duvdx.x + dpdx_perp * d.duvdy.x) * scale;
+    f.b = (dpdy_perp * d.duvdx.y + dpdx_perp * d.duvdy.y) * scale;
+    return f;
+}
+
+// `exact`: gradients of u and v over a whole triangle, from its edges instead of screen
+// derivatives, projected orthogonally onto the plane of n; the longer has length one. Where
+// vertex data can be fetched this is simply better than differences of a tiny pixel: 2.7e-6
+// degrees in float at every distance and footprint. Total; n need not be unit, f.n is.
+//   n             interpolated normal at the shaded point
+//   dpdx, dpdy    edges p1 - p0 and p2 - p0
+//   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
+// Degenerate input: a triangle without area, constant uv, non-finite input give t = b = 0.
+// Source: [2006] equation of the tangent frame, without the pixel; the projection is ours.
+COTAN_FUNCTION cotan_frame cotan_frame_exact(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, d.dpdx, d.dpdy);
+    cotan_vec3 face = cross(d.dpdx, d.dpdy);
+    cotan_vec3 r0 = cross(d.dpdy, face);
+    cotan_vec3 r1 = cross(face, d.dpdx);
+    cotan_vec3 t = r0 * d.duvdx.x + r1 * d.duvdy.x;
+    cotan_vec3 b = r0 * d.duvdx.y + r1 * d.duvdy.y;
+    t = t - f.n * dot(t, f.n);
+    b = b - f.n * dot(b, f.n);
+    cotan_real largest = max(cotan_max_abs(t), cotan_max_abs(b));
+    cotan_real rescale = cotan_power_of_two_scale(largest);
+    t = t * rescale;
+    b = b * rescale;
+    cotan_real longest2 = max(dot(t, t), dot(b, b));
+    bool usable = longest2 > cotan_real(1e-12);
+    cotan_real scale = cotan_inversesqrt(usable ? longest2 : cotan_real(1.0));
+    scale = usable ? scale : cotan_real(0.0);
+    f.t = t * scale;
+    f.b = b * scale;
+    return f;
+}
+
+// ---- frames from vertex attributes ----------------------------------------------------------
+
+// `smooth`: from cotangents that were averaged at the vertices and interpolated. They are
+// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+//   t, b   interpolated covectors, any common scale, same space as n
+// Degenerate input: t = b = 0 where both vanish.
+COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_vec3 b)
+{
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, zero, zero);
+    bool finite = cotan_sum_abs(t) + cotan_sum_abs(b) <= COTAN_HUGE;
+    t = finite ? t : zero;
+    b = finite ? b : zero;
+    cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(t), cotan_max_abs(b)));
+    t = t * rescale;
+    b = b * rescale;
+    t = t - f.n * dot(t, f.n);
+    b = b - f.n * dot(b, f.n);
+    cotan_real longest2 = max(dot(t, t), dot(b, b));
+    cotan_real scale = cotan_inversesqrt(max(longest2, cotan_real(1e-12)));
+    f.t = t * scale;
+    f.b = b * scale;
+    return f;
+}
+
+// `vertex`: the classic way. Per-vertex tangent and normal, interpolated, made orthonormal again per
+// pixel; the bitangent is handedness * n x t. Total; n need not be unit, f.n is.
+//   t            interpolated tangent, any length
+//   handedness   +1 or -1 (glTF TANGENT.w); other values scale the bitangent
+// Degenerate input: a tangent that vanishes or is parallel to n gives t = b = 0.
+COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
+{
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, zero, zero);
+    t = cotan_normalize_or(t, zero);
+    f.t = cotan_normalize_or(t - f.n * dot(t, f.n), zero);
+    f.b = cross(f.n, f.t) * handedness;
+    return f;
+}
+
+// `mikktspace`: as MikkTSpace wants its tangents used: interpolated n and t not renormalised, the
+// bitangent handedness * n x t per pixel. cotan_apply normalises the result.
+//   n, t   interpolated, not normalised
+// Degenerate input: zero in, zero out; cotan_apply then returns n as given.
+// Source: M. Mikkelsen, mikktspace.h.
+COTAN_FUNCTION cotan_frame cotan_frame_mikktspace(
+    cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
+{
+    cotan_frame f;
+    f.t = t;
+    f.b = cross(n, t) * handedness;
+    f.n = n;
+    return f;
+}
+
+#endif

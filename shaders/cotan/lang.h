@@ -1,0 +1,93 @@
+// Cotan portable text, part 1 of 6: the language.
+//
+// The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The includer says which by
+// defining exactly one of the macros below; nothing is guessed from what a compiler predefines.
+// No file of the portable text includes another, so that it also works where shader sources are
+// simply joined. Order: lang.h first, then normal.h, frame.h, light.h as needed.
+//
+//   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
+//   COTAN_LANG_HLSL   HLSL, shader model 5 and later
+//   COTAN_LANG_CPP    C++20 over GLM; COTAN_CPP_REAL names the scalar type. Included through
+//                     <cotan/portable.hpp>, once per scalar type, inside a namespace.
+//
+// What the text may use: scalars and vectors of two to four components, structs, functions,
+// selects. What it may not: matrices (row and column order differ between the languages),
+// derivatives and texture reads (they belong to the caller), swizzles, loops over data.
+
+#ifndef COTAN_LANG_H
+#define COTAN_LANG_H
+
+#if defined(COTAN_LANG_GLSL)
+
+#define COTAN_FUNCTION
+#define cotan_real float
+#define cotan_vec2 vec2
+#define cotan_vec3 vec3
+#define cotan_vec4 vec4
+#define cotan_inversesqrt inversesqrt
+#define cotan_mix mix
+#define cotan_float_bits(x) floatBitsToUint(x)
+#define cotan_bits_float(x) uintBitsToFloat(x)
+#define cotan_uint uint
+
+#elif defined(COTAN_LANG_HLSL)
+
+#define COTAN_FUNCTION
+#define cotan_real float
+#define cotan_vec2 float2
+#define cotan_vec3 float3
+#define cotan_vec4 float4
+#define cotan_inversesqrt rsqrt
+#define cotan_mix lerp
+#define cotan_float_bits(x) asuint(x)
+#define cotan_bits_float(x) asfloat(x)
+#define cotan_uint uint
+
+#elif defined(COTAN_LANG_CPP)
+
+#define COTAN_FUNCTION inline
+using cotan_real = COTAN_CPP_REAL;
+using cotan_vec2 = glm::vec<2, cotan_real, glm::defaultp>;
+using cotan_vec3 = glm::vec<3, cotan_real, glm::defaultp>;
+using cotan_vec4 = glm::vec<4, cotan_real, glm::defaultp>;
+using glm::cross;
+using glm::dot;
+using glm::max;
+using glm::min;
+using glm::mix;
+using std::abs;
+using std::exp2;
+using std::pow;
+using std::sqrt;
+inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
+inline cotan_real cotan_mix(cotan_real a, cotan_real b, cotan_real k) { return a + (b - a) * k; }
+inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a + (b - a) * k; }
+
+#else
+#error "cotan: define COTAN_LANG_GLSL, COTAN_LANG_HLSL or COTAN_LANG_CPP before including lang.h"
+#endif
+
+// The largest magnitude that counts as finite, in every precision. Anything above, an infinity
+// or a NaN fails the comparison  abs(x) <= COTAN_HUGE.
+#define COTAN_HUGE cotan_real(1e37)
+
+// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
+// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
+// before and after, except that it no longer under- or overflows.
+// m: any magnitude, not NaN (zero gives the largest scale).
+#if defined(COTAN_LANG_CPP)
+inline cotan_real cotan_power_of_two_scale(cotan_real m)
+{
+    m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
+    return std::ldexp(cotan_real(1), -std::ilogb(m));
+}
+#else
+COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
+{
+    m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
+    cotan_uint exponent = cotan_float_bits(m) & 0x7f800000u;
+    return cotan_bits_float((254u << 23) - exponent);
+}
+#endif
+
+#endif
