@@ -1,0 +1,75 @@
+// Conventions are values: how a normal map is stored, with presets by name.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cotan/portable.hpp"
+
+namespace cotan {
+
+enum class Expansion {
+    exact,        // (255c - 128)/127: 128 is zero
+    biased,       // 2c - 1
+    signedValues, // stored signed (snorm, float)
+};
+
+enum class Channels {
+    xyz,
+    orthographic,  // two; z = sqrt(1 - x^2 - y^2)
+    stereographic, // two; (x,y)/(1+z)
+    slope,         // two; (dh/du, dh/dv)
+};
+
+// What the numbers mean.
+enum class MapKind { tangentSpace, objectSpace, height };
+
+// Which way the rows of the image run with v. It decides what "green up" means: whether green
+// points along +v.
+enum class VDirection {
+    down, // v = 0 at the top row: glTF, Direct3D, Vulkan
+    up,   // v = 0 at the bottom row: OBJ, OpenGL tutorials, Blender, Unity
+};
+
+struct Convention {
+    MapKind kind = MapKind::tangentSpace;
+    Expansion expansion = Expansion::exact;
+    Channels channels = Channels::xyz;
+    bool greenUp = true;               // green points up the picture
+    VDirection v = VDirection::down;   // of the uv that the map is used with
+
+    friend bool operator==(const Convention&, const Convention&) = default;
+};
+
+// Whether green points along increasing v: the flag that decoding needs. Green up with v down
+// points against it, and so on (docs/conventions.md has the table of four).
+constexpr bool greenAlongV(const Convention& c) { return c.greenUp == (c.v == VDirection::up); }
+
+struct ConventionPreset {
+    std::string_view name;
+    Convention convention;
+    std::string_view note; // one line: whose, and what is special
+};
+
+// gltf, opengl, directx, unity, unreal, blender, godot, maya, 3dsmax, source.
+std::span<const ConventionPreset> conventionPresets();
+std::optional<Convention> conventionFromName(std::string_view name);
+
+// One line for reports, such as "tangent space, xyz, green up, v down, exact expansion".
+std::string describe(const Convention& convention);
+
+// What the portable text needs. strength: factor on the slopes.
+template<class Format>
+Format toFormat(const Convention& c, double strength = 1)
+{
+    Format f;
+    f.expansion = static_cast<int>(c.expansion);
+    f.channels = static_cast<int>(c.channels);
+    f.green = greenAlongV(c) ? 1 : -1;
+    f.strength = static_cast<decltype(f.strength)>(strength);
+    return f;
+}
+
+} // namespace cotan
