@@ -1,0 +1,31 @@
+cotan_test(core_test
+  SOURCES frame_test.cpp degenerate_test.cpp precision_test.cpp normal_test.cpp covector_test.cpp
+          convention_test.cpp random_test.cpp
+  LIBRARIES cotan_truth cotan_core)
+
+# The portable text compiles unchanged in every language: joined, behind a few lines that declare
+# the language and call every function.
+foreach(language glsl essl hlsl)
+  if(COTAN_GLSLANG)
+    add_test(NAME PortableText.compilesAs_${language}
+      COMMAND ${CMAKE_COMMAND}
+        -DLANGUAGE=${language} -DGLSLANG=${COTAN_GLSLANG}
+        -DSHADERS=${PROJECT_SOURCE_DIR}/shaders -DTESTS=${CMAKE_CURRENT_SOURCE_DIR}
+        -DOUT=${CMAKE_CURRENT_BINARY_DIR}/portable_${language}.frag
+        -P ${CMAKE_CURRENT_SOURCE_DIR}/portable_text.cmake)
+  endif()
+endforeach()
+
+# Code that mixes vectors and covectors must not compile; the same file without the mixture must.
+function(cotan_compile_test name definition will_fail)
+  add_test(NAME Covector.${name}
+    COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -D${definition}
+      -I${PROJECT_SOURCE_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders
+      ${CMAKE_CURRENT_SOURCE_DIR}/covector_mixture.cpp)
+  set_tests_properties(Covector.${name} PROPERTIES WILL_FAIL ${will_fail})
+endfunction()
+cotan_compile_test(framesOfOneKindCompile COTAN_MIX_NOTHING OFF)
+cotan_compile_test(tangentPlusNormalDoesNotCompile COTAN_MIX_SUM ON)
+cotan_compile_test(assigningAVectorToANormalDoesNotCompile COTAN_MIX_ASSIGN ON)
+cotan_compile_test(perturbingByTangentsDoesNotCompile COTAN_MIX_FRAME ON)
+cotan_compile_test(dotOfTwoCovectorsDoesNotCompile COTAN_MIX_DOT ON)

@@ -1,0 +1,40 @@
+// The rest of a fragment shader that calls every function of the portable text.
+layout(location = 0) in vec3 n;
+layout(location = 1) in vec3 p;
+layout(location = 2) in vec2 uv;
+layout(location = 0) out vec4 color;
+
+void main()
+{
+    cotan_normal_format format = cotan_normal_format(0, 1, -1.0, 1.0);
+    vec3 m = cotan_decode(vec3(uv, 1.0), format);
+    vec3 sum = vec3(0.0);
+    sum += cotan_apply(cotan_frame_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_cotangent_2013(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_nonperspective(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_paper_full(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_paper_nodet(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_paper_transpose(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_paper_orthogonal(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_unit(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_orthonormal(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_gradient(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_exact(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_smooth(n, p, m), m);
+    sum += cotan_apply(cotan_frame_vertex(n, p, 1.0), m);
+    sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
+    sum += cotan_encode(cotan_frame_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), sum);
+    sum += cotan_encode_texel(m, format);
+    cotan_surface s;
+    s.base_color = m;
+    s.metallic = 0.5;
+    s.roughness = 0.5;
+    s.occlusion = 1.0;
+    s.emissive = m;
+    s.n = n;
+    s.v = p;
+    sum += cotan_reflect_pbr(s, p) + cotan_reflect_blinn_phong(s, p) + cotan_reflect_environment(s);
+    sum = cotan_tone_map(sum * cotan_light_falloff(uv.x, uv.y));
+    sum.x = cotan_linear_to_srgb(sum.x) + cotan_srgb_to_linear(sum.y);
+    color = vec4(sum, 1.0);
+}
