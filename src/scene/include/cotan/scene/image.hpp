@@ -1,0 +1,51 @@
+// A picture in memory. Plain data, no files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cotan {
+
+enum class PixelType { unorm8, unorm16, float32 };
+
+constexpr std::size_t bytesPerComponent(PixelType type)
+{
+    return type == PixelType::unorm8 ? 1 : type == PixelType::unorm16 ? 2 : 4;
+}
+
+// Always four components a pixel, red green blue alpha, rows from the top, no padding.
+// Grey files become r = g = b; a missing alpha becomes 1. The values are those of the file:
+// whether they are sRGB or linear is decided by what they are used for.
+struct Image {
+    std::string name;                     // for messages: file name, or what it was made from
+    int width = 0;                        // pixels
+    int height = 0;                       // pixels
+    PixelType type = PixelType::unorm8;
+    std::vector<std::byte> data;          // width * height * 4 * bytesPerComponent(type)
+
+    std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
+    std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }
+
+    std::uint8_t* bytes8() { return reinterpret_cast<std::uint8_t*>(data.data()); }
+    const std::uint8_t* bytes8() const { return reinterpret_cast<const std::uint8_t*>(data.data()); }
+    std::uint16_t* words() { return reinterpret_cast<std::uint16_t*>(data.data()); }
+    const std::uint16_t* words() const { return reinterpret_cast<const std::uint16_t*>(data.data()); }
+    float* floats() { return reinterpret_cast<float*>(data.data()); }
+    const float* floats() const { return reinterpret_cast<const float*>(data.data()); }
+};
+
+// An image of that size with every byte zero.
+inline Image makeImage(int width, int height, PixelType type, std::string name = {})
+{
+    Image image;
+    image.name = std::move(name);
+    image.width = width;
+    image.height = height;
+    image.type = type;
+    image.data.resize(image.pixelCount() * image.bytesPerPixel());
+    return image;
+}
+
+} // namespace cotan

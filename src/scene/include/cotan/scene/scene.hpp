@@ -1,0 +1,137 @@
+// What there is to draw. Plain data, no files, no GPU. World space is right-handed, y up, metres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "cotan/scene/image.hpp"
+
+namespace cotan {
+
+enum class Wrap { repeat, mirror, clamp };
+enum class Filter { nearest, linear };
+enum class MipFilter { none, nearest, linear };
+
+struct Sampler {
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+    Filter magnify = Filter::linear;
+    Filter minify = Filter::linear;
+    MipFilter mip = MipFilter::linear;
+};
+
+// A use of an image by a material. (u,v) of the mesh becomes
+// (dot(uRow.xy, uv) + uRow.z, dot(vRow.xy, uv) + vRow.z): KHR_texture_transform, flattened.
+// v = 0 is the top row of the image.
+struct Texture {
+    int image = -1; // index into Scene::images; -1: none
+    int texcoord = 0; // 0 or 1: which uv set
+    Sampler sampler;
+    glm::vec3 uRow{1, 0, 0};
+    glm::vec3 vRow{0, 1, 0};
+
+    bool present() const { return image >= 0; }
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+// How a normal map is stored: see shaders/cotan/normal.h for the meaning of each field.
+struct NormalMapFormat {
+    int expansion = 0;      // COTAN_EXPAND_...
+    int channels = 0;       // COTAN_CHANNELS_...
+    bool greenAlongV = false; // green points along increasing v. glTF: false ("green up", v down)
+};
+
+struct Material {
+    std::string name;
+    glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
+    float metallic = 1;
+    float roughness = 1;
+    glm::vec3 emissive{0, 0, 0};     // linear, KHR_materials_emissive_strength multiplied in
+    float occlusionStrength = 1;
+    float normalScale = 1;           // factor on the slopes
+    NormalMapFormat normalFormat;
+    Texture baseColorMap;            // sRGB, alpha linear
+    Texture metallicRoughnessMap;    // linear: g roughness, b metallic
+    Texture normalMap;               // linear
+    Texture occlusionMap;            // linear: r
+    Texture emissiveMap;             // sRGB
+    AlphaMode alphaMode = AlphaMode::opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    bool unlit = false;
+};
+
+// Triangles with one material. Every attribute array is empty or has vertexCount() entries.
+struct Mesh {
+    std::string name;
+    int material = 0; // index into Scene::materials, always valid
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;   // always present after loading; unit, or zero where unknown
+    std::vector<glm::vec4> tangents;  // as stored in the file: xyz, w = +-1; empty if none
+    std::array<std::vector<glm::vec2>, 2> texcoords;
+    std::vector<glm::vec4> colors;    // linear, multiply the base colour
+    std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; empty if not made
+    std::vector<glm::vec3> cotangentsV;
+    std::vector<std::uint32_t> indices; // three a triangle, each < vertexCount()
+
+    std::size_t vertexCount() const { return positions.size(); }
+    std::size_t triangleCount() const { return indices.size() / 3; }
+};
+
+struct Instance {
+    std::string name;
+    int mesh = 0;               // index into Scene::meshes
+    glm::mat4 toWorld{1};       // affine; any scale, mirroring included
+};
+
+enum class LightKind { directional, point, spot };
+
+struct Light {
+    LightKind kind = LightKind::directional;
+    glm::vec3 color{1, 1, 1};       // linear, times intensity
+    float intensity = 3;            // directional: lux / pi-free radiometric; point, spot: candela
+    glm::vec3 position{0, 0, 0};    // world
+    glm::vec3 direction{0, -1, 0};  // world, unit, the way the light travels
+    float range = 0;                // metres; 0: infinite
+    float innerCone = 0;            // radians from the axis
+    float outerCone = 0.785398f;
+};
+
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    float verticalFieldOfView = 0.785398f; // radians, perspective
+    float verticalExtent = 2;              // world units from bottom to top, orthographic
+    glm::vec3 eye{0, 0, 5};
+    glm::vec3 target{0, 0, 0};
+    glm::vec3 up{0, 1, 0};
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings; // one line each: what was odd, and what was done about it
+};
+
+// The smallest box around all instances, in world space; low > high where there is nothing.
+struct Bounds {
+    glm::vec3 low{1e30f};
+    glm::vec3 high{-1e30f};
+    bool empty() const { return low.x > high.x; }
+    glm::vec3 centre() const { return (low + high) * 0.5f; }
+};
+
+} // namespace cotan

@@ -1,0 +1,48 @@
+// How to draw a scene: what both renderers take, so that their pictures can be compared.
+#pragma once
+
+#include <vector>
+
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+// What the picture shows. Everything but `shaded` is written as float32: x y z and, in alpha, 1
+// where there is a surface and 0 elsewhere.
+enum class Output {
+    shaded,    // unorm8, sRGB-encoded and tone mapped; float32 linear if View::linearOutput
+    normal,    // perturbed world normal, unit
+    tangent,   // frame.t, world
+    bitangent, // frame.b, world
+    uv,        // of the normal map (uv set 0 where there is none), transformed; z = 0
+    depth,     // distance along the view axis, in world units, in x; y = z = 0
+};
+
+enum class Shading { pbr, blinnPhong };
+
+// Which differences a 2x2 quad gives: of the pixel's own row and column, or one pair for all four.
+enum class Derivatives { fine, coarse };
+
+struct View {
+    int width = 1280;
+    int height = 720;
+    Camera camera;
+    int frame = 0;               // cotan::Frame as an integer
+    Output output = Output::shaded;
+    Shading shading = Shading::pbr;
+    std::vector<Light> lights;   // the first directional one casts shadows
+    bool shadows = true;
+    bool normalMaps = true;      // false: n as interpolated
+    bool environment = true;     // ambient and reflections from cotan_environment
+    bool background = true;      // shaded: the environment behind the scene; false: transparent black
+    bool linearOutput = false;   // shaded: float32, linear, not tone mapped
+    float exposure = 1;
+    int samples = 4;             // shaded only: 1 or 4 a pixel
+    bool pointSampled = false;   // nearest texel of the finest level, for comparing renderers
+    Derivatives derivatives = Derivatives::fine;
+    // Which way the rows of the raster run while it is drawn. The picture comes out upright in
+    // both cases; what changes is the sign of the y derivatives.
+    bool rowsUpward = false;
+};
+
+} // namespace cotan
