@@ -1,0 +1,1 @@
+cotan_test(report_test SOURCES report_test.cpp LIBRARIES cotan_report)
