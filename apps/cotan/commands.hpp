@@ -1,0 +1,11 @@
+// The commands, each in a file of its own.
+#pragma once
+
+#include "common.hpp"
+
+namespace cotan::app {
+
+Command addRenderCommand(CLI::App& app);
+Command addCompareCommand(CLI::App& app);
+
+} // namespace cotan::app

@@ -1,0 +1,14 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cotan/result.hpp"
+
+namespace cotan::app {
+
+// Writes text to a file: beside its place first, then renamed. Errors: ErrorKind::output.
+Status writeFileWhole(const std::filesystem::path& file, const std::string& text);
+
+} // namespace cotan::app

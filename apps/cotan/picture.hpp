@@ -1,0 +1,46 @@
+// What `render` and `compare` share: which model, seen how, drawn by what.
+#pragma once
+
+#include <string>
+
+#include "common.hpp"
+#include "cotan/frame.hpp"
+#include "cotan/scene/view.hpp"
+#include "painter.hpp"
+
+namespace cotan::app {
+
+struct PictureOptions {
+    std::string model;            // empty: the built-in scene
+    std::string size = "1280x720";
+    std::string camera;           // empty: the built-in scene's own, fit for a model
+    std::string device = "auto";
+    std::string shading = "pbr";
+    std::string tangents = "stored";
+    std::string rows = "down";
+    std::string derivatives = "fine";
+    int samples = 4;
+    float exposure = 1;
+    bool noShadows = false;
+    bool noNormalMaps = false;
+    bool pointSampled = false;
+};
+
+void addPictureOptions(CLI::App& command, PictureOptions& options);
+
+// A model that is loaded and a view of it; the frame and the output are for the caller to set.
+struct Picture {
+    Scene scene;
+    View view;
+    double loadSeconds = 0;
+};
+
+// Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and
+// sets up the view. Warnings are printed.
+Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
+                            std::initializer_list<Frame> frames);
+
+// Sizes and counts for a report.
+nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture);
+
+} // namespace cotan::app

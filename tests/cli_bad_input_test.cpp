@@ -1,0 +1,77 @@
+// Every malformed and hostile file of the shared data folder through the tool: what EXPECTED.tsv asks
+// for, within five seconds and one GiB, one clear line, no output for a reject.
+#include <gtest/gtest.h>
+
+#include "expected_list.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+
+constexpr double kSeconds = 5;
+constexpr double kMegabytes = 1024;
+
+// A model that reads the picture as its normal map: how the tool meets an image file.
+std::filesystem::path modelAround(const std::filesystem::path& picture, const TemporaryFolder& folder)
+{
+    std::filesystem::copy_file(picture, folder / "picture.png");
+    // one triangle: positions, normals, uv as floats
+    const char* text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"material":0}]}],
+"materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],"images":[{"uri":"picture.png"}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":2,"componentType":5126,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36},{"buffer":0,"byteOffset":72,"byteLength":24}],
+"buffers":[{"byteLength":96,"uri":"triangle.bin"}]})";
+    std::ofstream(folder / "model.gltf") << text;
+    const float data[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    std::ofstream(folder / "triangle.bin", std::ios::binary).write(reinterpret_cast<const char*>(data), sizeof data);
+    return folder / "model.gltf";
+}
+
+void check(const Expected& row)
+{
+    SCOPED_TRACE(row.file.string());
+    TemporaryFolder folder, model;
+    const bool picture = row.file.extension() == ".png";
+    const auto input = picture ? modelAround(row.file, model) : row.file;
+    const ToolRun run = runTool({"render", input.string(), "-o", "out.png", "--device", "reference", "--size", "64x64"},
+                                folder.path(), 20);
+    EXPECT_LT(run.seconds, kSeconds);
+    EXPECT_LT(run.megabytes, kMegabytes);
+    EXPECT_TRUE(run.code == 0 || run.code == 2) << run.code << " " << run.err;
+    if (row.verdict == "reject") {
+        EXPECT_EQ(run.code, 2);
+    }
+    if (row.verdict == "accept") {
+        EXPECT_EQ(run.code, 0) << run.err;
+    }
+    if (row.verdict == "warn") {
+        EXPECT_NE(run.err, "");
+    }
+    if (run.code != 0) {
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    } else {
+        EXPECT_TRUE(std::filesystem::exists(folder / "out.png"));
+    }
+}
+
+class BadInput : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BadInput, getsWhatTheListSaysFromTheTool)
+{
+    const auto rows = expectedFor(GetParam());
+    if (rows.empty())
+        GTEST_SKIP() << "no files: " << COTAN_SHARED_DATA << "/bad is missing";
+    for (const Expected& row : rows)
+        check(row);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadInput, ::testing::Values(".gltf", ".glb", ".obj", ".png"),
+                         [](const auto& extension) { return std::string(extension.param + 1); });
+
+} // namespace
+} // namespace cotan
