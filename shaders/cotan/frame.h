@@ -51,6 +51,8 @@ struct cotan_differences {
     cotan_vec3 dpdy;
     cotan_vec2 duvdx;
     cotan_vec2 duvdy;
+    cotan_real p_scale;  // what dpdx and dpdy were multiplied by
+    cotan_real uv_scale; // what duvdx and duvdy were multiplied by
 };
 
 // Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
@@ -69,14 +71,13 @@ COTAN_FUNCTION cotan_differences cotan_scale_differences(
     d.dpdy = p_usable ? dpdy : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     d.duvdx = uv_usable ? duvdx : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
     d.duvdy = uv_usable ? duvdy : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
-    cotan_real p_scale =
-        cotan_power_of_two_scale(max(cotan_max_abs(d.dpdx), cotan_max_abs(d.dpdy)));
-    cotan_real uv_scale = cotan_power_of_two_scale(
+    d.p_scale = cotan_power_of_two_scale(max(cotan_max_abs(d.dpdx), cotan_max_abs(d.dpdy)));
+    d.uv_scale = cotan_power_of_two_scale(
         max(max(abs(d.duvdx.x), abs(d.duvdx.y)), max(abs(d.duvdy.x), abs(d.duvdy.y))));
-    d.dpdx = d.dpdx * p_scale;
-    d.dpdy = d.dpdy * p_scale;
-    d.duvdx = d.duvdx * uv_scale;
-    d.duvdy = d.duvdy * uv_scale;
+    d.dpdx = d.dpdx * d.p_scale;
+    d.dpdy = d.dpdy * d.p_scale;
+    d.duvdx = d.duvdx * d.uv_scale;
+    d.duvdy = d.duvdy * d.uv_scale;
     return d;
 }
 
@@ -349,12 +350,9 @@ COTAN_FUNCTION cotan_frame cotan_frame_gradient(
     cotan_vec3 dpdy_perp = cross(d.dpdy, f.n);
     cotan_vec3 dpdx_perp = cross(f.n, d.dpdx);
     cotan_real determinant = dot(d.dpdx, dpdy_perp);
-    // Undo the two scales in one product: gradients go with uv / position.
-    cotan_real p_scale = cotan_power_of_two_scale(max(cotan_max_abs(dpdx), cotan_max_abs(dpdy)));
-    cotan_real uv_scale = cotan_power_of_two_scale(
-        max(max(abs(duvdx.x), abs(duvdx.y)), max(abs(duvdy.x), abs(duvdy.y))));
     bool usable = abs(determinant) > cotan_real(1e-12);
-    cotan_real scale = p_scale / (usable ? determinant : cotan_real(1.0)) / uv_scale;
+    // Undo the two scales in one factor: gradients go with uv / position.
+    cotan_real scale = d.p_scale / (usable ? determinant : cotan_real(1.0)) / d.uv_scale;
     usable = usable && abs(scale) <= COTAN_HUGE;
     scale = usable ? scale : cotan_real(0.0);
     f.t = (dpdy_perp * d.duvdx.x + dpdx_perp * d.duvdy.x) * scale;
@@ -426,7 +424,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_
 // `vertex`: the classic way. Per-vertex tangent and normal, interpolated, made orthonormal again per
 // pixel; the bitangent is handedness * n x t. Total; n need not be unit, f.n is.
 //   t            interpolated tangent, any length
-//   handedness   +1 or -1 (glTF TANGENT.w); other values scale the bitangent
+//   handedness   +1 or -1, such that handedness * n x t points along +v. glTF's TANGENT.w is the
+//                negative of it: there w * n x t points up the image, and v runs down
 // Degenerate input: a tangent that vanishes or is parallel to n gives t = b = 0.
 COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
 {

@@ -74,7 +74,7 @@ inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a
 // A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
 // clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
 // before and after, except that it no longer under- or overflows.
-// m: any magnitude, not NaN (zero gives the largest scale).
+// m: any magnitude (zero gives the largest scale), not NaN.
 #if defined(COTAN_LANG_CPP)
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
 {
