@@ -1,0 +1,83 @@
+// Tangents and cotangents from a mesh: the frames `mikktspace`, `vertex` and `smooth`.
+//
+// Common to all functions here: texcoords follow glTF, v downwards in the image. Vertices count as
+// one where position, normal and texcoord are equal (-0 equals +0), whether or not they share an
+// index; so the result does not depend on how the mesh is indexed. Time and memory grow linearly.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace cotan {
+
+// A mesh as plain arrays. positions, normals and texcoords have one entry a vertex; normals are
+// unit, or zero where unknown; indices are three a triangle, each smaller than the number of
+// vertices. An array of another size or an index out of range makes every function here return an
+// empty result.
+struct MeshView {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;
+    std::span<const glm::vec2> texcoords;
+    std::span<const std::uint32_t> indices;
+};
+
+// MikkTSpace tangents, one per corner, in index order: xyz along increasing u, w = +-1 as glTF's
+// TANGENT has it: cross(n, xyz) * w points up in the image, against increasing v.
+// Corners that share a vertex may differ (mirrored texcoords): see splitVertices.
+// xyz is perpendicular to the normal of the vertex, and unit as far as floats are; to be used as
+// cotan_frame_mikktspace says, not normalised between the vertices.
+// Degenerate input: a triangle with two equal positions takes its corners' tangents from the first
+// sound triangle at the vertex. One with no area in uv takes part in its neighbours'; where it has
+// none, and where tangents cancel out, we depart from the source, which gives (1,0,0) or zero:
+// the tangent is some unit vector perpendicular to the normal, w = +1.
+// Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
+// mikktspace.h with its default angular threshold of 180 degrees.
+std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh);
+
+// The classic procedure: dP/du of every triangle from its edges, normalised, summed per vertex
+// without weights, made perpendicular to the normal. Mirrored and unmirrored charts are kept apart.
+// The result is laid out as for mikktspaceTangents.
+// Degenerate input: triangles without area in space or uv add nothing; their corners get the
+// tangent of the vertex. Where there is none: some unit vector perpendicular to the normal, w = +1.
+std::vector<glm::vec4> vertexTangents(const MeshView& mesh);
+
+// Gradients of u and v, per length unit of position. Covectors: transform them like normals.
+struct Cotangents {
+    std::vector<glm::vec3> u; // one per vertex of the given arrays
+    std::vector<glm::vec3> v;
+};
+
+// Cotangents averaged at the vertices, for the frame `smooth`: the frame `gradient` of each
+// triangle with the vertex's normal, weighted by the corner's angle seen along that normal.
+// Neither unit nor perpendicular to each other: stretch and shear of the texcoords are kept.
+// Continuous inside a chart. Mirrored and unmirrored charts are kept apart, except at a vertex
+// that triangles of both kinds index: it gets the side with the larger angle, so split such
+// vertices first (splitMirrored).
+// Degenerate input: triangles without area in space or uv add nothing; a vertex with no other
+// triangle gets zero, which the frame turns into the plain normal.
+Cotangents smoothCotangents(const MeshView& mesh);
+
+// The same triangles over more vertices: the old ones in their order, then copies.
+struct VertexSplit {
+    std::vector<std::uint32_t> sources; // per new vertex: the old vertex whose attributes it copies
+    std::vector<std::uint32_t> indices; // as many as before, into the new vertices
+};
+
+// Copies vertices until all corners that share one have the same value, so that per-corner
+// tangents can be stored per vertex: tangents[split.indices[i]] = corners[i].
+// corners: one per index; vertexCount: over all indices. Sizes that do not match or an index out
+// of range give an empty split.
+VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
+                          std::span<const glm::vec4> corners);
+
+// Copies the vertices that mirrored and unmirrored triangles share. Triangles without area in space
+// or uv go with the unmirrored ones where there are both.
+VertexSplit splitMirrored(const MeshView& mesh);
+
+} // namespace cotan

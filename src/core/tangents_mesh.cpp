@@ -1,0 +1,46 @@
+#include "tangents_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cotan::tangents {
+
+bool usable(const MeshView& mesh)
+{
+    const std::size_t count = mesh.positions.size();
+    if (mesh.normals.size() != count || mesh.texcoords.size() != count
+        || mesh.indices.size() % 3 != 0 || mesh.indices.size() >= kNone || count >= kNone)
+        return false;
+    return std::all_of(mesh.indices.begin(), mesh.indices.end(),
+                       [count](std::uint32_t i) { return i < count; });
+}
+
+std::vector<std::uint32_t> weld(const MeshView& mesh)
+{
+    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), [&](std::uint32_t i) {
+        const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
+        const glm::vec2 t = mesh.texcoords[i];
+        return std::array{bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x),
+                          bitsOf(n.y), bitsOf(n.z), bitsOf(t.x), bitsOf(t.y)};
+    });
+}
+
+glm::vec3 anyPerpendicular(glm::vec3 n)
+{
+    // Crossed with the axis that n is farthest from.
+    const glm::vec3 a = glm::abs(n);
+    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
+        : a.y <= a.z                                ? glm::vec3(0, 1, 0)
+                                                    : glm::vec3(0, 0, 1);
+    const glm::vec3 t = normalizeOrZero(axis - n * (glm::dot(axis, n) / glm::dot(n, n)));
+    return glm::dot(t, t) > 0.5f ? t : glm::vec3(1, 0, 0);
+}
+
+float projectedAngle(glm::vec3 corner, glm::vec3 previous, glm::vec3 next, glm::vec3 n)
+{
+    const glm::vec3 a = projectedUnit(previous - corner, n);
+    const glm::vec3 b = projectedUnit(next - corner, n);
+    return std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
+}
+
+} // namespace cotan::tangents

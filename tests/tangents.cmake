@@ -1,0 +1,6 @@
+cotan_test(tangents_test
+  SOURCES tangents_test.cpp cotangents_test.cpp tangents_oracle_test.cpp
+  LIBRARIES cotan_core)
+cotan_test(tangents_gltf_test
+  SOURCES tangents_gltf_test.cpp
+  LIBRARIES cotan_asset)

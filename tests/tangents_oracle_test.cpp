@@ -1,0 +1,75 @@
+// MikkTSpace on real models in OBJ files: agreement with another implementation.
+#include <array>
+#include <cstdio>
+#include <map>
+#include <sstream>
+
+#include "tangents_oracle.hpp"
+
+namespace {
+
+using namespace cotan::test;
+
+// Positions, normals and texcoords of an OBJ file whose corners all read v/vt/vn; polygons become
+// fans. v is negated: downwards, without rounding.
+Arrays readObj(const std::filesystem::path& file)
+{
+    Arrays a;
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> texcoords;
+    std::map<std::array<unsigned, 3>, std::uint32_t> seen;
+    std::ifstream stream(file);
+    for (std::string text; std::getline(stream, text);) {
+        std::istringstream line(text);
+        std::string word;
+        line >> word;
+        glm::vec3 x(0);
+        if (word == "v" || word == "vn") {
+            line >> x.x >> x.y >> x.z;
+            (word == "v" ? positions : normals).push_back(x);
+        } else if (word == "vt") {
+            line >> x.x >> x.y;
+            texcoords.emplace_back(x.x, -x.y);
+        } else if (word == "f") {
+            std::vector<std::uint32_t> polygon;
+            std::array<unsigned, 3> k{};
+            while (line >> word
+                   && std::sscanf(word.c_str(), "%u/%u/%u", &k[0], &k[1], &k[2]) == 3) {
+                const auto [place, isNew] = seen.try_emplace(k, std::uint32_t(a.positions.size()));
+                if (isNew)
+                    a.add(positions.at(k[0] - 1), normals.at(k[2] - 1), texcoords.at(k[1] - 1));
+                polygon.push_back(place->second);
+            }
+            for (std::size_t i = 2; i < polygon.size(); ++i)
+                a.indices.insert(a.indices.end(), {polygon[0], polygon[i - 1], polygon[i]});
+        }
+    }
+    return a;
+}
+
+class MikktspaceOracle : public testing::TestWithParam<const char*> {};
+
+TEST_P(MikktspaceOracle, agreesOnObjModel)
+{
+    const std::filesystem::path model = std::filesystem::path(COTAN_SHARED_DATA) / GetParam();
+    const std::filesystem::path oracle = std::filesystem::path(COTAN_SHARED_DATA) / "mikktspace"
+        / (model.stem().string() + ".mikk.f32");
+    if (!std::filesystem::exists(model) || !std::filesystem::exists(oracle))
+        GTEST_SKIP() << "needs " << model << " and " << oracle;
+    const Arrays a = readObj(model);
+    const std::vector<glm::vec4> expected = readOracle(oracle);
+    ASSERT_EQ(a.indices.size(), expected.size());
+    const std::string name = model.stem().string();
+    EXPECT_EQ(cornersApart(a.view(), expected, 0, name), 0u);
+    EXPECT_EQ(cornersApart(unindexed(a).view(), expected, 0, name + ", unindexed"), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, MikktspaceOracle,
+                         testing::Values("bake/bunny/bunny_low.obj",
+                                         "classic/normal_map_stress_test_low.obj",
+                                         "classic/teapot_patches.obj"),
+                         [](const auto& model) {
+                             return std::filesystem::path(model.param).stem().string();
+                         });
+
+} // namespace
