@@ -1,0 +1,16 @@
+// The reference renderer: on the CPU, in 2x2 quads, slow, obvious, the judge.
+#pragma once
+
+#include "cotan/result.hpp"
+#include "cotan/scene/view.hpp"
+
+namespace cotan {
+
+// Draws the scene as a GPU would: pixels in 2x2 quads whose helper lanes extrapolate the triangle,
+// derivatives as differences inside the quad, clipping against the near plane, the portable text
+// in float. The picture is the same, byte for byte, for any number of threads.
+// threads: 0 means all cores.
+// Errors: ErrorKind::usage for a size that is not 1..16384 a side.
+Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0);
+
+} // namespace cotan

@@ -1,0 +1,79 @@
+#include "light.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace cotan::reference {
+
+namespace {
+
+// Light of unit colour and intensity that arrives, perpendicular to its direction.
+struct Arrival {
+    glm::vec3 toLight{0};
+    float strength = 0;
+};
+
+Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow)
+{
+    if (light.kind == LightKind::directional)
+        return {light.toLight, light.castsShadow
+                    ? lightReaching(shadow, point.position, point.normal, light.toLight)
+                    : 1.0f};
+    glm::vec3 offset = light.position - point.position;
+    float distance = glm::length(offset);
+    Arrival arrival;
+    arrival.toLight = offset / std::max(distance, 1e-6f);
+    arrival.strength = f32::cotan_light_falloff(distance, light.range);
+    if (light.kind == LightKind::spot)
+        arrival.strength *= f32::cotan_smooth(light.cosOuter, light.cosInner,
+                                              glm::dot(arrival.toLight, light.toLight));
+    return arrival;
+}
+
+glm::vec3 reflected(const f32::cotan_surface& surface, glm::vec3 toLight, Shading shading)
+{
+    return shading == Shading::pbr ? f32::cotan_reflect_pbr(surface, toLight)
+                                   : f32::cotan_reflect_blinn_phong(surface, toLight);
+}
+
+} // namespace
+
+std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
+{
+    std::vector<PreparedLight> prepared;
+    bool shadowGiven = !view.shadows;
+    for (const Light& light : view.lights) {
+        PreparedLight p;
+        p.kind = light.kind;
+        p.radiance = light.color * light.intensity;
+        p.position = glm::vec3(glm::dvec3(light.position) - eye);
+        p.toLight = f32::cotan_normalize_or(-light.direction, glm::vec3(0, 1, 0));
+        p.range = light.range;
+        p.cosOuter = std::cos(light.outerCone);
+        // The cosines are kept apart, so that a cone without a soft rim has no 0/0 in it.
+        p.cosInner = std::max(std::cos(light.innerCone), p.cosOuter + 1e-4f);
+        p.castsShadow = !shadowGiven && light.kind == LightKind::directional;
+        shadowGiven = shadowGiven || p.castsShadow;
+        prepared.push_back(p);
+    }
+    return prepared;
+}
+
+glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow)
+{
+    glm::vec3 radiance = surface.emissive;
+    for (const PreparedLight& light : lights) {
+        Arrival arrival = arrivalOf(light, point, shadow);
+        if (arrival.strength > 0)
+            radiance += light.radiance * arrival.strength
+                * reflected(surface, arrival.toLight, view.shading);
+    }
+    if (view.environment)
+        radiance += f32::cotan_reflect_environment(surface);
+    return radiance;
+}
+
+} // namespace cotan::reference

@@ -1,0 +1,39 @@
+// From surface to radiance.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "cotan/portable.hpp"
+#include "cotan/scene/view.hpp"
+#include "shadow.hpp"
+
+namespace cotan::reference {
+
+// A light, ready for shading.
+struct PreparedLight {
+    LightKind kind = LightKind::directional;
+    glm::vec3 radiance{0};       // colour times intensity
+    glm::vec3 position{0};       // relative to the eye
+    glm::vec3 toLight{0, 1, 0};  // unit, against the way the light travels
+    float range = 0;
+    float cosInner = 1;
+    float cosOuter = 0;
+    bool castsShadow = false;
+};
+
+// The view's lights; the first directional one casts the shadow, if the view has shadows.
+std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
+
+// A shaded point, beyond what the portable text's surface holds.
+struct LitPoint {
+    glm::vec3 position{0}; // relative to the eye
+    glm::vec3 normal{0};   // unit, not perturbed, on the camera's side: for the shadow
+};
+
+// Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
+glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow);
+
+} // namespace cotan::reference

@@ -1,0 +1,117 @@
+#include "pixel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace cotan::reference {
+
+namespace {
+
+constexpr float kBrightest = 65504; // what a half-float target holds
+
+// How blurred the environment is as a backdrop.
+constexpr float kBackgroundBlur = 0.35f;
+
+glm::vec3 finite(glm::vec3 v)
+{
+    for (int i = 0; i < 3; ++i)
+        v[i] = std::isfinite(v[i]) ? v[i] : 0.0f;
+    return v;
+}
+
+// What is written of a radiance.
+glm::vec3 displayed(const View& view, glm::vec3 radiance)
+{
+    glm::vec3 c = finite(radiance * view.exposure);
+    for (int i = 0; i < 3; ++i)
+        c[i] = std::clamp(c[i], 0.0f, kBrightest);
+    return view.linearOutput ? c : f32::cotan_tone_map(c);
+}
+
+glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture,
+                   const QuadPoints& quad, int lane)
+{
+    if (!chain)
+        return glm::vec4(1);
+    return sample(*chain, texture.sampler, uvOf(texture, quad, lane, in.view->derivatives),
+                  in.view->pointSampled);
+}
+
+f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
+                             const QuadPoints& quad, int lane, glm::vec3 n)
+{
+    const Material& m = *in.material;
+    glm::vec4 mr = mapTexel(in, in.maps->metallicRoughness, m.metallicRoughnessMap, quad, lane);
+    glm::vec4 occlusion = mapTexel(in, in.maps->occlusion, m.occlusionMap, quad, lane);
+    glm::vec4 emissive = mapTexel(in, in.maps->emissive, m.emissiveMap, quad, lane);
+    glm::vec3 backwards = -glm::vec3(all.projection.forward);
+    f32::cotan_surface s;
+    s.base_color = baseColor;
+    s.metallic = f32::cotan_saturate(m.metallic * mr.z);
+    s.roughness = f32::cotan_saturate(m.roughness * mr.y);
+    s.occlusion = 1 + m.occlusionStrength * (occlusion.x - 1);
+    s.emissive = m.emissive * glm::vec3(emissive);
+    s.n = n;
+    s.v = all.projection.orthographic
+        ? backwards
+        : f32::cotan_normalize_or(-quad.position[std::size_t(lane)], backwards);
+    return s;
+}
+
+glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
+                      const QuadPoints& quad, int lane)
+{
+    if (in.material->unlit)
+        return baseColor;
+    SurfaceNormal normal = normalOf(in, quad, lane);
+    f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
+    LitPoint point{quad.position[std::size_t(lane)],
+                   in.triangle->front ? normal.interpolated : -normal.interpolated};
+    return radianceOf(surface, point, all.view, all.lights, all.shadow);
+}
+
+glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad,
+                     int lane)
+{
+    if (all.view.output == Output::depth) {
+        glm::dvec3 p = quad.position[std::size_t(lane)];
+        return {float(glm::dot(p, all.projection.forward)), 0, 0};
+    }
+    SurfaceNormal normal = normalOf(in, quad, lane);
+    switch (all.view.output) {
+    case Output::tangent: return normal.t;
+    case Output::bitangent: return normal.b;
+    case Output::uv: return {normal.uv, 0};
+    default: return normal.finished;
+    }
+}
+
+} // namespace
+
+Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    Fragment fragment;
+    BaseColor base = baseColorOf(in, quad, lane);
+    fragment.discarded = base.discarded;
+    if (base.discarded)
+        return fragment;
+    if (all.view.output != Output::shaded) {
+        fragment.value = glm::vec4(finite(dataOutput(all, in, quad, lane)), 1);
+        return fragment;
+    }
+    glm::vec3 radiance = shadedColor(all, in, glm::vec3(base.value), quad, lane);
+    fragment.value = glm::vec4(displayed(all.view, radiance), f32::cotan_saturate(base.value.w));
+    return fragment;
+}
+
+glm::vec4 background(const PixelInputs& all, int x, int y)
+{
+    if (all.view.output != Output::shaded || !all.view.background)
+        return glm::vec4(0);
+    glm::vec3 ray = rayDirection(all.projection, x + 0.5, y + 0.5);
+    return glm::vec4(displayed(all.view, f32::cotan_environment(ray, kBackgroundBlur)), 1);
+}
+
+} // namespace cotan::reference

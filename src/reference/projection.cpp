@@ -1,0 +1,138 @@
+#include "projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace cotan::reference {
+
+namespace {
+
+constexpr double kLowest = std::numeric_limits<double>::lowest();
+constexpr double kHighest = std::numeric_limits<double>::max();
+
+bool isFinite(glm::dvec3 v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+glm::dvec3 normalizeOr(glm::dvec3 v, glm::dvec3 otherwise)
+{
+    double length = glm::length(v);
+    return std::isfinite(length) && length > 1e-30 ? v / length : otherwise;
+}
+
+// A right-handed basis that looks along `direction` (unit).
+void lookAlong(Projection& p, glm::dvec3 direction, glm::dvec3 up)
+{
+    glm::dvec3 sideways = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    glm::dvec3 fallback = glm::normalize(glm::cross(direction, sideways));
+    p.forward = direction;
+    p.right = normalizeOr(glm::cross(direction, normalizeOr(up, sideways)), fallback);
+    p.up = glm::cross(p.right, direction);
+}
+
+// A row of a matrix: what is dotted with (x, y, z, 1).
+glm::dvec4 row(glm::dvec3 direction, double constant) { return {direction, constant}; }
+
+glm::dmat4 fromRows(glm::dvec4 x, glm::dvec4 y, glm::dvec4 z, glm::dvec4 w)
+{
+    return glm::transpose(glm::dmat4(x, y, z, w));
+}
+
+double usableOr(float value, double otherwise)
+{
+    return std::isfinite(value) && value > 0 ? double(value) : otherwise;
+}
+
+} // namespace
+
+Ball boundingBall(const Scene& scene)
+{
+    glm::dvec3 low(kHighest), high(kLowest);
+    for (const Instance& instance : scene.instances) {
+        if (instance.mesh < 0 || std::size_t(instance.mesh) >= scene.meshes.size())
+            continue;
+        glm::dmat4 toWorld(instance.toWorld);
+        for (glm::vec3 p : scene.meshes[std::size_t(instance.mesh)].positions) {
+            glm::dvec3 q(toWorld * glm::dvec4(p, 1));
+            if (!isFinite(q))
+                continue;
+            low = glm::min(low, q);
+            high = glm::max(high, q);
+        }
+    }
+    if (low.x > high.x)
+        return {};
+    return {low * 0.5 + high * 0.5, std::max(glm::length(high * 0.5 - low * 0.5), 1e-30)};
+}
+
+Projection cameraProjection(const View& view, const Ball& ball)
+{
+    const Camera& camera = view.camera;
+    Projection p;
+    p.origin = camera.eye;
+    p.width = view.width;
+    p.height = view.height;
+    p.orthographic = camera.orthographic;
+    p.rowsUpward = view.rowsUpward;
+    glm::dvec3 toTarget = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
+    lookAlong(p, normalizeOr(toTarget, {0, 0, -1}), glm::dvec3(camera.up));
+
+    double reach = glm::length(ball.centre - p.origin) + ball.radius;
+    double halfWidth = 0.5 * view.width, halfHeight = 0.5 * view.height;
+    double pixels; // per unit of slope, or of length
+    glm::dvec4 z, w;
+    if (camera.orthographic) {
+        pixels = view.height / usableOr(camera.verticalExtent, 2);
+        z = row(-p.forward / (reach * 1.01), 1);
+        w = {0, 0, 0, 1};
+    } else {
+        double angle = std::min(usableOr(camera.verticalFieldOfView, 0.785398), 3.1);
+        pixels = halfHeight / std::tan(0.5 * angle);
+        z = {0, 0, 0, 1e-4 * reach};
+        w = row(p.forward, 0);
+    }
+    double down = view.rowsUpward ? 1.0 : -1.0;
+    p.toRaster = fromRows(row(p.right * pixels, 0) + w * halfWidth,
+                          row(p.up * (pixels * down), 0) + w * halfHeight, z, w);
+    return p;
+}
+
+Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 origin, int texels)
+{
+    Projection p;
+    p.origin = origin;
+    p.width = p.height = texels;
+    p.orthographic = true;
+    lookAlong(p, normalizeOr(direction, {0, -1, 0}), {0, 1, 0});
+    // One texel of margin, so that the filter finds no edge at the border of the map.
+    double pixels = 0.5 * (texels - 2) / ball.radius;
+    double depth = 0.5 / (ball.radius * 1.01);
+    glm::dvec3 c = ball.centre - origin;
+    double half = 0.5 * texels;
+    p.toRaster = fromRows(row(p.right * pixels, half - glm::dot(p.right, c) * pixels),
+                          row(p.up * -pixels, half + glm::dot(p.up, c) * pixels),
+                          row(-p.forward * depth, 0.5 + glm::dot(p.forward, c) * depth),
+                          {0, 0, 0, 1});
+    return p;
+}
+
+glm::vec3 rayDirection(const Projection& p, double x, double y)
+{
+    if (p.orthographic)
+        return glm::vec3(p.forward);
+    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give
+    // the slopes back.
+    glm::dmat4 rows = glm::transpose(p.toRaster);
+    double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
+    double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
+    glm::dvec3 d = p.forward + p.right * ((x - 0.5 * p.width) / pixelsX)
+        + p.up * ((y - 0.5 * p.height) / pixelsY);
+    return glm::vec3(normalizeOr(d, p.forward));
+}
+
+} // namespace cotan::reference

@@ -1,0 +1,42 @@
+#include "raster.hpp"
+
+#include <algorithm>
+
+namespace cotan::reference {
+
+std::array<Edge, 3> edgesOf(const RasterTriangle& triangle)
+{
+    std::array<Edge, 3> edges;
+    for (std::size_t i = 0; i < 3; ++i) {
+        glm::ivec2 a = triangle.corner[i], b = triangle.corner[(i + 1) % 3];
+        std::int64_t dx = b.x - a.x, dy = b.y - a.y;
+        bool top = dy == 0 && dx > 0, left = dy < 0;
+        edges[i] = {-dy, dx, dy * a.x - dx * a.y - (top || left ? 0 : 1)};
+    }
+    return edges;
+}
+
+Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area)
+{
+    const auto& c = triangle.corner;
+    auto [lowX, highX] = std::minmax({c[0].x, c[1].x, c[2].x});
+    auto [lowY, highY] = std::minmax({c[0].y, c[1].y, c[2].y});
+    // An arithmetic shift rounds down, for negative coordinates too.
+    return {std::max(area.x0, lowX >> 8), std::max(area.y0, lowY >> 8),
+            std::min(area.x1, (highX >> 8) + 1), std::min(area.y1, (highY >> 8) + 1)};
+}
+
+unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePattern& pattern)
+{
+    unsigned mask = 0;
+    for (int s = 0; s < pattern.count; ++s) {
+        std::int64_t px = std::int64_t(x) * kSubPixels + pattern.offset[std::size_t(s)].x;
+        std::int64_t py = std::int64_t(y) * kSubPixels + pattern.offset[std::size_t(s)].y;
+        bool inside =
+            edges[0].at(px, py) >= 0 && edges[1].at(px, py) >= 0 && edges[2].at(px, py) >= 0;
+        mask |= unsigned(inside) << s;
+    }
+    return mask;
+}
+
+} // namespace cotan::reference

@@ -1,0 +1,101 @@
+// Triangles to pixels: coverage in exact integers, interpolation from the triangle's own planes.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace cotan::reference {
+
+// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a
+// triangle covers.
+inline constexpr int kSubPixels = 256;
+
+// A linear function over the raster, in pixels.
+struct Plane {
+    double x = 0, y = 0, constant = 0;
+    double at(double px, double py) const { return x * px + y * py + constant; }
+};
+
+// A triangle ready to be rasterised. The planes belong to the whole triangle of the mesh even when
+// the corners are those of a piece that clipping left, and they are made from corners that are
+// not snapped; so interpolation knows nothing of either.
+struct RasterTriangle {
+    std::array<glm::ivec2, 3> corner;   // 1/256 pixel; clockwise in a raster whose y points down
+    std::array<Plane, 3> weight;        // weight of each vertex, times 1/w
+    Plane z;                            // nearness
+    std::uint32_t draw = 0;             // what it belongs to: an index of the caller's
+    std::array<std::uint32_t, 3> vertex{};
+    bool front = true;                  // the side that faces the camera
+};
+
+// Where the samples of a pixel lie, in 1/256 pixel from its first corner.
+struct SamplePattern {
+    int count = 1;
+    std::array<glm::ivec2, 4> offset{{{128, 128}, {}, {}, {}}};
+};
+
+// One sample in the middle, or the four of a standard Vulkan 4x target.
+inline SamplePattern samplePattern(int samples)
+{
+    if (samples < 4)
+        return {};
+    return {4, {{{96, 32}, {224, 96}, {32, 160}, {160, 224}}}};
+}
+
+// Pixels [x0, x1) x [y0, y1); x0 and y0 even.
+struct Rectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+// Four pixels that share differences: (x, y), (x+1, y), (x, y+1), (x+1, y+1); x and y even.
+struct Quad {
+    int x = 0, y = 0;
+    std::array<unsigned, 4> covered{}; // a bit per sample, per pixel; 0: helper lane
+};
+
+// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A
+// position exactly on an edge belongs to the triangle whose top or left edge it is, which is
+// worked into the constant.
+struct Edge {
+    std::int64_t x = 0, y = 0, constant = 0;
+    std::int64_t at(std::int64_t px, std::int64_t py) const { return x * px + y * py + constant; }
+};
+
+std::array<Edge, 3> edgesOf(const RasterTriangle& triangle);
+
+// The pixels whose samples the triangle may cover, inside the area.
+Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area);
+
+// Which samples of the pixel the edges keep.
+unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePattern& pattern);
+
+// Calls visit(quad) for every quad of the area with a covered sample, rows first. Samples outside
+// the area are not covered.
+template<class Visit>
+void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePattern& pattern,
+                 Visit visit)
+{
+    Rectangle bounds = boundsOf(triangle, area);
+    std::array<Edge, 3> edges = edgesOf(triangle);
+    for (int y = bounds.y0 & ~1; y < bounds.y1; y += 2) {
+        for (int x = bounds.x0 & ~1; x < bounds.x1; x += 2) {
+            Quad quad{x, y, {}};
+            unsigned any = 0;
+            for (int lane = 0; lane < 4; ++lane) {
+                int px = x + (lane & 1), py = y + (lane >> 1);
+                if (px < area.x1 && py < area.y1)
+                    quad.covered[std::size_t(lane)] = coverage(edges, px, py, pattern);
+                any |= quad.covered[std::size_t(lane)];
+            }
+            if (any)
+                visit(quad);
+        }
+    }
+}
+
+} // namespace cotan::reference

@@ -1,0 +1,165 @@
+#include "cotan/reference/render.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "cotan/frame.hpp"
+#include "pixel.hpp"
+#include "setup.hpp"
+#include "tile.hpp"
+
+namespace cotan {
+
+namespace {
+
+using namespace reference;
+
+constexpr int kLargestSide = 16384;
+
+// Everything that is known before the first pixel is drawn.
+struct Frozen {
+    Projection projection;
+    TextureLibrary textures;
+    std::vector<Draw> draws;
+    std::vector<PreparedLight> lights;
+    ShadowMap shadow;
+    TiledTriangles tiled;
+};
+
+// The direction of the light that casts shadows; nothing if none does or nobody would see it.
+std::optional<glm::vec3> shadowDirection(const View& view, const std::vector<PreparedLight>& lights)
+{
+    if (view.output != Output::shaded)
+        return std::nullopt;
+    for (const PreparedLight& light : lights)
+        if (light.castsShadow)
+            return -light.toLight;
+    return std::nullopt;
+}
+
+Frozen prepare(const Scene& scene, const View& view)
+{
+    Frozen f;
+    Ball ball = boundingBall(scene);
+    f.projection = cameraProjection(view, ball);
+    f.textures = makeTextures(scene, view);
+    f.draws = makeDraws(scene, f.projection.origin, view.frame, view.output == Output::shaded);
+    f.lights = prepareLights(view, f.projection.origin);
+    if (std::optional<glm::vec3> direction = shadowDirection(view, f.lights))
+        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball,
+                                 f.projection.origin);
+    f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
+    return f;
+}
+
+// Draws one quad of one triangle into the tile.
+void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f,
+              const RasterTriangle& triangle, const Quad& quad, const SamplePattern& pattern,
+              Tile& tile)
+{
+    const Draw& draw = f.draws[triangle.draw];
+    const Material& material = scene.materials[std::size_t(draw.material)];
+    const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
+    SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
+    bool blended =
+        material.alphaMode == AlphaMode::blend && all.view.output == Output::shaded;
+    std::optional<QuadPoints> points; // made when the first pixel passes the depth test
+    for (int lane = 0; lane < 4; ++lane) {
+        int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
+        unsigned samples =
+            tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
+        if (!samples)
+            continue;
+        if (!points)
+            points = interpolate(draw, triangle, quad.x, quad.y);
+        Fragment fragment = shade(all, in, *points, lane);
+        if (fragment.discarded)
+            continue;
+        if (blended)
+            tile.blend(x, y, samples, fragment.value);
+        else
+            tile.write(x, y, samples, fragment.value, triangle.z, pattern);
+    }
+}
+
+void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index,
+              Image& picture)
+{
+    SamplePattern pattern = samplePattern(view.output == Output::shaded ? view.samples : 1);
+    PixelInputs all{view, f.projection, f.lights, f.shadow};
+    Rectangle area = f.tiled.area(index, view.width, view.height);
+    Tile tile(area, pattern.count);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            tile.clear(x, y, background(all, x, y));
+    for (std::uint32_t t : f.tiled.tiles[index]) {
+        const RasterTriangle& triangle = f.tiled.triangles[t];
+        forEachQuad(triangle, area, pattern, [&](const Quad& quad) {
+            drawQuad(scene, all, f, triangle, quad, pattern, tile);
+        });
+    }
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            storePixel(picture, x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
+}
+
+Image draw(const Scene& scene, const View& view)
+{
+    bool bytes = view.output == Output::shaded && !view.linearOutput;
+    Image picture = makeImage(view.width, view.height,
+                              bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
+    Frozen frozen = prepare(scene, view);
+    oneapi::tbb::parallel_for(
+        std::size_t(0), frozen.tiled.tiles.size(),
+        [&](std::size_t index) { drawTile(scene, view, frozen, index, picture); });
+    return picture;
+}
+
+// Runs work on that many threads; 0: all cores.
+template<class Work>
+void onThreads(int threads, Work work)
+{
+    if (threads <= 0)
+        return work();
+    oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                      std::size_t(threads));
+    oneapi::tbb::task_arena arena(threads);
+    arena.execute(work);
+}
+
+std::optional<Error> checkView(const View& view)
+{
+    auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
+    if (!fits(view.width) || !fits(view.height))
+        return usageError("picture size: expected 1 to 16384 pixels a side, found "
+                          + std::to_string(view.width) + "x" + std::to_string(view.height));
+    if (view.frame < 0 || view.frame >= kFrameCount)
+        return usageError("frame: expected 0 to " + std::to_string(kFrameCount - 1) + ", found "
+                          + std::to_string(view.frame));
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<Image> renderReference(const Scene& scene, const View& view, int threads)
+{
+    if (std::optional<Error> error = checkView(view))
+        return *error;
+    try {
+        std::optional<Image> picture;
+        onThreads(threads, [&] { picture = draw(scene, view); });
+        return std::move(*picture);
+    } catch (const std::bad_alloc&) {
+        return unavailableError("reference renderer: not enough memory for this scene and size");
+    }
+}
+
+} // namespace cotan

@@ -1,0 +1,218 @@
+#include "surface.hpp"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/frame.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+bool hasUv(const Draw& draw, int set)
+{
+    return set >= 0 && set < 2
+        && draw.mesh->texcoords[std::size_t(set)].size() >= draw.positions.size();
+}
+
+// In double, rounded once: what is left in a difference of neighbours is the rounding of the two
+// values, as on a GPU at its best.
+template<glm::length_t N>
+glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values,
+                                const RasterTriangle& triangle,
+                                const std::array<double, 3>& weights)
+{
+    glm::vec<N, double> sum(0);
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += glm::vec<N, double>(values[triangle.vertex[i]]) * weights[i];
+    return glm::vec<N, float>(sum);
+}
+
+// As above, or 0 where the mesh lacks the attribute.
+glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterTriangle& triangle,
+                             const std::array<double, 3>& weights)
+{
+    return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
+}
+
+glm::vec2 transformed(const Texture& texture, glm::vec2 uv)
+{
+    return {texture.uRow.x * uv.x + texture.uRow.y * uv.y + texture.uRow.z,
+            texture.vRow.x * uv.x + texture.vRow.y * uv.y + texture.vRow.z};
+}
+
+glm::vec2 uvInLane(const Texture& texture, const QuadPoints& quad, int lane)
+{
+    std::size_t set = texture.texcoord == 1 ? 1 : 0;
+    return transformed(texture, quad.uv[set][std::size_t(lane)]);
+}
+
+// The two lanes whose difference a lane takes.
+struct Pair {
+    int from, to;
+};
+
+// Fine: along the lane's own row or column. Coarse: along the first row or column for all four.
+Pair alongX(int lane, Derivatives d)
+{
+    int first = d == Derivatives::fine ? lane & 2 : 0;
+    return {first, first | 1};
+}
+Pair alongY(int lane, Derivatives d)
+{
+    int first = d == Derivatives::fine ? lane & 1 : 0;
+    return {first, first | 2};
+}
+
+glm::vec3 difference(const QuadPoints& quad, Pair pair)
+{
+    return quad.position[std::size_t(pair.to)] - quad.position[std::size_t(pair.from)];
+}
+
+// The part of a texture's transform that moves differences.
+glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
+{
+    return {glm::dot(glm::vec2(texture.uRow), edge), glm::dot(glm::vec2(texture.vRow), edge)};
+}
+
+// The frame `exact`: the triangle's edges in place of the pixel's differences. The edges are taken
+// in the mesh and moved afterwards, so they lose nothing far from the eye.
+f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
+{
+    const Texture& texture = in.material->normalMap;
+    int set = texture.texcoord == 1 ? 1 : 0;
+    if (!hasUv(*in.draw, set))
+        return {glm::vec3(0), glm::vec3(0), n};
+    const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
+    const std::vector<glm::vec3>& p = in.draw->mesh->positions;
+    const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[std::size_t(set)];
+    return evaluate(Frame::exact, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
+                    in.draw->vectors * (p[v[2]] - p[v[0]]),
+                    transformedEdge(texture, uv[v[1]] - uv[v[0]]),
+                    transformedEdge(texture, uv[v[2]] - uv[v[0]]));
+}
+
+// The frames that are made at the vertices. t = b = 0 where the mesh has not got what they need.
+f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n,
+                                 glm::vec3 rawNormal, const std::array<double, 3>& weights)
+{
+    const Draw& draw = *in.draw;
+    const RasterTriangle& triangle = *in.triangle;
+    if (frame == Frame::smooth && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
+        return f32::cotan_frame_smooth(n, interpolated(draw.cotangentsU, triangle, weights),
+                                       interpolated(draw.cotangentsV, triangle, weights));
+    if (frame == Frame::smooth || draw.tangents.empty())
+        return {glm::vec3(0), glm::vec3(0), n};
+    glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
+    if (frame == Frame::vertex)
+        return f32::cotan_frame_vertex(n, glm::vec3(tangent), tangent.w);
+    return f32::cotan_frame_mikktspace(rawNormal, glm::vec3(tangent), tangent.w);
+}
+
+glm::vec3 finiteOrZero(glm::vec3 v)
+{
+    return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0);
+}
+
+f32::cotan_normal_format decodingOf(const Material& material)
+{
+    return {material.normalFormat.expansion, material.normalFormat.channels,
+            material.normalFormat.greenAlongV ? 1.0f : -1.0f, material.normalScale};
+}
+
+} // namespace
+
+QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
+{
+    QuadPoints quad;
+    bool uv0 = hasUv(draw, 0), uv1 = hasUv(draw, 1);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+        double px = x + int(lane & 1) + 0.5, py = y + int(lane >> 1) + 0.5;
+        double w0 = triangle.weight[0].at(px, py);
+        double w1 = triangle.weight[1].at(px, py);
+        double w2 = triangle.weight[2].at(px, py);
+        double w = 1 / (w0 + w1 + w2);
+        std::array<double, 3>& weights = quad.weights[lane];
+        weights = {w0 * w, w1 * w, w2 * w};
+        quad.position[lane] = interpolated(draw.positions, triangle, weights);
+        if (uv0)
+            quad.uv[0][lane] = interpolated(draw.mesh->texcoords[0], triangle, weights);
+        if (uv1)
+            quad.uv[1][lane] = interpolated(draw.mesh->texcoords[1], triangle, weights);
+    }
+    return quad;
+}
+
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
+                   Derivatives derivatives)
+{
+    Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
+    return {uvInLane(texture, quad, lane),
+            uvInLane(texture, quad, x.to) - uvInLane(texture, quad, x.from),
+            uvInLane(texture, quad, y.to) - uvInLane(texture, quad, y.from)};
+}
+
+BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    const Material& m = *in.material;
+    BaseColor base;
+    base.value = m.baseColor;
+    if (in.maps->baseColor)
+        base.value *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
+                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives),
+                             in.view->pointSampled);
+    const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
+    if (colors.size() >= in.draw->positions.size())
+        base.value *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
+
+    bool blending = in.view->output == Output::shaded;
+    if (m.alphaMode == AlphaMode::mask)
+        base.discarded = base.value.w < m.alphaCutoff;
+    if (m.alphaMode == AlphaMode::blend)
+        base.discarded = blending ? !(base.value.w > 0) : base.value.w < 1.0f / 255.0f;
+    if (m.alphaMode != AlphaMode::blend)
+        base.value.w = 1;
+    return base;
+}
+
+SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    const View& view = *in.view;
+    const Material& material = *in.material;
+    const std::array<double, 3>& weights = quad.weights[std::size_t(lane)];
+    glm::vec3 dpdx = difference(quad, alongX(lane, view.derivatives));
+    glm::vec3 dpdy = difference(quad, alongY(lane, view.derivatives));
+    UvDifferences uv = uvOf(material.normalMap, quad, lane, view.derivatives);
+
+    glm::vec3 raw = interpolatedOrZero(in.draw->normals, *in.triangle, weights);
+    f32::cotan_differences safe = f32::cotan_scale_differences(dpdx, dpdy, uv.dx, uv.dy);
+    glm::vec3 n = f32::cotan_safe_normal(raw, safe.dpdx, safe.dpdy);
+
+    auto frameName = Frame(view.frame);
+    f32::cotan_frame frame;
+    if (frameName == Frame::exact)
+        frame = frameOfTriangle(in, n);
+    else if (info(frameName).source == FrameSource::vertices)
+        frame = frameOfVertices(in, frameName, n, raw, weights);
+    else
+        frame = evaluate(frameName, n, dpdx, dpdy, uv.dx, uv.dy);
+
+    SurfaceNormal result{n, n, finiteOrZero(frame.t), finiteOrZero(frame.b), uv.uv};
+    bool mapped =
+        in.maps->normal && view.normalMaps && hasUv(*in.draw, material.normalMap.texcoord);
+    if (mapped) {
+        glm::vec4 texel =
+            sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
+        glm::vec3 m = f32::cotan_decode(glm::vec3(texel), decodingOf(material));
+        // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
+        result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
+    }
+    // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
+    // is a dent, so it is the finished normal that turns. t and b stay.
+    if (!in.triangle->front)
+        result.finished = -result.finished;
+    return result;
+}
+
+} // namespace cotan::reference

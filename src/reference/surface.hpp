@@ -1,0 +1,60 @@
+// What a pixel of a triangle sees of its surface: normal, frame, material.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "cotan/scene/view.hpp"
+#include "geometry.hpp"
+#include "raster.hpp"
+#include "texture.hpp"
+
+namespace cotan::reference {
+
+// Interpolated values in the four pixels of a quad, covered or not: helper lanes extrapolate the
+// triangle's plane. Order: as in Quad.
+struct QuadPoints {
+    std::array<std::array<double, 3>, 4> weights{}; // of the three vertices, perspective-correct
+    std::array<glm::vec3, 4> position{};            // relative to the eye
+    std::array<std::array<glm::vec2, 4>, 2> uv{};   // both sets; 0 where the mesh has none
+};
+
+QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y);
+
+// Everything that shading one triangle needs to look up.
+struct SurfaceInputs {
+    const View* view = nullptr;
+    const Draw* draw = nullptr;
+    const Material* material = nullptr;
+    const MaterialMaps* maps = nullptr;
+    const RasterTriangle* triangle = nullptr;
+};
+
+// Texture coordinates of a map in one lane, transformed as it asks, with their differences.
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
+                   Derivatives derivatives);
+
+// The base colour: factor, map and vertex colour; alpha 1 unless the material is blended.
+// discarded: cut out by a mask, or, where nothing is blended, all but invisible.
+struct BaseColor {
+    glm::vec4 value{1};
+    bool discarded = false;
+};
+
+BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+
+struct SurfaceNormal {
+    glm::vec3 interpolated{0}; // unit, as the mesh has it
+    glm::vec3 finished{0};     // unit, perturbed, turned towards the camera's side
+    glm::vec3 t{0};
+    glm::vec3 b{0};
+    glm::vec2 uv{0};           // of the normal map
+};
+
+SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+
+} // namespace cotan::reference

@@ -1,0 +1,162 @@
+#include "texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace cotan::reference {
+
+namespace {
+
+constexpr int kMaxProbes = 8;
+
+// Coordinates further out than this have no fraction left in float, and would overflow below.
+constexpr float kFarthest = 1e8f;
+
+float usable(float x) { return std::abs(x) <= kFarthest ? x : 0.0f; }
+glm::vec2 usable(glm::vec2 v) { return {usable(v.x), usable(v.y)}; }
+
+int wrap(std::int64_t i, int size, Wrap mode)
+{
+    if (i >= 0 && i < size)
+        return int(i); // all modes, and most reads
+    if (mode == Wrap::clamp)
+        return int(std::clamp<std::int64_t>(i, 0, size - 1));
+    std::int64_t period = mode == Wrap::mirror ? 2 * std::int64_t(size) : size;
+    std::int64_t k = i % period;
+    k = k < 0 ? k + period : k;
+    return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
+}
+
+glm::vec4 nearest(const MipChain& chain, int level, const Sampler& s, glm::vec2 uv)
+{
+    const Image& image = chain.level(level);
+    auto x = std::int64_t(std::floor(double(uv.x) * image.width));
+    auto y = std::int64_t(std::floor(double(uv.y) * image.height));
+    return texel(chain, level, wrap(x, image.width, s.wrapU), wrap(y, image.height, s.wrapV));
+}
+
+glm::vec4 bilinear(const MipChain& chain, int level, const Sampler& s, glm::vec2 uv)
+{
+    const Image& image = chain.level(level);
+    // Texel centres lie at half-integers.
+    double u = double(uv.x) * image.width - 0.5, v = double(uv.y) * image.height - 0.5;
+    double fu = std::floor(u), fv = std::floor(v);
+    auto x = std::int64_t(fu), y = std::int64_t(fv);
+    int x0 = wrap(x, image.width, s.wrapU), x1 = wrap(x + 1, image.width, s.wrapU);
+    int y0 = wrap(y, image.height, s.wrapV), y1 = wrap(y + 1, image.height, s.wrapV);
+    float kx = float(u - fu), ky = float(v - fv);
+    glm::vec4 top = glm::mix(texel(chain, level, x0, y0), texel(chain, level, x1, y0), kx);
+    glm::vec4 bottom = glm::mix(texel(chain, level, x0, y1), texel(chain, level, x1, y1), kx);
+    return glm::mix(top, bottom, ky);
+}
+
+glm::vec4 inLevel(const MipChain& chain, int level, const Sampler& s, Filter filter, glm::vec2 uv)
+{
+    return filter == Filter::linear ? bilinear(chain, level, s, uv) : nearest(chain, level, s, uv);
+}
+
+glm::vec4 atLod(const MipChain& chain, const Sampler& s, glm::vec2 uv, float lod)
+{
+    if (lod <= 0)
+        return inLevel(chain, 0, s, s.magnify, uv);
+    if (s.mip == MipFilter::none)
+        return inLevel(chain, 0, s, s.minify, uv);
+    float last = float(chain.levels() - 1);
+    lod = std::min(lod, last);
+    if (s.mip == MipFilter::nearest)
+        return inLevel(chain, int(std::ceil(lod + 0.5f)) - 1, s, s.minify, uv);
+    int finer = int(lod);
+    float k = lod - float(finer);
+    glm::vec4 a = inLevel(chain, finer, s, s.minify, uv);
+    if (k == 0)
+        return a;
+    return glm::mix(a, inLevel(chain, finer + 1, s, s.minify, uv), k);
+}
+
+// How a pixel's footprint is read: that many probes along its longer axis, at that level.
+struct Footprint {
+    int probes = 1;
+    glm::vec2 axis{0}; // uv, along the whole footprint
+    float lod = 0;
+};
+
+Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferences& at)
+{
+    glm::vec2 size(chain.image->width, chain.image->height);
+    glm::vec2 dx = usable(at.dx), dy = usable(at.dy);
+    float alongX = glm::length(dx * size), alongY = glm::length(dy * size);
+    float longer = std::max(alongX, alongY), shorter = std::min(alongX, alongY);
+    Footprint f;
+    if (!(longer > 0))
+        return f;
+    bool stretched = longer > 1 && s.mip != MipFilter::none && s.minify == Filter::linear;
+    if (stretched)
+        f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer))), 1,
+                              kMaxProbes);
+    f.axis = alongX >= alongY ? dx : dy;
+    f.lod = std::log2(longer / float(f.probes));
+    return f;
+}
+
+const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture,
+                        Content content, NormalMapFormat format, bool withLevels)
+{
+    if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
+        return nullptr;
+    const Image& image = scene.images[std::size_t(texture.image)];
+    if (!isUsable(image))
+        return nullptr;
+    const MipChain*& known =
+        library.made[{texture.image, content, format.expansion, format.channels}];
+    if (!known) {
+        library.chains.push_back(makeMipChain(image, content, format, withLevels));
+        known = &library.chains.back();
+    }
+    return known;
+}
+
+} // namespace
+
+glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at,
+                 bool pointSampled)
+{
+    glm::vec2 uv = usable(at.uv);
+    if (pointSampled)
+        return nearest(chain, 0, s, uv);
+    Footprint f = footprintOf(chain, s, at);
+    if (f.probes == 1)
+        return atLod(chain, s, uv, f.lod);
+    glm::vec4 sum(0);
+    for (int i = 1; i <= f.probes; ++i)
+        sum += atLod(chain, s, uv + f.axis * (float(i) / float(f.probes + 1) - 0.5f), f.lod);
+    return sum / float(f.probes);
+}
+
+TextureLibrary makeTextures(const Scene& scene, const View& view)
+{
+    TextureLibrary library;
+    bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
+    for (const Material& m : scene.materials) {
+        auto get = [&](const Texture& texture, Content content, NormalMapFormat format = {}) {
+            return chainOf(library, scene, texture, content, format, levels);
+        };
+        MaterialMaps maps;
+        if (view.normalMaps)
+            maps.normal = get(m.normalMap, Content::normal, m.normalFormat);
+        if (shaded || m.alphaMode != AlphaMode::opaque)
+            maps.baseColor = get(m.baseColorMap, Content::color);
+        if (shaded && !m.unlit) {
+            maps.metallicRoughness = get(m.metallicRoughnessMap, Content::linear);
+            maps.occlusion = get(m.occlusionMap, Content::linear);
+            maps.emissive = get(m.emissiveMap, Content::color);
+        }
+        library.materials.push_back(maps);
+    }
+    return library;
+}
+
+} // namespace cotan::reference

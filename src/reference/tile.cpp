@@ -1,0 +1,100 @@
+#include "tile.hpp"
+
+#include <cmath>
+
+#include "cotan/portable.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+// Nearness at a sample. Rounded to float as a depth buffer is, so that equal surfaces tie and the
+// first one drawn stays.
+float nearnessAt(const Plane& z, int x, int y, glm::ivec2 offset)
+{
+    return float(z.at(x + offset.x / double(kSubPixels), y + offset.y / double(kSubPixels)));
+}
+
+std::uint8_t toByte(float x)
+{
+    return std::uint8_t(std::lround(f32::cotan_saturate(x) * 255.0f));
+}
+
+} // namespace
+
+Tile::Tile(Rectangle area, int samples) : area_(area), samples_(samples)
+{
+    std::size_t count = std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0)
+        * std::size_t(samples);
+    value_.assign(count, glm::vec4(0));
+    nearness_.assign(count, -1.0f);
+}
+
+std::size_t Tile::at(int x, int y) const
+{
+    std::size_t pixel = std::size_t(y - area_.y0) * std::size_t(area_.x1 - area_.x0)
+        + std::size_t(x - area_.x0);
+    return pixel * std::size_t(samples_);
+}
+
+unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z,
+                      const SamplePattern& pattern) const
+{
+    unsigned passed = 0;
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
+        if ((covered >> s & 1)
+            && nearnessAt(z, x, y, pattern.offset[s]) > nearness_[at(x, y) + s])
+            passed |= 1u << s;
+    return passed;
+}
+
+void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
+                 const SamplePattern& pattern)
+{
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
+        if (!(samples >> s & 1))
+            continue;
+        value_[at(x, y) + s] = value;
+        nearness_[at(x, y) + s] = nearnessAt(z, x, y, pattern.offset[s]);
+    }
+}
+
+void Tile::blend(int x, int y, unsigned samples, glm::vec4 value)
+{
+    glm::vec4 premultiplied(glm::vec3(value) * value.w, value.w);
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
+        if (samples >> s & 1)
+            value_[at(x, y) + s] = premultiplied + value_[at(x, y) + s] * (1 - value.w);
+}
+
+void Tile::clear(int x, int y, glm::vec4 value)
+{
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
+        value_[at(x, y) + s] = value;
+}
+
+glm::vec4 Tile::resolve(int x, int y) const
+{
+    glm::vec4 sum(0);
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
+        sum += value_[at(x, y) + s];
+    return sum / float(samples_);
+}
+
+void storePixel(Image& image, int x, int y, glm::vec4 value)
+{
+    std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    if (image.type == PixelType::float32) {
+        for (int c = 0; c < 4; ++c)
+            image.floats()[at + std::size_t(c)] = value[c];
+        return;
+    }
+    float share = value.w > 0 && value.w < 1 ? 1 / value.w : 1;
+    for (int c = 0; c < 3; ++c) {
+        float linear = f32::cotan_saturate(value[c] * share);
+        image.bytes8()[at + std::size_t(c)] = toByte(f32::cotan_linear_to_srgb(linear));
+    }
+    image.bytes8()[at + 3] = toByte(value.w);
+}
+
+} // namespace cotan::reference
