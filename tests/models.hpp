@@ -1,0 +1,72 @@
+// Models of the shared data folder, drawn.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cotan/asset/geometry.hpp"
+#include "cotan/asset/load.hpp"
+#include "cotan/report/angles.hpp"
+#include "painter.hpp"
+
+namespace cotan::test {
+
+inline std::filesystem::path shared(const char* file) { return std::filesystem::path(COTAN_SHARED_DATA) / file; }
+
+// Skips the test where the model is not there.
+#define COTAN_NEEDS_MODEL(file)                                                                    \
+    if (!std::filesystem::exists(shared(file)))                                                    \
+    GTEST_SKIP() << shared(file) << " is missing"
+
+inline Scene loadModel(const char* file)
+{
+    auto scene = loadScene(shared(file));
+    if (!scene) {
+        ADD_FAILURE() << scene.error().message;
+        return {};
+    }
+    return std::move(*scene);
+}
+
+// The renderer of that name; null where it is not available (the Vulkan one on machines without).
+inline std::unique_ptr<app::Painter> painterFor(const std::string& device)
+{
+    std::string note;
+    auto painter = app::openPainter(device, 0, note);
+    return painter && note.empty() ? std::move(*painter) : nullptr;
+}
+
+inline Image drawWith(app::Painter& painter, const View& view)
+{
+    auto image = painter.draw(view);
+    if (!image) {
+        ADD_FAILURE() << image.error().message;
+        return makeImage(view.width, view.height, PixelType::float32);
+    }
+    return std::move(*image);
+}
+
+// Orthographic, looking along -z at the rectangle, `perUnit` pixels a world unit.
+inline View frontView(glm::vec2 low, glm::vec2 high, float perUnit)
+{
+    View view;
+    view.width = int((high.x - low.x) * perUnit + 0.5f);
+    view.height = int((high.y - low.y) * perUnit + 0.5f);
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = float(view.height) / perUnit;
+    const glm::vec2 centre = (low + high) * 0.5f;
+    view.camera.eye = {centre.x, centre.y, 10};
+    view.camera.target = {centre.x, centre.y, 0};
+    view.output = Output::normal;
+    return view;
+}
+
+inline glm::dvec3 directionAt(const Image& image, int x, int y)
+{
+    const float* p = image.floats() + (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4;
+    return p[3] > 0 ? glm::dvec3(p[0], p[1], p[2]) : glm::dvec3(0);
+}
+
+} // namespace cotan::test
