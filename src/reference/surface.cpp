@@ -10,10 +10,9 @@ namespace cotan::reference {
 
 namespace {
 
-bool hasUv(const Draw& draw, int set)
+bool hasUv(const Draw& draw, std::size_t set)
 {
-    return set >= 0 && set < 2
-        && draw.mesh->texcoords[std::size_t(set)].size() >= draw.positions.size();
+    return draw.mesh->texcoords[set].size() >= draw.positions.size();
 }
 
 // In double, rounded once: what is left in a difference of neighbours is the rounding of the two
@@ -42,11 +41,7 @@ glm::vec2 transformed(const Texture& texture, glm::vec2 uv)
             texture.vRow.x * uv.x + texture.vRow.y * uv.y + texture.vRow.z};
 }
 
-glm::vec2 uvInLane(const Texture& texture, const QuadPoints& quad, int lane)
-{
-    std::size_t set = texture.texcoord == 1 ? 1 : 0;
-    return transformed(texture, quad.uv[set][std::size_t(lane)]);
-}
+std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
 // The two lanes whose difference a lane takes.
 struct Pair {
@@ -81,12 +76,12 @@ glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
 f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
 {
     const Texture& texture = in.material->normalMap;
-    int set = texture.texcoord == 1 ? 1 : 0;
+    std::size_t set = setOf(texture);
     if (!hasUv(*in.draw, set))
         return {glm::vec3(0), glm::vec3(0), n};
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
-    const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[std::size_t(set)];
+    const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
     return evaluate(Frame::exact, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
                     in.draw->vectors * (p[v[2]] - p[v[0]]),
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]),
@@ -121,6 +116,27 @@ f32::cotan_normal_format decodingOf(const Material& material)
             material.normalFormat.greenAlongV ? 1.0f : -1.0f, material.normalScale};
 }
 
+// The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
+// zero floats are dense, so close steps of uv far from zero are not lost to rounding.
+glm::vec2 uvDifference(const Texture& texture, const QuadPoints& quad, Pair pair)
+{
+    const std::array<glm::vec2, 4>& uv = quad.cornerUv[setOf(texture)];
+    return transformedEdge(texture, uv[std::size_t(pair.to)] - uv[std::size_t(pair.from)]);
+}
+
+// Interpolates a uv set in one lane, as it is and relative to the triangle's first corner.
+void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Draw& draw,
+                   const RasterTriangle& triangle)
+{
+    const std::vector<glm::vec2>& uv = draw.mesh->texcoords[set];
+    const std::array<double, 3>& weights = quad.weights[lane];
+    const glm::dvec2 corner(uv[triangle.vertex[0]]);
+    const glm::dvec2 relative = (glm::dvec2(uv[triangle.vertex[1]]) - corner) * weights[1]
+        + (glm::dvec2(uv[triangle.vertex[2]]) - corner) * weights[2];
+    quad.cornerUv[set][lane] = glm::vec2(relative);
+    quad.uv[set][lane] = glm::vec2(corner + relative);
+}
+
 } // namespace
 
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
@@ -137,9 +153,9 @@ QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, 
         weights = {w0 * w, w1 * w, w2 * w};
         quad.position[lane] = interpolated(draw.positions, triangle, weights);
         if (uv0)
-            quad.uv[0][lane] = interpolated(draw.mesh->texcoords[0], triangle, weights);
+            interpolateUv(quad, 0, lane, draw, triangle);
         if (uv1)
-            quad.uv[1][lane] = interpolated(draw.mesh->texcoords[1], triangle, weights);
+            interpolateUv(quad, 1, lane, draw, triangle);
     }
     return quad;
 }
@@ -148,9 +164,8 @@ UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
                    Derivatives derivatives)
 {
     Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {uvInLane(texture, quad, lane),
-            uvInLane(texture, quad, x.to) - uvInLane(texture, quad, x.from),
-            uvInLane(texture, quad, y.to) - uvInLane(texture, quad, y.from)};
+    return {transformed(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
+            uvDifference(texture, quad, x), uvDifference(texture, quad, y)};
 }
 
 BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -200,7 +215,7 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
 
     SurfaceNormal result{n, n, finiteOrZero(frame.t), finiteOrZero(frame.b), uv.uv};
     bool mapped =
-        in.maps->normal && view.normalMaps && hasUv(*in.draw, material.normalMap.texcoord);
+        in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (mapped) {
         glm::vec4 texel =
             sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);

@@ -21,6 +21,7 @@ struct QuadPoints {
     std::array<std::array<double, 3>, 4> weights{}; // of the three vertices, perspective-correct
     std::array<glm::vec3, 4> position{};            // relative to the eye
     std::array<std::array<glm::vec2, 4>, 2> uv{};   // both sets; 0 where the mesh has none
+    std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus that of the triangle's first corner
 };
 
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y);
