@@ -1,0 +1,23 @@
+// Whole files in and out, with checks before memory is taken.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "cotan/result.hpp"
+
+namespace cotan {
+
+// All bytes of a regular file of at most `limit` bytes.
+// Errors (ErrorKind::input): missing, not a regular file, empty, too large, not readable.
+Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit);
+
+// Calls `write` with a fresh name in the folder of `file` and with its extension, and renames the
+// result to `file`. Whatever fails, nothing is left behind and an older `file` stays as it was.
+// Errors: those of `write`; ErrorKind::output where the folder is missing or renaming fails.
+Status writeBeside(const std::filesystem::path& file,
+                   const std::function<Status(const std::filesystem::path&)>& write);
+
+} // namespace cotan

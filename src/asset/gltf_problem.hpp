@@ -1,0 +1,50 @@
+// How the parts of the glTF reader report trouble to loadGltf.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace cotan {
+
+// Thrown by the parts of the glTF reader, caught by loadGltf alone, which turns it into an Error.
+// The message says field, expected, found; loadGltf puts the file in front.
+struct GltfProblem {
+    std::string message;
+};
+
+template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> text, Args&&... args)
+{
+    throw GltfProblem{fmt::format(text, std::forward<Args>(args)...)};
+}
+
+// Collects what was odd but usable. The same complaint about many places becomes one line that
+// names the first place and counts the rest: a model of 44 parts should not print 44 lines.
+class GltfWarnings {
+public:
+    // count and unit: how often it happened at that place, for example 12 "vertices"; they are
+    // summed over the places. 0: not counted.
+    void add(const std::string& where, const std::string& what, std::size_t count = 0,
+             const std::string& unit = {});
+
+    std::vector<std::string> lines() const;
+
+private:
+    struct Entry {
+        std::string where;
+        std::string what;
+        std::string unit;
+        std::size_t places = 0;
+        std::size_t count = 0;
+    };
+    std::vector<Entry> entries_;
+    std::size_t leftOut_ = 0;
+};
+
+// Text from a file made fit for a one-line message: control characters replaced, length capped.
+std::string oneLine(const std::string& text);
+
+} // namespace cotan

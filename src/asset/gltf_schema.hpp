@@ -1,0 +1,231 @@
+// What glTF's JSON has to look like, as tables: only the members that the reader uses. Source: the
+// JSON schemas of the glTF 2.0 specification and of the supported extensions.
+#pragma once
+
+#include <array>
+#include <cfloat>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace cotan::gltf_schema {
+
+enum class Shape {
+    boolean,
+    integer, // low to high
+    number,  // low to high
+    text,
+    index,     // into the collection `refers`
+    numbers,   // an array of `length` numbers; 0: any length
+    indices,   // an array of indices into `refers`
+    texts,     // an array of strings
+    object,    // with the fields `inner`
+    objects,   // an array of those
+    indexMap,  // an object whose values are indices into `refers`
+    indexMaps, // an array of those
+};
+
+struct Field;
+using Fields = std::span<const Field>;
+
+inline constexpr double kMaxInt = 2147483647.0;
+// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252)
+// in 64 bits.
+inline constexpr double kMaxSize = 9007199254740992.0; // 2^53
+// No lamp or map is beyond these, and products with them stay finite in float.
+inline constexpr double kBrightest = 1e12;
+inline constexpr double kSteepest = 1e6;
+
+struct Field {
+    std::string_view name;
+    Shape shape;
+    bool required = false;
+    Fields inner = {};
+    std::string_view refers = {};
+    std::size_t length = 0;
+    double low = -FLT_MAX;
+    double high = FLT_MAX;
+    std::span<const std::string_view> texts = {}; // allowed values; empty: any
+    std::span<const int> integers = {};           // allowed values; empty: any in range
+};
+
+constexpr Field boolean(std::string_view n) { return {n, Shape::boolean}; }
+constexpr Field number(std::string_view n, double low = -FLT_MAX, double high = FLT_MAX)
+{
+    return {.name = n, .shape = Shape::number, .low = low, .high = high};
+}
+constexpr Field integer(std::string_view n, double low = 0, double high = kMaxInt)
+{
+    return {.name = n, .shape = Shape::integer, .low = low, .high = high};
+}
+constexpr Field size(std::string_view n) { return integer(n, 0, kMaxSize); }
+constexpr Field oneOf(std::string_view n, std::span<const int> values)
+{
+    return {.name = n, .shape = Shape::integer, .low = 0, .high = kMaxInt, .integers = values};
+}
+constexpr Field text(std::string_view n, std::span<const std::string_view> values = {})
+{
+    return {.name = n, .shape = Shape::text, .texts = values};
+}
+constexpr Field index(std::string_view n, std::string_view refers)
+{
+    return {.name = n, .shape = Shape::index, .refers = refers};
+}
+constexpr Field indices(std::string_view n, std::string_view refers)
+{
+    return {.name = n, .shape = Shape::indices, .refers = refers};
+}
+constexpr Field numbers(std::string_view n, std::size_t length = 0)
+{
+    return {.name = n, .shape = Shape::numbers, .length = length};
+}
+constexpr Field object(std::string_view n, Fields inner)
+{
+    return {.name = n, .shape = Shape::object, .inner = inner};
+}
+constexpr Field objects(std::string_view n, Fields inner)
+{
+    return {.name = n, .shape = Shape::objects, .inner = inner};
+}
+constexpr Field required(Field field)
+{
+    field.required = true;
+    return field;
+}
+
+// ---- the tables, leaves first ---------------------------------------------------------------
+
+using std::string_view;
+inline constexpr std::array kComponentTypes{5120, 5121, 5122, 5123, 5125, 5126};
+inline constexpr std::array kIndexTypes{5121, 5123, 5125};
+inline constexpr std::array kMagFilters{9728, 9729};
+inline constexpr std::array kMinFilters{9728, 9729, 9984, 9985, 9986, 9987};
+inline constexpr std::array kWraps{10497, 33071, 33648};
+inline constexpr std::array kElementTypes{
+    string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"), string_view("VEC4"),
+    string_view("MAT2"),   string_view("MAT3"), string_view("MAT4")};
+inline constexpr std::array kAlphaModes{string_view("OPAQUE"), string_view("MASK"),
+                                        string_view("BLEND")};
+inline constexpr std::array kLightTypes{string_view("directional"), string_view("point"),
+                                        string_view("spot")};
+inline constexpr std::array kCameraTypes{string_view("perspective"), string_view("orthographic")};
+
+inline constexpr std::array kAsset{required(text("version")), text("minVersion"),
+                                   text("generator")};
+inline constexpr std::array kScene{text("name"), indices("nodes", "nodes")};
+
+inline constexpr std::array kNodeLight{required(index("light", "lights"))};
+inline constexpr std::array kNodeInstancing{
+    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"}};
+inline constexpr std::array kNodeExtensions{object("KHR_lights_punctual", kNodeLight),
+                                            object("EXT_mesh_gpu_instancing", kNodeInstancing)};
+inline constexpr std::array kNode{text("name"),
+                                  index("mesh", "meshes"),
+                                  index("skin", "skins"),
+                                  index("camera", "cameras"),
+                                  indices("children", "nodes"),
+                                  numbers("matrix", 16),
+                                  numbers("rotation", 4),
+                                  numbers("scale", 3),
+                                  numbers("translation", 3),
+                                  numbers("weights"),
+                                  object("extensions", kNodeExtensions)};
+
+inline constexpr std::array kPrimitive{
+    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"},
+    index("indices", "accessors"),
+    index("material", "materials"),
+    integer("mode", 0, 6),
+    Field{.name = "targets", .shape = Shape::indexMaps, .refers = "accessors"},
+    object("extensions", {})};
+inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)),
+                                  numbers("weights")};
+
+inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")),
+                                           integer("byteOffset"),
+                                           required(oneOf("componentType", kIndexTypes))};
+inline constexpr std::array kSparseValues{required(index("bufferView", "bufferViews")),
+                                          integer("byteOffset")};
+inline constexpr std::array kSparse{required(integer("count")),
+                                    required(object("indices", kSparseIndices)),
+                                    required(object("values", kSparseValues))};
+inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
+                                      size("byteOffset"),
+                                      required(oneOf("componentType", kComponentTypes)),
+                                      required(size("count")),
+                                      required(text("type", kElementTypes)),
+                                      boolean("normalized"),
+                                      object("sparse", kSparse),
+                                      numbers("min"),
+                                      numbers("max")};
+inline constexpr std::array kBufferView{required(index("buffer", "buffers")), size("byteOffset"),
+                                        required(size("byteLength")),
+                                        integer("byteStride", 0, 252)};
+inline constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
+
+inline constexpr std::array kTransform{numbers("offset", 2), number("rotation"),
+                                       numbers("scale", 2), integer("texCoord")};
+inline constexpr std::array kTextureExtensions{object("KHR_texture_transform", kTransform)};
+inline constexpr std::array kTextureInfo{required(index("index", "textures")), integer("texCoord"),
+                                         number("scale", -kSteepest, kSteepest), number("strength"),
+                                         object("extensions", kTextureExtensions)};
+inline constexpr std::array kRoughness{numbers("baseColorFactor", 4),
+                                       object("baseColorTexture", kTextureInfo),
+                                       number("metallicFactor"), number("roughnessFactor"),
+                                       object("metallicRoughnessTexture", kTextureInfo)};
+inline constexpr std::array kStrength{number("emissiveStrength", 0, kBrightest)};
+inline constexpr std::array kMaterialExtensions{
+    object("KHR_materials_emissive_strength", kStrength), object("KHR_materials_unlit", {})};
+inline constexpr std::array kMaterial{text("name"),
+                                      object("pbrMetallicRoughness", kRoughness),
+                                      object("normalTexture", kTextureInfo),
+                                      object("occlusionTexture", kTextureInfo),
+                                      object("emissiveTexture", kTextureInfo),
+                                      numbers("emissiveFactor", 3),
+                                      text("alphaMode", kAlphaModes),
+                                      number("alphaCutoff"),
+                                      boolean("doubleSided"),
+                                      object("extensions", kMaterialExtensions)};
+inline constexpr std::array kTexture{index("sampler", "samplers"), index("source", "images")};
+inline constexpr std::array kImage{text("name"), text("uri"), text("mimeType"),
+                                   index("bufferView", "bufferViews")};
+inline constexpr std::array kSampler{oneOf("magFilter", kMagFilters),
+                                     oneOf("minFilter", kMinFilters), oneOf("wrapS", kWraps),
+                                     oneOf("wrapT", kWraps)};
+
+inline constexpr std::array kSkin{text("name"), index("inverseBindMatrices", "accessors"),
+                                  index("skeleton", "nodes"), required(indices("joints", "nodes"))};
+inline constexpr std::array kPerspective{required(number("yfov")), required(number("znear")),
+                                         number("aspectRatio"), number("zfar")};
+inline constexpr std::array kOrthographic{required(number("xmag")), required(number("ymag")),
+                                          required(number("zfar")), required(number("znear"))};
+inline constexpr std::array kCamera{text("name"), required(text("type", kCameraTypes)),
+                                    object("perspective", kPerspective),
+                                    object("orthographic", kOrthographic)};
+inline constexpr std::array kSpot{number("innerConeAngle"), number("outerConeAngle")};
+inline constexpr std::array kLight{text("name"),        required(text("type", kLightTypes)),
+                                   numbers("color", 3), number("intensity", 0, kBrightest),
+                                   number("range", 0),  object("spot", kSpot)};
+inline constexpr std::array kLights{required(objects("lights", kLight))};
+inline constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
+
+inline constexpr std::array kRoot{required(object("asset", kAsset)),
+                                  index("scene", "scenes"),
+                                  objects("scenes", kScene),
+                                  objects("nodes", kNode),
+                                  objects("meshes", kMesh),
+                                  objects("accessors", kAccessor),
+                                  objects("bufferViews", kBufferView),
+                                  objects("buffers", kBuffer),
+                                  objects("materials", kMaterial),
+                                  objects("textures", kTexture),
+                                  objects("images", kImage),
+                                  objects("samplers", kSampler),
+                                  objects("skins", kSkin),
+                                  objects("cameras", kCamera),
+                                  objects("animations", {}),
+                                  object("extensions", kRootExtensions),
+                                  Field{.name = "extensionsUsed", .shape = Shape::texts},
+                                  Field{.name = "extensionsRequired", .shape = Shape::texts}};
+
+} // namespace cotan::gltf_schema

@@ -1,0 +1,33 @@
+// Files to Scene.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "cotan/result.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+// Limits on what a file may ask for. Over a limit the file is refused before memory is taken.
+struct LoadLimits {
+    std::size_t fileBytes = std::size_t(2) << 30;   // of the model file or one of its buffers
+    std::size_t vertices = 100'000'000;             // of all meshes together
+    std::size_t triangles = 100'000'000;            // instances not multiplied
+    std::size_t nodes = 1'000'000;
+    int imageSide = 16384;                          // pixels
+    std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
+    std::size_t allImageBytes = std::size_t(8) << 30; // decoded, of all images of one model
+};
+
+// Reads a model: .gltf and .glb through tinygltf, everything else (.obj .ply .stl .dae .fbx .3ds)
+// through Assimp. What was odd but usable is said in Scene::warnings. Missing normals are
+// generated. Only files inside the model's own folder are opened.
+// Errors: ErrorKind::input with one line: file, field, expected, found. Never throws for bad input.
+Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
+
+// The two readers behind loadScene.
+Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits = {});
+Result<Scene> loadWithAssimp(const std::filesystem::path& file, const LoadLimits& limits = {});
+
+} // namespace cotan

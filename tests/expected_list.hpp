@@ -1,0 +1,35 @@
+// The list of malformed and hostile files in the shared data folder, with what must happen.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace cotan::test {
+
+struct Expected {
+    std::filesystem::path file;
+    std::string verdict; // reject, accept, warn, either
+};
+
+// The rows whose file has that extension; empty where the folder is missing.
+inline std::vector<Expected> expectedFor(const std::string& extension)
+{
+    const std::filesystem::path folder = std::filesystem::path(COTAN_SHARED_DATA) / "bad";
+    std::ifstream list(folder / "EXPECTED.tsv");
+    std::vector<Expected> rows;
+    for (std::string line; std::getline(list, line);) {
+        std::istringstream fields(line);
+        std::string file, verdict;
+        if (line.starts_with('#') || !std::getline(fields, file, '\t')
+            || !std::getline(fields, verdict, '\t'))
+            continue;
+        if (std::filesystem::path(file).extension() == extension)
+            rows.push_back({folder / file, verdict});
+    }
+    return rows;
+}
+
+} // namespace cotan::test

@@ -1,0 +1,300 @@
+// Hostile input that the shared data do not have: made here, each wrong in one way.
+#include <filesystem>
+#include <limits>
+
+#include "gltf_maker.hpp"
+
+using namespace cotan;
+using namespace cotan::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string glb(const std::string& text, const std::string& binary = {})
+{
+    std::string chunks = word(std::uint32_t(text.size())) + "JSON" + text;
+    if (!binary.empty())
+        chunks += word(std::uint32_t(binary.size())) + std::string("BIN\0", 4) + binary;
+    return "glTF" + word(2) + word(std::uint32_t(12 + chunks.size())) + chunks;
+}
+
+// The square as GLB, its buffer in the BIN chunk.
+std::string squareGlb()
+{
+    Gltf g = square();
+    g.root["buffers"] = {{{"byteLength", g.bytes.size()}}};
+    std::string text = g.root.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    return glb(text, g.bytes);
+}
+
+TEST(GltfHostile, aGlbIsReadWhole)
+{
+    COTAN_LOADED(scene, loadText(squareGlb(), "model.glb"));
+    EXPECT_EQ(scene.meshes.at(0).positions[2], glm::vec3(1, 1, 0));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+}
+
+// Cut anywhere, with the header's length corrected or not, it is an error, never a crash.
+TEST(GltfHostile, aGlbCutAnywhereIsRefused)
+{
+    const std::string whole = squareGlb();
+    for (std::size_t length = 0; length < whole.size(); length += 7) {
+        std::string cut = whole.substr(0, length);
+        EXPECT_FALSE(loadText(cut, "model.glb")) << length;
+        if (cut.size() >= 12)
+            cut.replace(8, 4, word(std::uint32_t(cut.size())));
+        EXPECT_FALSE(loadText(cut, "model.glb")) << length;
+    }
+}
+
+// Every byte of the GLB set to 0 and to 255 in turn: whatever comes out, it comes out.
+TEST(GltfHostile, anyByteOfAGlbMayBeWrong)
+{
+    const TemporaryFolder folder;
+    const std::string whole = squareGlb();
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        for (const char value : {'\0', '\xff', '9'}) {
+            std::string changed = whole;
+            changed[i] = value;
+            const auto scene = loadGltf(folder.write("model.glb", changed));
+            if (!scene) {
+                EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
+            }
+        }
+    }
+}
+
+TEST(GltfHostile, deepJsonIsRefusedWithoutRecursion)
+{
+    for (const char* const open : {"[", "{\"a\":", "{\"extras\":["}) {
+        std::string text = "{\"asset\":{\"version\":\"2.0\"},\"extras\":";
+        for (int i = 0; i < 200000; ++i)
+            text += open;
+        COTAN_REFUSED(loadText(text), "nested deeper");
+    }
+}
+
+TEST(GltfHostile, bracketsInStringsAreNotNesting)
+{
+    Gltf g = square();
+    g.root["materials"][0]["name"] = std::string(1000, '[') + "\\\"{{{";
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.meshes.size(), 1u);
+}
+
+// ---- types ----------------------------------------------------------------------------------
+
+struct Wrong {
+    const char* pointer;
+    json value;
+    const char* message;
+};
+
+TEST(GltfHostile, wrongTypesAndRangesAreNamed)
+{
+    const double huge = 1e300;
+    const std::vector<Wrong> cases = {
+        {"/asset/version", 2, "asset.version: expected a string"},
+        {"/asset/version", "1.0", "asset.version: expected 2.x"},
+        {"/scene", 7, "scene: expected an index below 1"},
+        {"/scene", -1, "scene: expected an index"},
+        {"/scene", 0.5, "scene: expected an index"},
+        {"/scenes", 3, "scenes: expected an array"},
+        {"/scenes/0/nodes/0", 99, "scenes[0].nodes[0]"},
+        {"/nodes/0", json::array(), "nodes[0]: expected an object"},
+        {"/nodes/0/mesh", "0", "nodes[0].mesh: expected an index"},
+        {"/nodes/0/mesh", 18446744073709551615u, "nodes[0].mesh: expected an index"},
+        {"/nodes/0/matrix", {1, 2, 3}, "nodes[0].matrix: expected 16 numbers, found 3"},
+        {"/nodes/0/scale", {1, 1, huge}, "nodes[0].scale[2]: expected a number from"},
+        {"/nodes/0/translation", {"1", 0, 0}, "nodes[0].translation[0]: expected a number"},
+        {"/meshes/0/primitives/0/attributes", json::array(), "attributes: expected an object"},
+        {"/meshes/0/primitives/0/attributes/POSITION", 50, "attributes.POSITION"},
+        {"/meshes/0/primitives/0/mode", 7, "primitives[0].mode"},
+        {"/meshes/0/primitives/0/material", 1, "primitives[0].material"},
+        {"/accessors/0/count", -4, "accessors[0].count"},
+        {"/accessors/0/count", 1e18, "accessors[0].count"},
+        {"/accessors/0/count", 9223372036854775807, "accessors[0].count"},
+        {"/accessors/0/count", 5, "accessors[0]"},
+        {"/accessors/0/byteOffset", 9007199254740991, "accessors[0]"},
+        {"/accessors/0/byteOffset", 4, "accessors[0]"},
+        {"/accessors/0/componentType", 5130, "accessors[0].componentType: expected one of"},
+        {"/accessors/0/type", "VEC9", "accessors[0].type: expected one of"},
+        {"/accessors/0/type", "VEC4", "accessors[0]"},
+        {"/bufferViews/0/buffer", 1, "bufferViews[0].buffer"},
+        {"/bufferViews/0/byteOffset", 9007199254740991, "bufferViews[0]"},
+        {"/bufferViews/0/byteLength", 9007199254740991, "bufferViews[0]"},
+        {"/bufferViews/0/byteStride", 8, "expected a stride of at least 12 bytes"},
+        {"/bufferViews/0/byteStride", 252, "accessors[0]"},
+        {"/materials/0/alphaMode", "SOLID", "materials[0].alphaMode"},
+        {"/materials/0/normalTexture", {{"index", 0}}, "normalTexture.index"},
+        {"/materials/0/doubleSided", 1, "materials[0].doubleSided: expected true or false"},
+        {"/extensions/KHR_lights_punctual/lights", 1, "lights: expected an array"},
+        {"/extensionsRequired", "KHR_texture_transform", "extensionsRequired: expected an array"},
+        {"/animations", 1, "animations: expected an array"},
+    };
+    for (const Wrong& wrong : cases) {
+        Gltf g = square();
+        g.root[json::json_pointer(wrong.pointer)] = wrong.value;
+        SCOPED_TRACE(std::string(wrong.pointer) + " = " + wrong.value.dump());
+        COTAN_REFUSED(g.load(), wrong.message);
+    }
+}
+
+TEST(GltfHostile, infinityInAnyVertexAttributeIsRefused)
+{
+    for (const char* const name : {"POSITION", "NORMAL", "TANGENT", "COLOR_0"}) {
+        Gltf g = square();
+        const bool four = std::string(name) == "TANGENT";
+        std::vector<float> values(four ? 16 : 12, 0.5f);
+        values[5] = std::numeric_limits<float>::infinity();
+        primitive(g)["attributes"][name] = g.floats(values, four ? "VEC4" : "VEC3");
+        COTAN_REFUSED(g.load(), "expected finite numbers, found inf");
+    }
+}
+
+TEST(GltfHostile, sparseIndicesAreChecked)
+{
+    Gltf g = square();
+    const int indices = g.view(std::vector<std::uint8_t>{4});
+    const int values = g.view(std::vector<float>{5, 6, 7});
+    json sparse = {{"count", 1},
+                   {"indices", {{"bufferView", indices}, {"componentType", kUByte}}},
+                   {"values", {{"bufferView", values}}}};
+    g.root["accessors"][0]["sparse"] = sparse;
+    COTAN_REFUSED(g.load(), "sparse.indices[0]: expected an index below 4, found 4");
+    sparse["count"] = 2;
+    g.root["accessors"][0]["sparse"] = sparse;
+    COTAN_REFUSED(g.load(), "accessors[0].sparse");
+    sparse["count"] = 5;
+    g.root["accessors"][0]["sparse"] = sparse;
+    COTAN_REFUSED(g.load(), "accessors[0].sparse.count");
+}
+
+TEST(GltfHostile, attributesOfTheWrongKindAreRefused)
+{
+    Gltf g = square();
+    primitive(g)["attributes"]["POSITION"] = g.floats(kSquareUv, "VEC2");
+    COTAN_REFUSED(g.load(), "POSITION: expected accessors[4] of type VEC3, found VEC2");
+    g = square();
+    primitive(g)["attributes"]["TEXCOORD_0"] = g.floats({0, 0, 1, 1}, "VEC2");
+    COTAN_REFUSED(g.load(), "with 4 elements, found 2");
+    g = square();
+    primitive(g)["indices"] = g.floats({0, 1, 2}, "SCALAR");
+    COTAN_REFUSED(g.load(), "expected unsigned integers");
+}
+
+TEST(GltfHostile, projectiveMatricesAreRefused)
+{
+    Gltf g = square();
+    g.root["nodes"][0]["matrix"] = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    COTAN_REFUSED(g.load(), "expected the last row 0 0 0 1");
+}
+
+TEST(GltfHostile, transformsThatOverflowAreRefused)
+{
+    Gltf g = square();
+    g.root["nodes"][0]["scale"] = {1e30, 1, 1};
+    g.add("nodes", {{"children", {0}}, {"scale", {1e30, 1, 1}}});
+    COTAN_REFUSED(g.load(), "nodes[0]: its transform is beyond the range of float");
+}
+
+// ---- limits ---------------------------------------------------------------------------------
+
+TEST(GltfHostile, limitsAreKept)
+{
+    LoadLimits limits;
+    limits.vertices = 3;
+    COTAN_REFUSED(square().load(limits), "the limit is 3 vertices");
+    limits = {};
+    limits.triangles = 1;
+    COTAN_REFUSED(square().load(limits), "the limit is");
+    limits = {};
+    limits.nodes = 0;
+    COTAN_REFUSED(square().load(limits), "nodes: the limit is 0, found 1");
+    limits = {};
+    limits.fileBytes = 10;
+    COTAN_REFUSED(square().load(limits), "the limit is 10");
+    Gltf g = square();
+    addNormalMap(g);
+    limits = {};
+    limits.imageSide = 1;
+    COTAN_REFUSED(g.load(limits), "images[0]");
+    limits = {};
+    limits.allImageBytes = 15; // 2 x 2 pixels take 16
+    COTAN_REFUSED(g.load(limits), "images[0]");
+}
+
+// A few bytes may ask for zeros without end.
+TEST(GltfHostile, accessorsWithoutViewCannotTakeAllMemory)
+{
+    Gltf g = square();
+    primitive(g)["attributes"] = {
+        {"POSITION",
+         g.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4000000000u}})}};
+    COTAN_REFUSED(g.load(), "the limit is");
+}
+
+// ---- files ----------------------------------------------------------------------------------
+
+TEST(GltfHostile, nothingOutsideTheFolderIsOpened)
+{
+    const TemporaryFolder folder;
+    Gltf g = square();
+    const std::string buffer = g.bytes;
+    g.bytes.clear();
+    folder.write("secret.bin", buffer);
+    fs::create_directories(folder.path / "model");
+    fs::create_symlink("../secret.bin", folder.path / "model" / "link.bin");
+    fs::create_directory_symlink("..", folder.path / "model" / "up");
+    for (const std::string& uri :
+         {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
+          std::string("..%2Fsecret.bin"), std::string("x/../../secret.bin"),
+          std::string("link.bin"), std::string("up/secret.bin"),
+          (folder.path / "secret.bin").string(), "file://" + (folder.path / "secret.bin").string(),
+          std::string("http://localhost/secret.bin"), std::string("..\\secret.bin")}) {
+        g.root["buffers"] = {{{"byteLength", buffer.size()}, {"uri", uri}}};
+        SCOPED_TRACE(uri);
+        COTAN_REFUSED(loadGltf(folder.write("model/model.gltf", g.text())), "buffers[0].uri");
+    }
+}
+
+TEST(GltfHostile, buffersMayBeLongerButNotShorter)
+{
+    const TemporaryFolder folder;
+    Gltf g = square();
+    const std::string buffer = g.bytes;
+    g.bytes.clear();
+    g.root["buffers"] = {{{"byteLength", buffer.size()}, {"uri", "sub/data.bin"}}};
+    const fs::path model = folder.write("model.gltf", g.text());
+    COTAN_REFUSED(loadGltf(model), "no file \"sub/data.bin\"");
+    folder.write("sub/data.bin", buffer + "more");
+    EXPECT_TRUE(loadGltf(model));
+    folder.write("sub/data.bin", buffer.substr(1));
+    COTAN_REFUSED(loadGltf(model), "buffers[0].byteLength");
+}
+
+TEST(GltfHostile, whatIsNoFileIsAnErrorOfOneLine)
+{
+    const TemporaryFolder folder;
+    COTAN_REFUSED(loadGltf(folder.path / "missing.gltf"), "missing.gltf");
+    COTAN_REFUSED(loadGltf(folder.path), folder.path.string());
+    COTAN_REFUSED(loadText(""), "empty");
+    COTAN_REFUSED(loadText("hello"), "JSON");
+    COTAN_REFUSED(loadText("[]"), "expected an object");
+    COTAN_REFUSED(loadText("{}"), "asset: missing");
+    COTAN_REFUSED(loadText("{\"asset\":{\"version\":\"2.0\",\"generator\":\"\xff\"}}"), "JSON");
+}
+
+TEST(GltfHostile, dataUrisThatDoNotDecodeAreRefused)
+{
+    for (const char* const uri :
+         {"data:application/octet-stream;base64,A", "data:application/octet-stream;base64,A*==",
+          "data:application/octet-stream,AAAA", "data:", "data:;;base64,AAAA"}) {
+        const json root = {{"asset", {{"version", "2.0"}}},
+                           {"buffers", {{{"byteLength", 1}, {"uri", uri}}}}};
+        COTAN_REFUSED(loadText(root.dump()), "buffers[0].uri");
+    }
+}
+
+} // namespace

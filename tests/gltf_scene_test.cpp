@@ -1,0 +1,340 @@
+// Nodes, materials, textures, lights and cameras.
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "gltf_maker.hpp"
+
+using namespace cotan;
+using namespace cotan::test;
+
+namespace {
+
+// Rounding of a handful of float operations on numbers of order one.
+constexpr float kRounding = 1e-6f;
+
+void expectNear(const glm::vec3& a, const glm::vec3& b)
+{
+    EXPECT_LT(glm::length(a - b), kRounding)
+        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+}
+
+glm::vec3 place(const Instance& instance, const glm::vec3& p)
+{
+    return glm::vec3(instance.toWorld * glm::vec4(p, 1));
+}
+
+// ---- nodes ----------------------------------------------------------------------------------
+
+TEST(GltfNodes, scaleThenRotateThenTranslate)
+{
+    Gltf g = square();
+    const double h = std::sqrt(0.5); // a quarter turn about z: x goes to y
+    g.root["nodes"][0]["translation"] = {10, 0, 0};
+    g.root["nodes"][0]["rotation"] = {0, 0, h, h};
+    g.root["nodes"][0]["scale"] = {2, 3, 1};
+    COTAN_LOADED(scene, g.load());
+    expectNear(place(scene.instances[0], {1, 0, 0}), {10, 2, 0});
+    expectNear(place(scene.instances[0], {0, 1, 0}), {7, 0, 0});
+}
+
+TEST(GltfNodes, matricesAreStoredByColumns)
+{
+    Gltf g = square();
+    g.root["nodes"][0]["matrix"] = {1, 2, 3, 0, 4, 5, 7, 0, 7, 8, 10, 0, 11, 12, 13, 1};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(place(scene.instances[0], {1, 0, 0}), glm::vec3(12, 14, 16));
+}
+
+TEST(GltfNodes, childrenFollowTheirParents)
+{
+    Gltf g = square();
+    g.root["nodes"][0]["translation"] = {1, 0, 0};
+    g.add("nodes", {{"children", {0}}, {"scale", {-2, 1, 1}}});
+    g.root["scenes"][0]["nodes"] = {1};
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(place(scene.instances[0], {1, 1, 0}), glm::vec3(-4, 1, 0));
+}
+
+TEST(GltfNodes, instancesShareTheirMesh)
+{
+    Gltf g = square();
+    g.add("nodes", {{"mesh", 0}, {"name", "copy"}, {"translation", {5, 0, 0}}});
+    g.root["scenes"][0]["nodes"] = {0, 1};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    EXPECT_EQ(scene.instances[0].mesh, scene.instances[1].mesh);
+    EXPECT_EQ(scene.instances[1].name, "copy");
+}
+
+TEST(GltfNodes, everyPrimitiveIsAMesh)
+{
+    Gltf g = square();
+    g.root["meshes"][0]["primitives"].push_back(primitive(g));
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.instances.size(), 2u);
+    EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+TEST(GltfNodes, theDefaultSceneIsShown)
+{
+    Gltf g = square();
+    g.add("nodes", {{"mesh", 0}, {"name", "second"}});
+    g.add("scenes", {{"nodes", {1}}});
+    COTAN_LOADED(first, g.load());
+    ASSERT_EQ(first.instances.size(), 1u);
+    EXPECT_EQ(first.instances[0].name, "square");
+    g.root["scene"] = 1;
+    COTAN_LOADED(chosen, g.load());
+    EXPECT_EQ(chosen.instances.at(0).name, "second");
+    g.root.erase("scene");
+    g.root.erase("scenes");
+    COTAN_LOADED(all, g.load());
+    EXPECT_EQ(all.instances.size(), 2u) << "without scenes, all roots";
+}
+
+TEST(GltfNodes, gpuInstancingPlacesCopies)
+{
+    Gltf g = square();
+    const int translations = g.floats({0, 0, 0, 0, 7, 0}, "VEC3");
+    const int scales = g.floats({1, 1, 1, 2, 2, 2}, "VEC3");
+    g.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+    g.root["nodes"][0]["translation"] = {1, 0, 0};
+    g.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", translations}, {"SCALE", scales}};
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.instances.size(), 2u);
+    EXPECT_EQ(place(scene.instances[0], {1, 1, 0}), glm::vec3(2, 1, 0));
+    EXPECT_EQ(place(scene.instances[1], {1, 1, 0}), glm::vec3(3, 9, 0));
+}
+
+TEST(GltfNodes, aChainOfManyNodesIsNoProblem)
+{
+    constexpr int kLength = 20000; // far deeper than any hand-made hierarchy
+    Gltf g = square();
+    for (int i = 0; i < kLength; ++i)
+        g.add("nodes", {{"children", {i}}, {"translation", {1, 0, 0}}});
+    g.root["scenes"][0]["nodes"] = {kLength};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(place(scene.instances.at(0), {0, 0, 0}), glm::vec3(kLength, 0, 0));
+}
+
+// ---- materials ------------------------------------------------------------------------------
+
+TEST(GltfMaterial, defaultsAreThoseOfTheSpecification)
+{
+    Gltf g = square();
+    primitive(g).erase("material");
+    COTAN_LOADED(scene, g.load());
+    const Material& m = scene.materials.at(std::size_t(scene.meshes[0].material));
+    EXPECT_EQ(m.baseColor, glm::vec4(1));
+    EXPECT_EQ(m.metallic, 1.0f);
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(m.emissive, glm::vec3(0));
+    EXPECT_EQ(m.alphaMode, AlphaMode::opaque);
+    EXPECT_FALSE(m.doubleSided);
+    EXPECT_FALSE(m.normalMap.present());
+}
+
+TEST(GltfMaterial, factorsArrive)
+{
+    Gltf g = square();
+    g.root["materials"][0] = {{"name", "brass"},
+                              {"pbrMetallicRoughness",
+                               {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}},
+                                {"metallicFactor", 0.5},
+                                {"roughnessFactor", 0.25}}},
+                              {"emissiveFactor", {1, 0.5, 0}},
+                              {"alphaMode", "MASK"},
+                              {"alphaCutoff", 0.75},
+                              {"doubleSided", true},
+                              {"extensions",
+                               {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
+                                {"KHR_materials_unlit", json::object()}}}};
+    COTAN_LOADED(scene, g.load());
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.name, "brass");
+    EXPECT_EQ(m.baseColor, glm::vec4(0.5, 0.25, 0.125, 0.75));
+    EXPECT_EQ(m.metallic, 0.5f);
+    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_EQ(m.emissive, glm::vec3(4, 2, 0));
+    EXPECT_EQ(m.alphaMode, AlphaMode::mask);
+    EXPECT_EQ(m.alphaCutoff, 0.75f);
+    EXPECT_TRUE(m.doubleSided);
+    EXPECT_TRUE(m.unlit);
+}
+
+TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["materials"][0]["normalTexture"]["scale"] = 0.5;
+    COTAN_LOADED(scene, g.load());
+    const Material& m = scene.materials.at(0);
+    ASSERT_TRUE(m.normalMap.present());
+    EXPECT_EQ(m.normalScale, 0.5f);
+    EXPECT_FALSE(m.normalFormat.greenAlongV);
+    EXPECT_EQ(m.normalFormat.expansion, 0) << "COTAN_EXPAND_EXACT";
+    EXPECT_EQ(m.normalFormat.channels, 0) << "COTAN_CHANNELS_XYZ";
+    const Image& image = scene.images.at(std::size_t(m.normalMap.image));
+    ASSERT_EQ(image.width, 2);
+    ASSERT_EQ(image.height, 2);
+    EXPECT_EQ(image.type, PixelType::unorm8);
+    EXPECT_EQ(image.bytes8()[2], 255) << "blue of a flat texel";
+}
+
+TEST(GltfMaterial, samplersArrive)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.add("samplers",
+          {{"magFilter", 9728}, {"minFilter", 9985}, {"wrapS", 33071}, {"wrapT", 33648}});
+    g.root["textures"][0]["sampler"] = 0;
+    COTAN_LOADED(scene, g.load());
+    const Sampler& s = scene.materials.at(0).normalMap.sampler;
+    EXPECT_EQ(s.magnify, Filter::nearest);
+    EXPECT_EQ(s.minify, Filter::linear);
+    EXPECT_EQ(s.mip, MipFilter::nearest);
+    EXPECT_EQ(s.wrapU, Wrap::clamp);
+    EXPECT_EQ(s.wrapV, Wrap::mirror);
+}
+
+// The example of the extension's text: an offset of (0,1), a quarter turn and a scale of 1/2
+// show the lower left quadrant of the image, turned clockwise.
+TEST(GltfMaterial, textureTransformSelectsTheQuadrantOfItsExample)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}};
+    COTAN_LOADED(scene, g.load());
+    const Texture& t = scene.materials.at(0).normalMap;
+    const auto at = [&](float u, float v) {
+        return glm::vec3(glm::dot(t.uRow, glm::vec3(u, v, 1)), glm::dot(t.vRow, glm::vec3(u, v, 1)),
+                         0);
+    };
+    expectNear(at(0, 0), {0, 1, 0});
+    expectNear(at(1, 0), {0, 0.5, 0});
+    expectNear(at(0, 1), {0.5, 1, 0});
+    expectNear(at(1, 1), {0.5, 0.5, 0});
+}
+
+TEST(GltfMaterial, textureTransformMayNameAnotherUvSet)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    primitive(g)["attributes"]["TEXCOORD_1"] = g.floats(kSquareUv, "VEC2");
+    g.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"texCoord", 1}};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.materials.at(0).normalMap.texcoord, 1);
+}
+
+TEST(GltfMaterial, aTextureIsLeftOutOnlyWhereTheUvAreMissing)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    json bare = primitive(g);
+    bare["attributes"].erase("TEXCOORD_0");
+    g.root["meshes"][0]["primitives"].push_back(bare);
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_TRUE(scene.materials[std::size_t(scene.meshes[0].material)].normalMap.present());
+    EXPECT_FALSE(scene.materials[std::size_t(scene.meshes[1].material)].normalMap.present());
+    EXPECT_TRUE(warns(scene, "TEXCOORD_0"));
+}
+
+TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
+{
+    const TemporaryFolder folder;
+    const std::string png = flatPng();
+    folder.write("maps/flat map.png", png);
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["images"][0]["uri"] = "maps/flat%20map.png";
+    COTAN_LOADED(file, loadGltf(folder.write("model.gltf", g.text())));
+    EXPECT_EQ(file.images.at(0).width, 2);
+    const int view = g.view(std::vector<char>(png.begin(), png.end()));
+    g.root["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}};
+    COTAN_LOADED(embedded, g.load());
+    EXPECT_EQ(embedded.images.at(0).data, file.images.at(0).data);
+}
+
+TEST(GltfMaterial, unusedImagesAreNotDecoded)
+{
+    Gltf g = square();
+    g.add("images", {{"uri", "data:image/png;base64,aGVsbG8="}});
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.images.empty());
+}
+
+// ---- lights and cameras ---------------------------------------------------------------------
+
+TEST(GltfLights, shineAlongTheirNodesMinusZ)
+{
+    Gltf g = square();
+    const double h = std::sqrt(0.5); // -z turned about x by -90 degrees points down
+    g.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    g.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"},
+         {"color", {1, 0.5, 0}},
+         {"intensity", 40},
+         {"range", 12},
+         {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+        {{"type", "directional"}}};
+    g.add("nodes",
+          {{"translation", {1, 2, 3}},
+           {"rotation", {-h, 0, 0, h}},
+           {"scale", {3, 3, 3}},
+           {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    g.root["scenes"][0]["nodes"] = {0, 1};
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.lights.size(), 1u) << "only lights that a node places";
+    const Light& light = scene.lights[0];
+    EXPECT_EQ(light.kind, LightKind::spot);
+    EXPECT_EQ(light.color, glm::vec3(1, 0.5, 0));
+    EXPECT_EQ(light.intensity, 40.0f);
+    EXPECT_EQ(light.range, 12.0f);
+    EXPECT_EQ(light.innerCone, 0.25f);
+    EXPECT_EQ(light.outerCone, 0.5f);
+    EXPECT_EQ(light.position, glm::vec3(1, 2, 3));
+    expectNear(light.direction, {0, -1, 0});
+}
+
+TEST(GltfCameras, lookAlongTheirNodesMinusZ)
+{
+    Gltf g = square();
+    g.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+    g.add("cameras",
+          {{"type", "orthographic"},
+           {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
+    g.add("nodes", {{"camera", 0}, {"name", "front"}, {"translation", {0, 0, 9}}});
+    g.add("nodes", {{"camera", 1}, {"rotation", {0, 1, 0, 0}}}); // half a turn about y
+    g.root["scenes"][0]["nodes"] = {0, 1, 2};
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    EXPECT_EQ(scene.cameras[0].name, "front");
+    EXPECT_FALSE(scene.cameras[0].orthographic);
+    EXPECT_EQ(scene.cameras[0].verticalFieldOfView, 0.5f);
+    EXPECT_EQ(scene.cameras[0].eye, glm::vec3(0, 0, 9));
+    expectNear(scene.cameras[0].target, {0, 0, 8});
+    expectNear(scene.cameras[0].up, {0, 1, 0});
+    EXPECT_TRUE(scene.cameras[1].orthographic);
+    EXPECT_EQ(scene.cameras[1].verticalExtent, 6.0f) << "ymag is half the height";
+    expectNear(scene.cameras[1].target, {0, 0, 1});
+}
+
+TEST(GltfExtensions, ignoredOnesAreSaid)
+{
+    Gltf g = square();
+    g.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform"};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(warns(scene, "ignored: KHR_materials_clearcoat"));
+    EXPECT_FALSE(warns(scene, "KHR_texture_transform"));
+}
+
+} // namespace
