@@ -47,10 +47,10 @@ TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
     EXPECT_LT(s.median, 0.02);       // rounding of interpolation and differences
     EXPECT_LT(s.percentile99, 0.5);  // texels whose border falls between two roundings of uv
     RecordProperty("point_sampled", toText(s));
-    // With trilinear filtering the choice of mip level and the weights differ by driver: reported,
-    // and bounded loosely so that a broken mip chain would show (docs/testing.md).
+    // Filtered maps differ by what an anisotropic sampler is free to choose (docs/testing.md has the
+    // measured parts): reported, and bounded loosely so that a broken mip chain would show.
     const AngleStatistics t = difference(scene, *gpu, *reference, false);
-    EXPECT_LT(t.median, 1);
+    EXPECT_LT(t.median, 2);
     RecordProperty("trilinear", toText(t));
     std::cout << GetParam().name << ": point sampled " << toText(s) << "\n    trilinear " << toText(t) << "\n";
 }

@@ -131,7 +131,7 @@ void check(const char* device)
     for (const Instance& instance : scene.instances) {
         const Grid g = gridOf(scene, instance);
         const Error e = errorOver(g, scene, *painter);
-        EXPECT_GT(e.count, 300 * 300 / 4) << g.name;
+        EXPECT_GT(e.count, 3000) << g.name; // `tiny` shows so few texels that most pixels are near a border
         degenerate += g.degenerate;
         if (!g.degenerate) {
             EXPECT_LT(e.worst, 0.1) << g.name; // float differences of a 1/300 pixel: measured below 0.03
