@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One triangle over the whole picture, at the far end of the (reversed) depth range.
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "bindings.glsl"
+
+layout(location = 0) out vec3 outRay;
+
+void main()
+{
+    vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
+    outRay = view.forward.xyz + view.right.xyz * corner.x + view.up.xyz * corner.y;
+    gl_Position = vec4(corner, 0.0, 1.0);
+}

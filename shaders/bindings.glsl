@@ -1,0 +1,54 @@
+// Where the shaders find what gpu_structs.glsl describes.
+#include "gpu_structs.glsl"
+
+layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
+layout(set = 0, binding = 1, std430) readonly buffer LightBlock { CotanLight lights[]; };
+layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
+
+layout(set = 1, binding = 0, std140) uniform MaterialBlock { CotanMaterial material; };
+layout(set = 1, binding = 1) uniform sampler2D baseColorMap;
+layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessMap;
+layout(set = 1, binding = 3) uniform sampler2D normalMap;
+layout(set = 1, binding = 4) uniform sampler2D occlusionMap;
+layout(set = 1, binding = 5) uniform sampler2D emissiveMap;
+
+layout(push_constant, std430) uniform DrawBlock { CotanDraw draw; };
+
+vec3 cameraRelative(vec3 p)
+{
+    vec4 q = vec4(p, 1.0);
+    return vec3(dot(draw.rowX, q), dot(draw.rowY, q), dot(draw.rowZ, q));
+}
+
+// A difference of positions, or a tangent.
+vec3 directionToWorld(vec3 d)
+{
+    return vec3(dot(draw.rowX.xyz, d), dot(draw.rowY.xyz, d), dot(draw.rowZ.xyz, d));
+}
+
+// A normal or another covector, up to a positive factor.
+vec3 covectorToWorld(vec3 c)
+{
+    return vec3(dot(draw.normalX.xyz, c), dot(draw.normalY.xyz, c), dot(draw.normalZ.xyz, c));
+}
+
+vec3 toShadowMap(vec3 p)
+{
+    vec4 q = vec4(p, 1.0);
+    return vec3(dot(view.shadowX, q), dot(view.shadowY, q), dot(view.shadowZ, q));
+}
+
+// The part of a use that moves differences of texture coordinates.
+vec2 transformedDifference(CotanTextureUse use, vec4 texcoords)
+{
+    vec2 uv = use.uRow.w > 0.5 ? texcoords.zw : texcoords.xy;
+    return vec2(dot(use.uRow.xy, uv), dot(use.vRow.xy, uv));
+}
+
+vec2 transformed(CotanTextureUse use, vec4 texcoords)
+{
+    return transformedDifference(use, texcoords) + vec2(use.uRow.z, use.vRow.z);
+}
+
+// Texture coordinates that a sampler may see: the file's may be NaN or infinite.
+vec2 finiteUv(vec2 uv) { return abs(uv.x) + abs(uv.y) <= 1e30 ? uv : vec2(0.0); }

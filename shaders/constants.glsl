@@ -1,0 +1,34 @@
+// Specialisation constants. COTAN_FRAME holds the numbers of the enum Frame in
+// include/cotan/frame.hpp, OUTPUT and SHADING those of the enums in cotan/scene/view.hpp.
+layout(constant_id = 0) const int COTAN_FRAME = 0;
+layout(constant_id = 1) const int OUTPUT = 0;
+layout(constant_id = 2) const int SHADING = 0;
+layout(constant_id = 3) const int ALPHA_MODE = 0;
+layout(constant_id = 4) const bool COARSE_DERIVATIVES = false;
+layout(constant_id = 5) const bool NORMAL_MAPS = true;
+layout(constant_id = 6) const bool ENVIRONMENT = true;
+layout(constant_id = 7) const bool SHADOWS = true;
+layout(constant_id = 8) const bool TONE_MAP = true;
+// Which maps the material may have, COTAN_MAP_... of gpu_structs.glsl. Drivers for the CPU execute
+// both sides of a branch, so a map that is left out here is what saves its reads.
+layout(constant_id = 9) const uint MAPS = 0xffffffffu;
+
+#define OUTPUT_SHADED 0
+#define OUTPUT_NORMAL 1
+#define OUTPUT_TANGENT 2
+#define OUTPUT_BITANGENT 3
+#define OUTPUT_UV 4
+#define OUTPUT_DEPTH 5
+#define SHADING_BLINN_PHONG 1
+#define ALPHA_OPAQUE 0
+#define ALPHA_MASK 1
+#define ALPHA_BLEND 2
+
+// What is written for a linear colour: tone mapped, or as it is but finite.
+vec3 finished(vec3 linear)
+{
+    vec3 exposed = linear * view.tone.x;
+    bool finite = abs(exposed.x) + abs(exposed.y) + abs(exposed.z) <= COTAN_HUGE;
+    exposed = finite ? max(exposed, vec3(0.0)) : vec3(0.0);
+    return TONE_MAP ? cotan_tone_map(min(exposed, vec3(1e4))) : exposed;
+}

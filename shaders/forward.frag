@@ -1,0 +1,131 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The picture: material, frame, perturbed normal, light. Compiled a second time with COTAN_EXACT
+// for the frame `exact`, which reads the triangle's vertices and so asks more of the device.
+#ifdef COTAN_EXACT
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#endif
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "cotan/normal.h"
+#include "cotan/frame.h"
+#include "cotan/light.h"
+#include "bindings.glsl"
+#include "constants.glsl"
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec4 inTexcoords; // relative to the mesh's origin in uv
+layout(location = 3) in vec4 inColor;
+layout(location = 4) in vec4 inTangent;
+layout(location = 5) in vec3 inCotangentU;
+layout(location = 6) in vec3 inCotangentV;
+layout(location = 7) flat in vec4 inTexcoordOrigin;
+
+layout(location = 0) out vec4 outColor;
+
+#include "frame.glsl"
+#include "lights.glsl"
+
+bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }
+
+vec4 sampled(sampler2D map, CotanTextureUse use)
+{
+    return texture(map, finiteUv(transformed(use, inTexcoords + inTexcoordOrigin)));
+}
+
+vec4 baseColor()
+{
+    vec4 color = material.baseColor * inColor;
+    if (present(COTAN_MAP_BASE_COLOR, material.baseColorMap))
+        color *= sampled(baseColorMap, material.baseColorMap);
+    return color;
+}
+
+// The perturbed normal, outwards on the front side.
+vec3 perturbed(cotan_frame frame, vec3 n)
+{
+    bool mapped = NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse)
+        && (draw.flags & COTAN_DRAW_HAS_TEXCOORDS) != 0u;
+    if (!mapped)
+        return n;
+    cotan_normal_format format = cotan_normal_format(material.normalMap.x, material.normalMap.y,
+        float(material.normalMap.z), material.factors.w);
+    vec3 m = cotan_decode(sampled(normalMap, material.normalMapUse).xyz, format);
+    return cotan_normalize_or(cotan_apply(frame, m), n);
+}
+
+cotan_surface surfaceOf(vec3 base, vec3 n)
+{
+    cotan_surface s;
+    s.base_color = base;
+    s.metallic = material.factors.x;
+    s.roughness = material.factors.y;
+    float occlusion = 1.0;
+    if (present(COTAN_MAP_METALLIC_ROUGHNESS, material.metallicRoughnessMap)) {
+        vec4 texel = sampled(metallicRoughnessMap, material.metallicRoughnessMap);
+        s.roughness *= texel.g;
+        s.metallic *= texel.b;
+        occlusion = (MAPS & COTAN_MAP_OCCLUSION_SHARED) != 0u ? texel.r : 1.0;
+    }
+    if (present(COTAN_MAP_OCCLUSION, material.occlusionMap))
+        occlusion = sampled(occlusionMap, material.occlusionMap).r;
+    s.occlusion = 1.0 + material.factors.z * (occlusion - 1.0);
+    s.emissive = material.emissive.rgb;
+    if (present(COTAN_MAP_EMISSIVE, material.emissiveMap))
+        s.emissive *= sampled(emissiveMap, material.emissiveMap).rgb;
+    s.n = n;
+    s.v = view.forward.w > 0.5 ? cotan_normalize_or(-inPosition, n) : -view.forward.xyz;
+    return s;
+}
+
+vec3 finiteVector(vec3 v) { return cotan_sum_abs(v) <= COTAN_HUGE ? v : vec3(0.0); }
+
+// Everything but `shaded`: a vector, and 1 for "here is a surface".
+vec4 vectorOutput(cotan_frame frame, vec3 n, vec2 uv)
+{
+    vec3 v = n;
+    if (OUTPUT == OUTPUT_TANGENT)
+        v = frame.t;
+    if (OUTPUT == OUTPUT_BITANGENT)
+        v = frame.b;
+    if (OUTPUT == OUTPUT_UV)
+        v = vec3(uv, 0.0);
+    if (OUTPUT == OUTPUT_DEPTH)
+        v = vec3(dot(inPosition, view.forward.xyz), 0.0, 0.0);
+    return vec4(finiteVector(v), 1.0);
+}
+
+void main()
+{
+    // Like the position, the uv are differentiated near zero, where floats are dense.
+    vec2 uv = transformed(material.normalMapUse, inTexcoords + inTexcoordOrigin);
+    Differences d =
+        screenDifferences(inPosition, transformedDifference(material.normalMapUse, inTexcoords));
+    cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
+    cotan_frame frame = frameOf(smoothNormal, d);
+    vec3 n = perturbed(frame, smoothNormal);
+    // Seen from behind, the sheet shows the other side of the same bumps.
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    n *= side;
+
+    vec4 base = baseColor();
+    if (OUTPUT == OUTPUT_SHADED) {
+        vec3 color = base.rgb;
+        if (material.normalMap.w == 0) {
+            cotan_surface s = surfaceOf(base.rgb, n);
+            color = lit(s, inPosition, smoothNormal * side);
+        }
+        float alpha = ALPHA_MODE == ALPHA_BLEND ? clamp(base.a, 0.0, 1.0) : 1.0;
+        outColor = vec4(finished(color), alpha);
+    } else {
+        outColor = vectorOutput(frame, n, uv);
+    }
+    // After every texture read: derivatives end where a neighbour is discarded.
+    if (ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w)
+        discard;
+    if (ALPHA_MODE == ALPHA_BLEND && OUTPUT != OUTPUT_SHADED && base.a < 1.0 / 255.0)
+        discard;
+}

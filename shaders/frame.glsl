@@ -1,0 +1,105 @@
+// The frame of a fragment: a thin adapter between interpolated attributes and cotan/frame.h.
+
+// The four differences that a frame is made from, and the normal.
+struct Differences {
+    vec3 dpdx;
+    vec3 dpdy;
+    vec2 duvdx;
+    vec2 duvdy;
+};
+
+Differences screenDifferences(vec3 position, vec2 uv)
+{
+    if (COARSE_DERIVATIVES)
+        return Differences(
+            dFdxCoarse(position), dFdyCoarse(position), dFdxCoarse(uv), dFdyCoarse(uv));
+    return Differences(dFdxFine(position), dFdyFine(position), dFdxFine(uv), dFdyFine(uv));
+}
+
+#ifdef COTAN_EXACT
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint at[]; };
+
+vec3 positionOf(uint vertex)
+{
+    Floats f = Floats(draw.positions);
+    return vec3(f.at[3u * vertex], f.at[3u * vertex + 1u], f.at[3u * vertex + 2u]);
+}
+
+vec2 texcoordOf(uint vertex)
+{
+    Floats f = Floats(draw.texcoords);
+    return vec2(f.at[2u * vertex], f.at[2u * vertex + 1u]);
+}
+
+// The edges of the fragment's triangle, in place of screen derivatives.
+Differences triangleEdges()
+{
+    Words words = Words(draw.indices);
+    uint first = 3u * uint(gl_PrimitiveID);
+    uint i0 = words.at[first];
+    uint i1 = words.at[first + 1u];
+    uint i2 = words.at[first + 2u];
+    Differences d;
+    vec3 p0 = positionOf(i0);
+    d.dpdx = directionToWorld(positionOf(i1) - p0);
+    d.dpdy = directionToWorld(positionOf(i2) - p0);
+    d.duvdx = vec2(0.0);
+    d.duvdy = vec2(0.0);
+    if ((draw.flags & COTAN_DRAW_HAS_TEXCOORDS) != 0u) {
+        vec2 uv0 = texcoordOf(i0);
+        vec2 edge1 = texcoordOf(i1) - uv0;
+        vec2 edge2 = texcoordOf(i2) - uv0;
+        CotanTextureUse use = material.normalMapUse;
+        d.duvdx = vec2(dot(use.uRow.xy, edge1), dot(use.vRow.xy, edge1));
+        d.duvdy = vec2(dot(use.uRow.xy, edge2), dot(use.vRow.xy, edge2));
+    }
+    return d;
+}
+#endif
+
+cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
+
+// n: safe, unit. inNormal and the other attributes: as interpolated.
+cotan_frame vertexFrame(vec3 n)
+{
+    if (COTAN_FRAME == 11) {
+        if ((draw.flags & COTAN_DRAW_HAS_COTANGENTS) == 0u)
+            return noFrame(n);
+        return cotan_frame_smooth(n, inCotangentU, inCotangentV);
+    }
+    if ((draw.flags & COTAN_DRAW_HAS_TANGENTS) == 0u)
+        return noFrame(n);
+    // A glTF tangent's w makes cross(n, t) * w point along the green of a map, which is against
+    // increasing v, as v runs down the image. Our b points along increasing v: hence -w.
+    float handedness = -inTangent.w;
+    if (COTAN_FRAME == 12)
+        return cotan_frame_vertex(inNormal, inTangent.xyz, handedness);
+    return cotan_frame_mikktspace(inNormal, inTangent.xyz, handedness);
+}
+
+cotan_frame frameOf(vec3 n, Differences d)
+{
+    switch (COTAN_FRAME) {
+    case 0: return cotan_frame_cotangent(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 1: return cotan_frame_cotangent_2013(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 2: return cotan_frame_nonperspective(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 3: return cotan_frame_paper_full(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 4: return cotan_frame_paper_nodet(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 5: return cotan_frame_paper_transpose(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 6: return cotan_frame_paper_orthogonal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 7: return cotan_frame_unit(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 8: return cotan_frame_orthonormal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+    case 9: return cotan_frame_gradient(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+#ifdef COTAN_EXACT
+    case 10: {
+        Differences e = triangleEdges();
+        return cotan_frame_exact(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy);
+    }
+#endif
+    case 11:
+    case 12:
+    case 13: return vertexFrame(n);
+    }
+    return noFrame(n);
+}

@@ -1,0 +1,74 @@
+// What the CPU hands to the shaders. One text, valid GLSL and C++: the C++ side
+// (src/render/gpu_structs.hpp) names vec4, uvec2, ivec4 and uvec4 and includes this file.
+// Every member starts on 16 bytes or fills a group of 16, so std140, std430 and C++ agree; a test
+// compares the offsets in the compiled shaders with C++.
+
+// A use of an image: (u,v) becomes (dot(uRow.xy, uv) + uRow.z, dot(vRow.xy, uv) + vRow.z).
+struct CotanTextureUse {
+    vec4 uRow; // w: which uv set, 0 or 1
+    vec4 vRow; // w: 1 where there is an image, otherwise 0
+};
+
+// Uniform buffer, one a material.
+struct CotanMaterial {
+    vec4 baseColor;    // linear, alpha
+    vec4 emissive;     // linear; w: alpha cutoff
+    vec4 factors;      // metallic, roughness, occlusion strength, normal scale
+    ivec4 normalMap;   // expansion, channels, green (+1 along v, -1 against it), 1 if unlit
+    CotanTextureUse baseColorMap;
+    CotanTextureUse metallicRoughnessMap;
+    CotanTextureUse normalMapUse;
+    CotanTextureUse occlusionMap;
+    CotanTextureUse emissiveMap;
+};
+
+#define COTAN_MAP_BASE_COLOR 1u
+#define COTAN_MAP_METALLIC_ROUGHNESS 2u
+#define COTAN_MAP_NORMAL 4u
+#define COTAN_MAP_OCCLUSION 8u
+#define COTAN_MAP_EMISSIVE 16u
+#define COTAN_MAP_OCCLUSION_SHARED 32u // occlusion is in r of the metallic-roughness texel
+
+// Storage buffer, an array.
+struct CotanLight {
+    vec4 position;  // relative to the eye, world axes; w: 0 directional, 1 point, 2 spot
+    vec4 direction; // unit, the way the light travels; w: range in metres, 0 infinite
+    vec4 color;     // linear, times intensity; w: 1 if this light casts the shadow
+    vec4 cone;      // cosines of the outer and the inner half angle, inner > outer
+};
+
+// Uniform buffer, one a picture. "Camera-relative" is world space moved so that the eye is 0.
+struct CotanView {
+    vec4 clipX;   // rows of the matrix from camera-relative position to clip space
+    vec4 clipY;
+    vec4 clipZ;
+    vec4 clipW;
+    vec4 right;   // at distance 1: half the picture's width along its right; w unused
+    vec4 up;      // at distance 1: half the height, along increasing clip y; w unused
+    vec4 forward; // unit; w: 1 perspective, 0 orthographic (right and up are then 0)
+    vec4 shadowX; // rows: camera-relative position to shadow map u, v in [0,1] and depth in [0,1]
+    vec4 shadowY;
+    vec4 shadowZ;
+    vec4 shadow;  // size of a shadow texel in world units, texels a side, depth of a texel; w unused
+    vec4 tone;    // x: exposure
+    uvec4 counts; // x: lights
+};
+
+// Push constants, one an instance: exactly the 128 bytes that every device has.
+struct CotanDraw {
+    vec4 rowX;       // rows of the matrix from mesh to camera-relative position
+    vec4 rowY;
+    vec4 rowZ;
+    vec4 normalX;    // rows of its inverse transpose up to a positive factor
+    vec4 normalY;
+    vec4 normalZ;    // w of normalX: sign of the determinant
+    uvec2 positions; // address of the mesh's positions, three floats a vertex
+    uvec2 texcoords; // address of the uv set of the normal map, two floats a vertex; 0 if none
+    uvec2 indices;   // address of the mesh's indices
+    uint flags;      // COTAN_DRAW_...
+    uint spare;
+};
+
+#define COTAN_DRAW_HAS_TANGENTS 1u
+#define COTAN_DRAW_HAS_COTANGENTS 2u
+#define COTAN_DRAW_HAS_TEXCOORDS 4u // the uv set of the normal map (or set 0 where there is none)

@@ -1,0 +1,61 @@
+// Light on a surface: an adapter between the scene's lights and cotan/light.h.
+
+// The share of the shadow light that reaches p: 3x3 comparisons, weighted so that the result is
+// continuous (sixteen texels, read as four gathers). n: unit, geometric, on the lit side.
+float shadowAt(vec3 p, vec3 n, float nl)
+{
+    // Along the normal, most where the light grazes: a texel of the map covers a slope there.
+    vec3 offset = n * (view.shadow.x * (0.5 + 2.0 * sqrt(max(1.0 - nl * nl, 0.0))));
+    vec3 s = toShadowMap(p + offset);
+    bool inside = s.x > 0.0 && s.x < 1.0 && s.y > 0.0 && s.y < 1.0 && s.z > 0.0 && s.z < 1.0;
+    if (!inside)
+        return 1.0;
+    float depth = s.z - view.shadow.z;
+    vec2 texel = s.xy * view.shadow.y - 0.5;
+    vec2 base = floor(texel);
+    vec2 f = texel - base;
+    vec2 near = base / view.shadow.y;
+    vec2 far = (base + 2.0) / view.shadow.y;
+    // A gather returns, in order, the texels at (0,1) (1,1) (1,0) (0,0).
+    vec4 a = textureGather(shadowMap, near, depth);
+    vec4 b = textureGather(shadowMap, vec2(far.x, near.y), depth);
+    vec4 c = textureGather(shadowMap, vec2(near.x, far.y), depth);
+    vec4 d = textureGather(shadowMap, far, depth);
+    vec2 g = 1.0 - f;
+    float sum = dot(a, vec4(g.x, 1.0, g.y, g.x * g.y)) + dot(b, vec4(1.0, f.x, f.x * g.y, g.y))
+        + dot(c, vec4(g.x * f.y, f.y, 1.0, g.x)) + dot(d, vec4(f.y, f.x * f.y, f.x, 1.0));
+    return sum / 9.0;
+}
+
+vec3 reflected(cotan_surface s, vec3 l)
+{
+    return SHADING == SHADING_BLINN_PHONG ? cotan_reflect_blinn_phong(s, l)
+                                          : cotan_reflect_pbr(s, l);
+}
+
+// What one light adds. p: camera-relative; n: unit geometric normal on the seen side.
+vec3 litBy(CotanLight light, cotan_surface s, vec3 p, vec3 n)
+{
+    vec3 l = -light.direction.xyz;
+    float reach = 1.0;
+    if (light.position.w > 0.5) {
+        vec3 way = light.position.xyz - p;
+        l = cotan_normalize_or(way, vec3(0.0, 1.0, 0.0));
+        reach = cotan_light_falloff(length(way), light.direction.w);
+        if (light.position.w > 1.5)
+            reach *= cotan_smooth(light.cone.x, light.cone.y, -dot(l, light.direction.xyz));
+    }
+    if (SHADOWS && light.color.w > 0.5)
+        reach *= shadowAt(p, n, dot(n, l));
+    return light.color.rgb * (reach * reflected(s, l));
+}
+
+vec3 lit(cotan_surface s, vec3 p, vec3 n)
+{
+    vec3 sum = s.emissive;
+    for (uint i = 0u; i < view.counts.x; ++i)
+        sum += litBy(lights[i], s, p, n);
+    if (ENVIRONMENT)
+        sum += cotan_reflect_environment(s);
+    return sum;
+}

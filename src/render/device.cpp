@@ -1,0 +1,264 @@
+#include "device.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+namespace cotan {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+struct Candidate {
+    vk::raii::PhysicalDevice physical;
+    std::string name;
+    vk::PhysicalDeviceType type;
+    std::uint32_t queueFamily = 0;
+    std::string missing; // empty: it can run the renderer
+};
+
+VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                              VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                              void* messages)
+{
+    // The layer calls from inside Vulkan, through which no exception may pass.
+    try {
+        static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+    } catch (...) {
+    }
+    return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& messages)
+{
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance,
+            collectMessage, &messages};
+}
+
+bool hasValidation(const vk::raii::Context& context)
+{
+    for (const vk::LayerProperties& layer : context.enumerateInstanceLayerProperties())
+        if (std::strcmp(layer.layerName, kValidationLayer) == 0)
+            return true;
+    return false;
+}
+
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
+                                std::vector<std::string>& messages)
+{
+    const vk::ApplicationInfo application("cotan", 1, "cotan", 1, VK_API_VERSION_1_3);
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    const vk::DebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
+    if (validate) {
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+    const vk::InstanceCreateInfo info({}, &application, layers, extensions,
+                                      validate ? &messenger : nullptr);
+    return vk::raii::Instance(context, info);
+}
+
+// ---- choosing -------------------------------------------------------------------------------
+
+int rank(vk::PhysicalDeviceType type)
+{
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
+    case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
+    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
+    case vk::PhysicalDeviceType::eCpu: return 3;
+    default: return 4;
+    }
+}
+
+std::string versionText(std::uint32_t version)
+{
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "."
+        + std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+// The family with graphics; -1 if there is none.
+int graphicsFamily(const vk::raii::PhysicalDevice& physical)
+{
+    const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
+    for (std::size_t i = 0; i < families.size(); ++i)
+        if (families[i].queueFlags & vk::QueueFlagBits::eGraphics)
+            return int(i);
+    return -1;
+}
+
+std::string missingFeature(const vk::raii::PhysicalDevice& physical)
+{
+    const vk::PhysicalDeviceProperties properties = physical.getProperties();
+    if (properties.apiVersion < VK_API_VERSION_1_3)
+        return "needs Vulkan 1.3, has " + versionText(properties.apiVersion);
+    if (graphicsFamily(physical) < 0)
+        return "has no graphics queue";
+    const auto features =
+        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+    const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+    if (!v13.dynamicRendering || !v13.synchronization2)
+        return "lacks dynamicRendering or synchronization2";
+    return {};
+}
+
+std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
+{
+    std::vector<Candidate> candidates;
+    for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance)) {
+        const vk::PhysicalDeviceProperties properties = physical.getProperties();
+        std::string missing = missingFeature(physical);
+        const auto family = static_cast<std::uint32_t>(std::max(graphicsFamily(physical), 0));
+        candidates.push_back({std::move(physical), std::string(properties.deviceName.data()),
+                              properties.deviceType, family, std::move(missing)});
+    }
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return rank(a.type) < rank(b.type); });
+    return candidates;
+}
+
+std::string lower(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string listed(const std::vector<Candidate>& candidates)
+{
+    std::string text;
+    for (const Candidate& c : candidates)
+        text += (text.empty() ? "" : ", ") + c.name
+            + (c.missing.empty() ? "" : " (" + c.missing + ")");
+    return text.empty() ? "none" : text;
+}
+
+// The first usable candidate whose name contains `wanted`.
+Result<Candidate> choose(std::vector<Candidate> candidates, const std::string& wanted)
+{
+    for (Candidate& c : candidates)
+        if (c.missing.empty() && lower(c.name).find(lower(wanted)) != std::string::npos)
+            return std::move(c);
+    if (wanted.empty())
+        return unavailableError("no Vulkan device can be used; found: " + listed(candidates));
+    return unavailableError("no Vulkan device named '" + wanted
+                            + "' can be used; found: " + listed(candidates));
+}
+
+// ---- opening --------------------------------------------------------------------------------
+
+bool filterable(const vk::raii::PhysicalDevice& physical, vk::Format format)
+{
+    const auto needed = vk::FormatFeatureFlagBits::eSampledImage
+        | vk::FormatFeatureFlagBits::eSampledImageFilterLinear
+        | vk::FormatFeatureFlagBits::eTransferDst;
+    return (physical.getFormatProperties(format).optimalTilingFeatures & needed) == needed;
+}
+
+void describe(Device& d)
+{
+    const auto properties =
+        d.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
+    d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
+    d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
+    d.limits = core.limits;
+    d.granularity = std::max<vk::DeviceSize>(core.limits.bufferImageGranularity, 1);
+    d.memory = d.physical.getMemoryProperties();
+    d.filterable16 = filterable(d.physical, vk::Format::eR16G16B16A16Unorm);
+    d.filterable32 = filterable(d.physical, vk::Format::eR32G32B32A32Sfloat);
+}
+
+void openLogicalDevice(Device& d)
+{
+    const auto has = d.physical.getFeatures2<vk::PhysicalDeviceFeatures2,
+                                             vk::PhysicalDeviceVulkan12Features>();
+    const auto& core = has.get<vk::PhysicalDeviceFeatures2>().features;
+    const auto& v12 = has.get<vk::PhysicalDeviceVulkan12Features>();
+    // Mesa's CPU driver (22.3) draws dots along magnified texel edges with it, and takes long.
+    d.anisotropy = core.samplerAnisotropy && !d.cpu;
+    d.exact = core.geometryShader && v12.bufferDeviceAddress;
+
+    vk::PhysicalDeviceVulkan13Features use13;
+    use13.dynamicRendering = VK_TRUE;
+    use13.synchronization2 = VK_TRUE;
+    vk::PhysicalDeviceVulkan12Features use12;
+    use12.bufferDeviceAddress = d.exact;
+    use12.pNext = &use13;
+    vk::PhysicalDeviceFeatures2 use;
+    use.features.samplerAnisotropy = d.anisotropy;
+    use.features.geometryShader = d.exact; // what SPIR-V asks for reading gl_PrimitiveID
+    use.pNext = &use12;
+
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
+    d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, {}, {}, &use));
+    d.queue = d.device.getQueue(d.queueFamily, 0);
+}
+
+void startValidation(Device& d, bool wanted)
+{
+    const bool validate = wanted && hasValidation(d.context);
+    if (wanted && !validate)
+        d.messages->push_back(std::string(kValidationLayer) + " is not installed");
+    d.instance = makeInstance(d.context, validate, *d.messages);
+    if (validate)
+        d.messenger = vk::raii::DebugUtilsMessengerEXT(d.instance, messengerInfo(*d.messages));
+}
+
+} // namespace
+
+std::string reason(const std::exception& e)
+{
+    std::string text = e.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+Result<std::unique_ptr<Device>> openDevice(const RendererOptions& options)
+{
+    try {
+        auto d = std::make_unique<Device>();
+        d->messages = std::make_unique<std::vector<std::string>>();
+        startValidation(*d, options.validation);
+        Result<Candidate> chosen = choose(findCandidates(d->instance), options.device);
+        if (!chosen)
+            return chosen.error();
+        d->physical = std::move(chosen->physical);
+        d->name = chosen->name;
+        d->queueFamily = chosen->queueFamily;
+        describe(*d);
+        openLogicalDevice(*d);
+        return d;
+    } catch (const std::exception& e) {
+        return unavailableError("Vulkan cannot be used: " + reason(e));
+    }
+}
+
+Result<std::vector<std::string>> renderDevices()
+{
+    try {
+        const vk::raii::Context context;
+        std::vector<std::string> messages;
+        const vk::raii::Instance instance = makeInstance(context, false, messages);
+        const std::vector<Candidate> candidates = findCandidates(instance);
+        std::vector<std::string> names;
+        for (const Candidate& c : candidates)
+            if (c.missing.empty())
+                names.push_back(c.name);
+        if (names.empty())
+            return unavailableError("no Vulkan device can be used; found: " + listed(candidates));
+        return names;
+    } catch (const std::exception& e) {
+        return unavailableError("Vulkan cannot be used: " + reason(e));
+    }
+}
+
+} // namespace cotan

@@ -1,0 +1,365 @@
+#include "draw.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "cotan/portable.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+double now()
+{
+    const auto t = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(t).count();
+}
+
+bool finite(const glm::mat4& m)
+{
+    float sum = 0;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            sum += std::abs(m[column][row]);
+    return std::isfinite(sum);
+}
+
+glm::uvec2 split(vk::DeviceAddress address)
+{
+    return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
+}
+
+// Addresses and flags of CotanDraw.
+void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
+{
+    const Stream texcoord =
+        scene.materials[std::size_t(mesh.material)].normalTexcoord == 1 ? kTexcoord1 : kTexcoord0;
+    const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
+    if (base != 0) {
+        constants.positions = split(base + mesh.offsets[kPosition]);
+        constants.texcoords = split(base + mesh.offsets[texcoord]);
+        constants.indices = split(base + mesh.indices);
+    }
+    if (mesh.has(texcoord))
+        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS;
+    if (mesh.has(kTangent))
+        constants.flags |= COTAN_DRAW_HAS_TANGENTS;
+    if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
+        constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
+}
+
+PipelineKey forwardKey(const View& view, const Targets& targets)
+{
+    PipelineKey key;
+    key.frame = view.frame;
+    key.output = view.output;
+    key.coarse = view.derivatives == Derivatives::coarse;
+    key.normalMaps = view.normalMaps;
+    key.samples = targets.kind().samples;
+    key.format = targets.kind().format;
+    if (view.output == Output::shaded) {
+        key.shading = view.shading;
+        key.environment = view.environment;
+        key.shadows = castsShadow(view);
+        key.toneMap = !view.linearOutput;
+    }
+    return key;
+}
+
+// The maps that a pipeline reads, of those that a material has.
+std::uint32_t mapsNeeded(const PipelineKey& key)
+{
+    if (key.output == Output::shaded)
+        return ~0u;
+    const std::uint32_t alpha = key.alphaMode == AlphaMode::opaque ? 0u : COTAN_MAP_BASE_COLOR;
+    return alpha | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
+}
+
+Status checkView(const Device& device, const View& view)
+{
+    const std::uint32_t largest =
+        std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
+                  device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
+                  device.limits.maxViewportDimensions[1]});
+    const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
+    if (view.width < 1 || view.height < 1 || std::uint32_t(view.width) > largest
+        || std::uint32_t(view.height) > largest)
+        return usageError("size " + size + ": " + device.name + " draws 1 to "
+                          + std::to_string(largest) + " pixels a side");
+    vk::DeviceSize room = 0;
+    for (std::uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
+        room = std::max(room, device.memory.memoryHeaps[i].size);
+    const vk::DeviceSize needed = Targets::bytes(targetKind(device, view));
+    if (needed > room / 10 * 9)
+        return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: "
+                          + device.name + " has " + std::to_string(room >> 20));
+    if (view.frame < 0 || view.frame >= kFrameCount)
+        return usageError("frame " + std::to_string(view.frame) + ": expected 0 to "
+                          + std::to_string(kFrameCount - 1));
+    if (view.frame == int(Frame::exact) && !device.exact)
+        return unavailableError("the frame exact needs the features geometryShader and "
+                                "bufferDeviceAddress: " + device.name + " lacks them");
+    return Done{};
+}
+
+// Blending onto transparent black leaves colours multiplied by alpha; pictures with 8 bits are
+// stored without.
+void divideByAlpha(Image& image)
+{
+    std::uint8_t* p = image.bytes8();
+    for (std::size_t i = 0; i < image.pixelCount(); ++i, p += 4) {
+        if (p[3] == 0 || p[3] == 255)
+            continue;
+        const float alpha = float(p[3]) / 255.0f;
+        for (int c = 0; c < 3; ++c) {
+            const float linear = f32::cotan_srgb_to_linear(float(p[c]) / 255.0f) / alpha;
+            p[c] = std::uint8_t(
+                std::lround(255.0f * f32::cotan_linear_to_srgb(std::min(linear, 1.0f))));
+        }
+    }
+}
+
+} // namespace
+
+struct Drawer::Item {
+    gpu::CotanDraw constants{};
+    const GpuMesh* mesh = nullptr;
+    const GpuMaterial* material = nullptr;
+    bool clockwise = false; // front faces run clockwise over the raster
+    double distance = 0;    // of the centre from the eye
+};
+
+struct Drawer::DrawLists {
+    std::vector<Item> opaque; // near to far
+    std::vector<Item> mask;   // near to far
+    std::vector<Item> blend;  // far to near
+};
+
+Drawer::Drawer(const Device& device, const Layouts& layouts)
+    : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device),
+      memory_(device)
+{
+    viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView),
+                                 vk::BufferUsageFlagBits::eUniformBuffer);
+    vk::SamplerCreateInfo sampler;
+    sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
+    sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    sampler.compareEnable = VK_TRUE;
+    sampler.compareOp = vk::CompareOp::eLessOrEqual;
+    shadowSampler_ = vk::raii::Sampler(device.device, sampler);
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 1),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
+    pool_ = vk::raii::DescriptorPool(
+        device.device,
+        vk::DescriptorPoolCreateInfo({}, 1, sizes));
+    pictureSet_ = allocateSet(device, pool_, layouts.picture);
+}
+
+Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view,
+                                    const Axes& axes) const
+{
+    DrawLists lists;
+    for (const GpuInstance& instance : scene.instances) {
+        if (!finite(instance.toWorld))
+            continue;
+        Item item;
+        item.mesh = &scene.meshes[instance.mesh];
+        item.material = &scene.materials[std::size_t(item.mesh->material)];
+        item.constants = drawConstants(instance.toWorld, axes.eye);
+        addMesh(item.constants, scene, *item.mesh);
+        // A mirroring matrix and a raster whose rows run upward each turn the winding round.
+        item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
+        item.distance = eyeDistance(instance.toWorld, item.mesh->bounds.centre(), axes);
+        switch (item.material->alphaMode) {
+        case AlphaMode::opaque: lists.opaque.push_back(item); break;
+        case AlphaMode::mask: lists.mask.push_back(item); break;
+        case AlphaMode::blend: lists.blend.push_back(item); break;
+        }
+    }
+    const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
+    std::stable_sort(lists.opaque.begin(), lists.opaque.end(), nearer);
+    std::stable_sort(lists.mask.begin(), lists.mask.end(), nearer);
+    std::stable_sort(lists.blend.begin(), lists.blend.end(),
+                     [&](const Item& a, const Item& b) { return nearer(b, a); });
+    return lists;
+}
+
+// A single texel where no shadow is wanted: the descriptor must exist all the same.
+void Drawer::prepareShadowMap(bool needed)
+{
+    const std::uint32_t side = needed ? kShadowSize : 1;
+    if (shadowMap_.extent.width >= side)
+        return;
+    TextureInfo info;
+    info.format = vk::Format::eD32Sfloat;
+    info.extent = vk::Extent2D(side, side);
+    info.usage =
+        vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
+    info.aspect = vk::ImageAspectFlagBits::eDepth;
+    shadowMap_ = {};
+    shadowMemory_ = std::make_unique<Memory>(*device_);
+    shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
+}
+
+void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
+{
+    const gpu::CotanView constants = viewConstants(view, axes, bounds);
+    std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
+    const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);
+    const vk::DeviceSize size = lights.size() * sizeof(gpu::CotanLight);
+    if (lightBuffer_.size < size) {
+        lightBuffer_ = {};
+        lightMemory_ = std::make_unique<Memory>(*device_);
+        lightBuffer_ = makeHostBuffer(*device_, *lightMemory_, size,
+                                      vk::BufferUsageFlagBits::eStorageBuffer);
+    }
+    std::memcpy(lightBuffer_.mapped, lights.data(), size);
+    prepareShadowMap(view.output == Output::shaded && castsShadow(view));
+    writePictureSet();
+}
+
+void Drawer::writePictureSet()
+{
+    const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view,
+                                         vk::ImageLayout::eShaderReadOnlyOptimal);
+    using T = vk::DescriptorType;
+    device_->device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
+         vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
+         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow)},
+        {});
+}
+
+void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                      const Item& item) const
+{
+    const GpuMesh& mesh = *item.mesh;
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 1,
+                                item.material->set, {});
+    std::array<vk::Buffer, kStreamCount> buffers;
+    buffers.fill(*scene.buffers[mesh.buffer].buffer);
+    // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
+    commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
+    commands.bindIndexBuffer(buffers[0], mesh.indices, vk::IndexType::eUint32);
+    commands.pushConstants<gpu::CotanDraw>(*layouts_->pipeline, kBothStages, 0, item.constants);
+    commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
+}
+
+void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                       const std::vector<Item>& items, PipelineKey key)
+{
+    const bool shadow = key.pass != Pass::forward;
+    const std::uint32_t asked = shadow ? 0 : mapsNeeded(key);
+    const Item* before = nullptr;
+    for (const Item& item : items) {
+        key.maps = item.material->maps & asked;
+        if (!before || (before->material->maps & asked) != key.maps)
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
+        before = &item;
+        const bool both = shadow || item.material->doubleSided;
+        commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise
+                                             : vk::FrontFace::eCounterClockwise);
+        drawItem(commands, scene, item);
+    }
+}
+
+void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                          const DrawLists& lists)
+{
+    constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+    const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+    const bool draws = shadowMap_.extent.width > 1;
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
+    if (draws) {
+        vk::RenderingAttachmentInfo depth(*shadowMap_.view,
+                                          vk::ImageLayout::eDepthAttachmentOptimal);
+        depth.loadOp = vk::AttachmentLoadOp::eClear;
+        depth.storeOp = vk::AttachmentStoreOp::eStore;
+        depth.clearValue.depthStencil = vk::ClearDepthStencilValue(1.0f, 0);
+        const vk::Rect2D area({0, 0}, shadowMap_.extent);
+        vk::RenderingInfo rendering({}, area, 1);
+        rendering.pDepthAttachment = &depth;
+        commands.beginRendering(rendering);
+        commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
+        commands.setScissor(0, area);
+        PipelineKey key;
+        key.pass = Pass::shadow;
+        drawItems(commands, scene, lists.opaque, key);
+        key.pass = Pass::shadowMask;
+        drawItems(commands, scene, lists.mask, key);
+        commands.endRendering();
+    }
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+               vk::ImageLayout::eShaderReadOnlyOptimal, stages, write, Stage::eFragmentShader,
+               Access::eShaderSampledRead);
+}
+
+void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                           const DrawLists& lists, const View& view)
+{
+    PipelineKey key = forwardKey(view, *targets_);
+    const bool shaded = view.output == Output::shaded;
+    targets_->begin(commands);
+    drawItems(commands, scene, lists.opaque, key);
+    key.alphaMode = AlphaMode::mask;
+    drawItems(commands, scene, lists.mask, key);
+    if (shaded && view.background) {
+        PipelineKey background;
+        background.pass = Pass::background;
+        background.toneMap = key.toneMap;
+        background.samples = key.samples;
+        background.format = key.format;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(background));
+        commands.setCullMode(vk::CullModeFlagBits::eNone);
+        commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+        commands.draw(3, 1, 0, 0);
+    }
+    key.alphaMode = AlphaMode::blend;
+    drawItems(commands, scene, lists.blend, key);
+    targets_->end(commands);
+}
+
+Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
+{
+    if (const Status ok = checkView(*device_, view); !ok)
+        return ok.error();
+    const Targets::Kind kind = targetKind(*device_, view);
+    if (!targets_ || !(targets_->kind() == kind)) {
+        targets_.reset(); // its memory may be needed for the new ones
+        targets_ = std::make_unique<Targets>(*device_, kind);
+    }
+    const Axes axes = cameraAxes(view.camera);
+    scene.setPointSampled(view.pointSampled);
+    prepare(view, axes, scene.bounds);
+    const DrawLists lists = makeLists(scene, view, axes);
+
+    const vk::raii::CommandBuffer& commands = commands_.begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
+                                pictureSet_, {});
+    recordShadow(commands, scene, lists);
+    recordPicture(commands, scene, lists, view);
+    const double start = now();
+    commands_.submitAndWait();
+    const double drawn = now();
+    Image image = targets_->image(view.rowsUpward);
+    if (image.type == PixelType::unorm8 && !view.background)
+        divideByAlpha(image);
+    timings.draw = drawn - start;
+    timings.readBack = now() - drawn;
+    return image;
+}
+
+} // namespace cotan

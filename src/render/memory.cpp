@@ -1,0 +1,236 @@
+#include "memory.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace cotan {
+
+namespace {
+
+constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
+
+vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
+                  vk::BufferUsageFlags usage, vk::MemoryPropertyFlags needed,
+                  vk::MemoryPropertyFlags wanted)
+{
+    Buffer b;
+    b.size = std::max<vk::DeviceSize>(size, 4);
+    b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, b.size, usage));
+    const Memory::Piece piece = memory.allocate(b.buffer.getMemoryRequirements(), needed, wanted);
+    b.buffer.bindMemory(piece.memory, piece.offset);
+    if (needed & vk::MemoryPropertyFlagBits::eHostVisible)
+        b.mapped = piece.mapped;
+    if (usage & vk::BufferUsageFlagBits::eShaderDeviceAddress)
+        b.address = device.device.getBufferAddress({*b.buffer});
+    return b;
+}
+
+} // namespace
+
+std::uint32_t Memory::chooseType(std::uint32_t allowed, vk::MemoryPropertyFlags needed,
+                                 vk::MemoryPropertyFlags wanted) const
+{
+    const vk::PhysicalDeviceMemoryProperties& p = device_->memory;
+    for (const vk::MemoryPropertyFlags flags : {needed | wanted, needed})
+        for (std::uint32_t i = 0; i < p.memoryTypeCount; ++i)
+            if ((allowed >> i & 1) && (p.memoryTypes[i].propertyFlags & flags) == flags)
+                return i;
+    throw vk::FeatureNotPresentError("the device has no memory of the needed type");
+}
+
+Memory::Block& Memory::addBlock(std::uint32_t type, vk::DeviceSize size)
+{
+    const vk::MemoryAllocateFlagsInfo flags(
+        device_->exact ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags());
+    vk::MemoryAllocateInfo info(size, type, &flags);
+    Block block{vk::raii::DeviceMemory(device_->device, info), type, size};
+    const vk::MemoryPropertyFlags properties = device_->memory.memoryTypes[type].propertyFlags;
+    const auto mappable =
+        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+    if ((properties & mappable) == mappable)
+        block.mapped = static_cast<std::byte*>(block.memory.mapMemory(0, VK_WHOLE_SIZE));
+    return blocks_.emplace_back(std::move(block));
+}
+
+Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements,
+                               vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
+{
+    const std::uint32_t type = chooseType(requirements.memoryTypeBits, needed, wanted);
+    // Buffers and images may share a block, so both keep the distance that they need.
+    const vk::DeviceSize alignment = std::max(requirements.alignment, device_->granularity);
+    Block* block = nullptr;
+    for (Block& b : blocks_)
+        if (b.type == type && aligned(b.used, alignment) + requirements.size <= b.size)
+            block = &b;
+    if (!block)
+        block = &addBlock(type, std::max(requirements.size, kBlockSize));
+    const vk::DeviceSize offset = aligned(block->used, alignment);
+    block->used = offset + requirements.size;
+    return {*block->memory, offset, block->mapped ? block->mapped + offset : nullptr};
+}
+
+Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
+                        vk::BufferUsageFlags usage)
+{
+    return makeBuffer(device, memory, size, usage, {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+}
+
+Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
+                      vk::BufferUsageFlags usage, bool readBack)
+{
+    return makeBuffer(
+        device, memory, size, usage,
+        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent,
+        readBack ? vk::MemoryPropertyFlagBits::eHostCached : vk::MemoryPropertyFlags());
+}
+
+Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
+{
+    Texture2D t;
+    t.format = info.format;
+    t.extent = info.extent;
+    t.levels = info.levels;
+    vk::ImageCreateInfo create;
+    create.imageType = vk::ImageType::e2D;
+    create.format = info.format;
+    create.extent = vk::Extent3D(info.extent, 1);
+    create.mipLevels = info.levels;
+    create.arrayLayers = 1;
+    create.samples = info.samples;
+    create.usage = info.usage;
+    t.image = vk::raii::Image(device.device, create);
+    const Memory::Piece piece = memory.allocate(t.image.getMemoryRequirements(), {},
+                                                vk::MemoryPropertyFlagBits::eDeviceLocal);
+    t.image.bindMemory(piece.memory, piece.offset);
+    const vk::ImageSubresourceRange range(info.aspect, 0, info.levels, 0, 1);
+    t.view = vk::raii::ImageView(
+        device.device,
+        vk::ImageViewCreateInfo({}, *t.image, vk::ImageViewType::e2D, info.format, {}, range));
+    return t;
+}
+
+Commands::Commands(const Device& device) : device_(&device)
+{
+    pool_ = vk::raii::CommandPool(
+        device.device, {vk::CommandPoolCreateFlagBits::eTransient, device.queueFamily});
+    buffer_ = std::move(vk::raii::CommandBuffers(
+        device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+    fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
+}
+
+const vk::raii::CommandBuffer& Commands::begin()
+{
+    pool_.reset();
+    buffer_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    return buffer_;
+}
+
+void Commands::submitAndWait()
+{
+    buffer_.end();
+    const vk::CommandBufferSubmitInfo commands(*buffer_);
+    device_->queue.submit2(vk::SubmitInfo2({}, {}, commands), *fence_);
+    while (device_->device.waitForFences(*fence_, VK_TRUE, UINT64_MAX) == vk::Result::eTimeout) {
+    }
+    device_->device.resetFences(*fence_);
+}
+
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image,
+                vk::ImageAspectFlags aspect, vk::ImageLayout from, vk::ImageLayout to,
+                vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
+                vk::PipelineStageFlags2 after, vk::AccessFlags2 used)
+{
+    const vk::ImageMemoryBarrier2 barrier(
+        before, written, after, used, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
+        image, {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS});
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+Uploader::Uploader(const Device& device, vk::DeviceSize capacity)
+    : memory_(device), commands_(device)
+{
+    const vk::DeviceSize widest = vk::DeviceSize(device.limits.maxImageDimension2D) * 16;
+    staging_ = makeHostBuffer(device, memory_, std::max(capacity, widest),
+                              vk::BufferUsageFlagBits::eTransferSrc);
+}
+
+const vk::raii::CommandBuffer& Uploader::recording()
+{
+    if (!recording_)
+        recording_ = &commands_.begin();
+    return *recording_;
+}
+
+void Uploader::finish()
+{
+    if (recording_)
+        commands_.submitAndWait();
+    recording_ = nullptr;
+    used_ = 0;
+}
+
+vk::DeviceSize Uploader::room(vk::DeviceSize size, vk::DeviceSize least)
+{
+    used_ = aligned(used_, 16);
+    if (used_ + std::min(size, least) > staging_.size)
+        finish();
+    return std::min(size, staging_.size - used_);
+}
+
+void Uploader::buffer(const Buffer& target, vk::DeviceSize offset,
+                      std::span<const std::byte> data)
+{
+    while (!data.empty()) {
+        const vk::DeviceSize part = room(data.size(), 4096);
+        std::memcpy(staging_.mapped + used_, data.data(), part);
+        recording().copyBuffer(*staging_.buffer, *target.buffer,
+                               vk::BufferCopy(used_, offset, part));
+        used_ += part;
+        offset += part;
+        data = data.subspan(part);
+    }
+}
+
+void Uploader::level(const Texture2D& target, std::uint32_t index,
+                     std::span<const std::byte> data, std::size_t bytesPerTexel)
+{
+    const std::uint32_t width = std::max(target.extent.width >> index, 1u);
+    const std::uint32_t height = std::max(target.extent.height >> index, 1u);
+    const vk::DeviceSize row = vk::DeviceSize(width) * bytesPerTexel;
+    for (std::uint32_t y = 0; y < height;) {
+        const vk::DeviceSize most = room(row * (height - y), row);
+        const auto rows = static_cast<std::uint32_t>(most / row);
+        std::memcpy(staging_.mapped + used_, data.data() + y * row, rows * row);
+        const vk::BufferImageCopy copy(
+            used_, 0, 0, {vk::ImageAspectFlagBits::eColor, index, 0, 1},
+            {0, std::int32_t(y), 0}, {width, rows, 1});
+        recording().copyBufferToImage(*staging_.buffer, *target.image,
+                                      vk::ImageLayout::eTransferDstOptimal, copy);
+        used_ += rows * row;
+        y += rows;
+    }
+}
+
+void Uploader::image(const Texture2D& target,
+                     std::span<const std::span<const std::byte>> levels,
+                     std::size_t bytesPerTexel)
+{
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    const auto color = vk::ImageAspectFlagBits::eColor;
+    transition(recording(), *target.image, color, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eTransferDstOptimal, Stage::eTopOfPipe, {}, Stage::eTransfer,
+               Access::eTransferWrite);
+    for (std::uint32_t i = 0; i < target.levels; ++i)
+        level(target, i, levels[i], bytesPerTexel);
+    transition(recording(), *target.image, color, vk::ImageLayout::eTransferDstOptimal,
+               vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eTransfer, Access::eTransferWrite,
+               Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+} // namespace cotan

@@ -1,0 +1,122 @@
+// Device memory, buffers, images, and the way from the CPU into them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "device.hpp"
+
+namespace cotan {
+
+// Memory in blocks, handed out from front to back and given back all at once.
+class Memory {
+public:
+    explicit Memory(const Device& device) : device_(&device) {}
+
+    struct Piece {
+        vk::DeviceMemory memory;
+        vk::DeviceSize offset = 0;
+        std::byte* mapped = nullptr; // where the memory is host visible
+    };
+
+    // Throws vk::SystemError where there is no memory left.
+    // wanted: tried first; needed: must be there.
+    Piece allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
+                   vk::MemoryPropertyFlags wanted = {});
+
+private:
+    struct Block {
+        vk::raii::DeviceMemory memory;
+        std::uint32_t type = 0;
+        vk::DeviceSize size = 0;
+        vk::DeviceSize used = 0;
+        std::byte* mapped = nullptr;
+    };
+    Block& addBlock(std::uint32_t type, vk::DeviceSize size);
+    std::uint32_t chooseType(std::uint32_t allowed, vk::MemoryPropertyFlags needed,
+                             vk::MemoryPropertyFlags wanted) const;
+
+    const Device* device_;
+    std::vector<Block> blocks_;
+};
+
+struct Buffer {
+    vk::raii::Buffer buffer{nullptr};
+    vk::DeviceSize size = 0;
+    vk::DeviceAddress address = 0; // where the usage asks for one
+    std::byte* mapped = nullptr;   // host buffers only
+};
+
+struct Texture2D {
+    vk::raii::Image image{nullptr};
+    vk::raii::ImageView view{nullptr};
+    vk::Format format = vk::Format::eUndefined;
+    vk::Extent2D extent;
+    std::uint32_t levels = 1;
+};
+
+Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
+                        vk::BufferUsageFlags usage);
+// Host visible and coherent, mapped. readBack: prefer cached memory.
+Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
+                      vk::BufferUsageFlags usage, bool readBack = false);
+
+struct TextureInfo {
+    vk::Format format = vk::Format::eR8G8B8A8Unorm;
+    vk::Extent2D extent;
+    std::uint32_t levels = 1;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    vk::ImageUsageFlags usage;
+    vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;
+};
+Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info);
+
+// A command buffer that is recorded, submitted and waited for; then it can be recorded again.
+class Commands {
+public:
+    explicit Commands(const Device& device);
+    const vk::raii::CommandBuffer& begin();
+    void submitAndWait();
+
+private:
+    const Device* device_;
+    vk::raii::CommandPool pool_{nullptr};
+    vk::raii::CommandBuffer buffer_{nullptr};
+    vk::raii::Fence fence_{nullptr};
+};
+
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image,
+                vk::ImageAspectFlags aspect, vk::ImageLayout from, vk::ImageLayout to,
+                vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
+                vk::PipelineStageFlags2 after, vk::AccessFlags2 used);
+
+// Copies data into device buffers and images through one staging buffer, which is emptied when
+// full. finish() must be called before what was uploaded is used.
+class Uploader {
+public:
+    // capacity: bytes of the staging buffer; at least one row of the widest image is made sure of.
+    Uploader(const Device& device, vk::DeviceSize capacity);
+
+    void buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data);
+    // levels: finest first, as many as the texture has, each without padding.
+    void image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
+               std::size_t bytesPerTexel);
+    void finish();
+
+private:
+    const vk::raii::CommandBuffer& recording();
+    // Room for `size` bytes, at most what is left; empties the buffer when nothing useful is.
+    vk::DeviceSize room(vk::DeviceSize size, vk::DeviceSize least);
+    void level(const Texture2D& target, std::uint32_t index, std::span<const std::byte> data,
+               std::size_t bytesPerTexel);
+
+    Memory memory_;
+    Commands commands_;
+    Buffer staging_;
+    vk::DeviceSize used_ = 0;
+    const vk::raii::CommandBuffer* recording_ = nullptr;
+};
+
+} // namespace cotan

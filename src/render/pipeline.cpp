@@ -1,0 +1,212 @@
+#include "pipeline.hpp"
+
+#include <array>
+
+#include "gpu_structs.hpp"
+#include "scene_upload.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
+                                            std::span<const vk::DescriptorType> types)
+{
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (const vk::DescriptorType type : types)
+        bindings.emplace_back(static_cast<std::uint32_t>(bindings.size()), type, 1, kBothStages);
+    return vk::raii::DescriptorSetLayout(device.device,
+                                         vk::DescriptorSetLayoutCreateInfo({}, bindings));
+}
+
+// The values of shaders/constants.glsl, in the order of their numbers.
+struct Specialization {
+    std::array<std::uint32_t, 10> values;
+    std::array<vk::SpecializationMapEntry, 10> entries;
+    vk::SpecializationInfo info;
+
+    explicit Specialization(const PipelineKey& key)
+        : values{static_cast<std::uint32_t>(key.frame),
+                 static_cast<std::uint32_t>(key.output),
+                 static_cast<std::uint32_t>(key.shading),
+                 static_cast<std::uint32_t>(key.alphaMode),
+                 key.coarse,
+                 key.normalMaps,
+                 key.environment,
+                 key.shadows,
+                 key.toneMap,
+                 key.maps}
+    {
+        for (std::uint32_t i = 0; i < entries.size(); ++i)
+            entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
+        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                      sizeof values, values.data());
+    }
+    Specialization(const Specialization&) = delete; // info points into this
+};
+
+struct StageShaders {
+    Shader vertex;
+    std::optional<Shader> fragment;
+};
+
+StageShaders shadersOf(const PipelineKey& key)
+{
+    constexpr int kExact = 10;
+    switch (key.pass) {
+    case Pass::shadow: return {Shader::shadowVert, std::nullopt};
+    case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
+    case Pass::forward: break;
+    }
+    return {Shader::forwardVert,
+            key.frame == kExact ? Shader::forwardExactFrag : Shader::forwardFrag};
+}
+
+// One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
+struct VertexInput {
+    std::array<vk::VertexInputBindingDescription, kStreamCount> bindings;
+    std::array<vk::VertexInputAttributeDescription, kStreamCount> attributes;
+    vk::PipelineVertexInputStateCreateInfo info;
+
+    explicit VertexInput(Pass pass)
+    {
+        using F = vk::Format;
+        constexpr std::array<F, kStreamCount> formats{
+            F::eR32G32B32Sfloat,    F::eR32G32B32Sfloat,    F::eR32G32Sfloat,
+            F::eR32G32Sfloat,       F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat,
+            F::eR32G32B32Sfloat,    F::eR32G32B32Sfloat,    F::eR32G32B32A32Sfloat};
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < kStreamCount; ++i) {
+            const bool forShadow = i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor
+                || i == kTexcoordOrigin;
+            if (pass == Pass::background || (pass != Pass::forward && !forShadow))
+                continue;
+            bindings[count] = vk::VertexInputBindingDescription(i, 0);
+            attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
+        }
+        info = vk::PipelineVertexInputStateCreateInfo({}, count, bindings.data(), count,
+                                                      attributes.data());
+    }
+    VertexInput(const VertexInput&) = delete;
+};
+
+vk::PipelineColorBlendAttachmentState blending(bool blend)
+{
+    using C = vk::ColorComponentFlagBits;
+    vk::PipelineColorBlendAttachmentState state;
+    state.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
+    state.blendEnable = blend;
+    state.srcColorBlendFactor = vk::BlendFactor::eSrcAlpha;
+    state.dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    state.srcAlphaBlendFactor = vk::BlendFactor::eOne;
+    state.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    return state;
+}
+
+// Depth is reversed for the camera; the shadow map is not.
+vk::PipelineDepthStencilStateCreateInfo depthState(const PipelineKey& key, bool blend)
+{
+    vk::PipelineDepthStencilStateCreateInfo state;
+    state.depthTestEnable = VK_TRUE;
+    state.depthWriteEnable = key.pass != Pass::background && !blend;
+    state.depthCompareOp = key.pass == Pass::forward ? vk::CompareOp::eGreater
+        : key.pass == Pass::background               ? vk::CompareOp::eGreaterOrEqual
+                                                     : vk::CompareOp::eLess;
+    return state;
+}
+
+vk::PipelineRasterizationStateCreateInfo rasterization(bool shadow)
+{
+    vk::PipelineRasterizationStateCreateInfo state;
+    state.lineWidth = 1;
+    state.depthBiasEnable = shadow;
+    state.depthBiasSlopeFactor = 1.5f;
+    return state;
+}
+
+} // namespace
+
+Layouts::Layouts(const Device& device)
+{
+    using T = vk::DescriptorType;
+    constexpr T kImage = T::eCombinedImageSampler;
+    picture = makeSetLayout(device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage});
+    material = makeSetLayout(
+        device, std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
+    const std::array sets{*picture, *material};
+    const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
+    pipeline = vk::raii::PipelineLayout(device.device,
+                                        vk::PipelineLayoutCreateInfo({}, sets, constants));
+}
+
+vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
+                              const vk::raii::DescriptorSetLayout& layout)
+{
+    // The bindings' own sets give themselves back, which would order their destruction.
+    const vk::DescriptorSetAllocateInfo info(*pool, *layout);
+    return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
+}
+
+vk::ShaderModule Pipelines::module(Shader shader)
+{
+    auto found = modules_.find(shader);
+    if (found == modules_.end()) {
+        const std::span<const std::uint32_t> code = spirv(shader);
+        const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
+        found = modules_.emplace(shader, vk::raii::ShaderModule(device_->device, info)).first;
+    }
+    return *found->second;
+}
+
+vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
+{
+    const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
+    const bool blend = key.pass == Pass::forward && key.alphaMode == AlphaMode::blend
+        && key.output == Output::shaded;
+    const Specialization specialization(key);
+    const StageShaders shaders = shadersOf(key);
+    std::vector<vk::PipelineShaderStageCreateInfo> stages;
+    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex,
+                        module(shaders.vertex), "main");
+    if (shaders.fragment)
+        stages.emplace_back(vk::PipelineShaderStageCreateFlags(),
+                            vk::ShaderStageFlagBits::eFragment, module(*shaders.fragment), "main",
+                            &specialization.info);
+
+    const VertexInput vertexInput(key.pass);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly(
+        {}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
+    const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
+    const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key, blend);
+    const vk::PipelineColorBlendAttachmentState attachment = blending(blend);
+    const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, shadow ? 0u : 1u,
+                                                      &attachment);
+    std::vector<vk::DynamicState> dynamic{
+        vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode,
+        vk::DynamicState::eFrontFace};
+    if (key.pass != Pass::background)
+        dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
+    const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
+    const vk::PipelineRenderingCreateInfo rendering(0, shadow ? 0u : 1u, &key.format,
+                                                    vk::Format::eD32Sfloat);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr,
+                                        &viewport, &raster, &multisample, &depth, &color,
+                                        &dynamicState, *layouts_->pipeline);
+    info.pNext = &rendering;
+    return vk::raii::Pipeline(device_->device, nullptr, info);
+}
+
+vk::Pipeline Pipelines::get(const PipelineKey& key)
+{
+    auto found = pipelines_.find(key);
+    if (found == pipelines_.end())
+        found = pipelines_.emplace(key, make(key)).first;
+    return *found->second;
+}
+
+} // namespace cotan

@@ -1,0 +1,64 @@
+// Layouts and pipelines. Pipelines are made when first needed: on a CPU driver each costs a
+// compilation of the whole fragment shader.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <optional>
+
+#include "cotan/scene/view.hpp"
+#include "device.hpp"
+#include "shaders.hpp"
+
+namespace cotan {
+
+struct Layouts {
+    explicit Layouts(const Device& device);
+
+    vk::raii::DescriptorSetLayout picture{nullptr};  // set 0: view, lights, shadow map
+    vk::raii::DescriptorSetLayout material{nullptr}; // set 1
+    vk::raii::PipelineLayout pipeline{nullptr};
+};
+
+// A set that lives as long as its pool.
+vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
+                              const vk::raii::DescriptorSetLayout& layout);
+
+enum class Pass { shadow, shadowMask, forward, background };
+
+// Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
+// defaults, so that equal pipelines have equal keys.
+struct PipelineKey {
+    Pass pass = Pass::forward;
+    AlphaMode alphaMode = AlphaMode::opaque;
+    int frame = 0;
+    Output output = Output::shaded;
+    Shading shading = Shading::pbr;
+    bool coarse = false;
+    bool normalMaps = true;
+    bool environment = true;
+    bool shadows = true;
+    bool toneMap = true;
+    std::uint32_t maps = 0; // COTAN_MAP_...: what the materials drawn with it may have
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    vk::Format format = vk::Format::eUndefined;
+
+    auto operator<=>(const PipelineKey&) const = default;
+};
+
+class Pipelines {
+public:
+    Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
+    vk::Pipeline get(const PipelineKey& key);
+
+private:
+    vk::ShaderModule module(Shader shader);
+    vk::raii::Pipeline make(const PipelineKey& key);
+
+    const Device* device_;
+    const Layouts* layouts_;
+    std::map<Shader, vk::raii::ShaderModule> modules_;
+    std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+};
+
+} // namespace cotan

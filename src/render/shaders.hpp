@@ -1,0 +1,24 @@
+// The compiled shaders.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace cotan {
+
+enum class Shader {
+    forwardVert,
+    forwardFrag,
+    forwardExactFrag, // needs the features geometryShader (for gl_PrimitiveID) and buffer addresses
+    backgroundVert,
+    backgroundFrag,
+    shadowVert,
+    shadowFrag,
+};
+
+inline constexpr int kShaderCount = 7;
+
+// SPIR-V words.
+std::span<const std::uint32_t> spirv(Shader shader);
+
+} // namespace cotan

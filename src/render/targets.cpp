@@ -1,0 +1,146 @@
+#include "targets.hpp"
+
+#include <cstring>
+
+namespace cotan {
+
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
+constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
+
+vk::DeviceSize bytesPerPixel(vk::Format format)
+{
+    return format == vk::Format::eR32G32B32A32Sfloat ? 16 : 4;
+}
+
+TextureInfo attachmentInfo(const Targets::Kind& kind)
+{
+    TextureInfo info;
+    info.format = kind.format;
+    info.extent = vk::Extent2D(kind.width, kind.height);
+    info.samples = kind.samples;
+    return info;
+}
+
+} // namespace
+
+vk::DeviceSize Targets::bytes(const Kind& kind)
+{
+    const vk::DeviceSize color = bytesPerPixel(kind.format);
+    const auto samples = static_cast<vk::DeviceSize>(kind.samples);
+    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * color);
+}
+
+Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
+{
+    TextureInfo info = attachmentInfo(kind);
+    info.usage = vk::ImageUsageFlagBits::eColorAttachment;
+    if (!multisampled())
+        info.usage |= vk::ImageUsageFlagBits::eTransferSrc;
+    color_ = makeTexture(device, memory_, info);
+    if (multisampled()) {
+        info.samples = vk::SampleCountFlagBits::e1;
+        info.usage |= vk::ImageUsageFlagBits::eTransferSrc;
+        resolved_ = makeTexture(device, memory_, info);
+    }
+    TextureInfo depth = attachmentInfo(kind);
+    depth.format = vk::Format::eD32Sfloat;
+    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    depth.aspect = vk::ImageAspectFlagBits::eDepth;
+    depth_ = makeTexture(device, memory_, depth);
+    readBack_ = makeHostBuffer(
+        device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.format),
+        vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
+}
+
+void Targets::begin(const vk::raii::CommandBuffer& commands)
+{
+    transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
+               Stage::eTransfer | Stage::eColorAttachmentOutput, {},
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    if (resolved_)
+        transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined,
+                   kAttachment, Stage::eTransfer | Stage::eColorAttachmentOutput, {},
+                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    const auto depthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+               vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal, depthStages,
+               Access::eDepthStencilAttachmentWrite, depthStages,
+               Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eClear;
+    color.storeOp = resolved_ ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore;
+    if (resolved_) {
+        color.resolveMode = vk::ResolveModeFlagBits::eAverage;
+        color.resolveImageView = *resolved_->view;
+        color.resolveImageLayout = kAttachment;
+    }
+    vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
+    depth.loadOp = vk::AttachmentLoadOp::eClear;
+    depth.storeOp = vk::AttachmentStoreOp::eDontCare;
+    depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
+    const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
+    commands.setViewport(
+        0, vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
+    commands.setScissor(0, area);
+}
+
+void Targets::end(const vk::raii::CommandBuffer& commands)
+{
+    commands.endRendering();
+    const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
+    transition(commands, source, kColorAspect, kAttachment, vk::ImageLayout::eTransferSrcOptimal,
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
+               Access::eTransferRead);
+    const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0},
+                                   {kind_.width, kind_.height, 1});
+    commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer,
+                               copy);
+    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost,
+                                    Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, toHost));
+}
+
+Image Targets::image(bool flipRows) const
+{
+    const bool floats = kind_.format == vk::Format::eR32G32B32A32Sfloat;
+    Image image = makeImage(int(kind_.width), int(kind_.height),
+                            floats ? PixelType::float32 : PixelType::unorm8, "render");
+    const std::size_t row = kind_.width * image.bytesPerPixel();
+    if (!flipRows)
+        std::memcpy(image.data.data(), readBack_.mapped, image.data.size());
+    else
+        for (std::size_t y = 0; y < kind_.height; ++y)
+            std::memcpy(image.data.data() + y * row,
+                        readBack_.mapped + (kind_.height - 1 - y) * row, row);
+    return image;
+}
+
+Targets::Kind targetKind(const Device& device, const View& view)
+{
+    Targets::Kind kind;
+    kind.width = static_cast<std::uint32_t>(view.width);
+    kind.height = static_cast<std::uint32_t>(view.height);
+    const bool shaded = view.output == Output::shaded;
+    kind.format = shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb
+                                               : vk::Format::eR32G32B32A32Sfloat;
+    if (shaded && view.samples > 1) {
+        const vk::SampleCountFlags can =
+            device.physical
+                .getImageFormatProperties(kind.format, vk::ImageType::e2D,
+                                          vk::ImageTiling::eOptimal,
+                                          vk::ImageUsageFlagBits::eColorAttachment)
+                .sampleCounts
+            & device.limits.framebufferDepthSampleCounts;
+        if (can & vk::SampleCountFlagBits::e4)
+            kind.samples = vk::SampleCountFlagBits::e4;
+    }
+    return kind;
+}
+
+} // namespace cotan

@@ -1,0 +1,49 @@
+// What is drawn into, and how it comes back.
+#pragma once
+
+#include <optional>
+
+#include "cotan/scene/view.hpp"
+#include "memory.hpp"
+
+namespace cotan {
+
+// Colour, depth and the buffer for reading back, of one size and kind.
+class Targets {
+public:
+    struct Kind {
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+        vk::Format format = vk::Format::eUndefined;
+        vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+        bool operator==(const Kind&) const = default;
+    };
+
+    // Bytes of device memory that targets of that kind take.
+    static vk::DeviceSize bytes(const Kind& kind);
+
+    Targets(const Device& device, const Kind& kind);
+
+    const Kind& kind() const { return kind_; }
+    bool multisampled() const { return kind_.samples != vk::SampleCountFlagBits::e1; }
+
+    // Starts drawing: everything cleared to 0 (depth is reversed, so 0 is far away).
+    void begin(const vk::raii::CommandBuffer& commands);
+    // Ends drawing, resolves, and copies into the read-back buffer.
+    void end(const vk::raii::CommandBuffer& commands);
+    // The picture, upright. Only after the commands have been waited for.
+    Image image(bool flipRows) const;
+
+private:
+    Memory memory_;
+    Kind kind_;
+    Texture2D color_;
+    std::optional<Texture2D> resolved_;
+    Texture2D depth_;
+    Buffer readBack_;
+};
+
+// The kind of targets for a view: what its output asks for and the device can do.
+Targets::Kind targetKind(const Device& device, const View& view);
+
+} // namespace cotan

@@ -1,0 +1,190 @@
+#include "textures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace cotan {
+
+namespace {
+
+// Images whose chains are built before they are uploaded: bounds the memory for it.
+constexpr std::size_t kBatchBytes = std::size_t(256) << 20;
+
+vk::Format formatOf(TexelFormat format)
+{
+    switch (format) {
+    case TexelFormat::srgb8: return vk::Format::eR8G8B8A8Srgb;
+    case TexelFormat::unorm8: return vk::Format::eR8G8B8A8Unorm;
+    case TexelFormat::unorm16: return vk::Format::eR16G16B16A16Unorm;
+    case TexelFormat::float16: return vk::Format::eR16G16B16A16Sfloat;
+    case TexelFormat::float32: break;
+    }
+    return vk::Format::eR32G32B32A32Sfloat;
+}
+
+vk::SamplerAddressMode addressMode(Wrap wrap)
+{
+    switch (wrap) {
+    case Wrap::repeat: return vk::SamplerAddressMode::eRepeat;
+    case Wrap::mirror: return vk::SamplerAddressMode::eMirroredRepeat;
+    case Wrap::clamp: break;
+    }
+    return vk::SamplerAddressMode::eClampToEdge;
+}
+
+vk::Filter filterOf(Filter filter)
+{
+    return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear;
+}
+
+// Calls work(0) ... work(count - 1) on all cores, in no order; passes the first exception on.
+template<class Work>
+void onAllCores(std::size_t count, Work work)
+{
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto run = [&] {
+        try {
+            for (std::size_t i = next++; i < count; i = next++)
+                work(i);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            failure = std::current_exception();
+        }
+    };
+    const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 1; i < std::min(cores, count); ++i)
+            threads.emplace_back(run);
+        run();
+    }
+    if (failure)
+        std::rethrow_exception(failure);
+}
+
+const Image& whiteImage()
+{
+    static const Image image = [] {
+        Image white = makeImage(1, 1, PixelType::unorm8, "white");
+        std::fill(white.data.begin(), white.data.end(), std::byte{255});
+        return white;
+    }();
+    return image;
+}
+
+} // namespace
+
+vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
+{
+    const Key key{s.wrapU, s.wrapV, s.magnify, s.minify, s.mip, pointSampled};
+    const auto found = made_.find(key);
+    if (found != made_.end())
+        return *found->second;
+    vk::SamplerCreateInfo info;
+    info.addressModeU = addressMode(s.wrapU);
+    info.addressModeV = addressMode(s.wrapV);
+    info.magFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.magnify);
+    info.minFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.minify);
+    info.mipmapMode = s.mip == MipFilter::linear && !pointSampled ? vk::SamplerMipmapMode::eLinear
+                                                                  : vk::SamplerMipmapMode::eNearest;
+    // 0.25 keeps the choice between magnification and minification, but not a second level.
+    info.maxLod = pointSampled ? 0.0f : s.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE;
+    const bool stretch = device_->anisotropy && !pointSampled && s.mip != MipFilter::none
+        && s.minify == Filter::linear && s.magnify == Filter::linear;
+    info.anisotropyEnable = stretch;
+    info.maxAnisotropy = stretch ? std::min(8.0f, device_->limits.maxSamplerAnisotropy) : 1.0f;
+    return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
+}
+
+Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const NormalMapFormat& format)
+{
+    if (kind != TextureKind::normal)
+        return {use.image, kind, 0, 0};
+    return {use.image, kind, format.expansion, format.channels};
+}
+
+void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
+                       const NormalMapFormat& format)
+{
+    if (!use.present() || std::size_t(use.image) >= scene.images.size())
+        return;
+    const Image& image = scene.images[std::size_t(use.image)];
+    if (!usableImage(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
+        return;
+    MipRequest r;
+    r.image = &image;
+    r.kind = kind;
+    r.normalFormat = format;
+    r.format = texelFormat(image.type, kind, device_->filterable16, device_->filterable32);
+    r.largest = int(device_->limits.maxImageDimension2D);
+    requests_.push_back(r);
+}
+
+void Textures::collect(const Scene& scene)
+{
+    for (const Material& m : scene.materials) {
+        request(scene, m.baseColorMap, TextureKind::color, {});
+        request(scene, m.normalMap, TextureKind::normal, m.normalFormat);
+        if (m.unlit)
+            continue;
+        request(scene, m.metallicRoughnessMap, TextureKind::data, {});
+        request(scene, m.occlusionMap, TextureKind::data, {});
+        request(scene, m.emissiveMap, TextureKind::color, {});
+    }
+    MipRequest white;
+    white.image = &whiteImage();
+    requests_.push_back(white);
+}
+
+Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
+{
+    TextureInfo info;
+    info.format = formatOf(chain.format);
+    info.extent = vk::Extent2D(static_cast<std::uint32_t>(chain.levels[0].width),
+                               static_cast<std::uint32_t>(chain.levels[0].height));
+    info.levels = static_cast<std::uint32_t>(chain.levels.size());
+    info.usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst;
+    Texture2D texture = makeTexture(*device_, memory_, info);
+    std::vector<std::span<const std::byte>> levels;
+    for (const MipLevel& level : chain.levels)
+        levels.push_back(level.data);
+    uploader.image(texture, levels, bytesPerTexel(chain.format));
+    return texture;
+}
+
+void Textures::load(const Scene& scene, Uploader& uploader)
+{
+    collect(scene);
+    for (std::size_t first = 0; first < requests_.size();) {
+        std::size_t end = first;
+        for (std::size_t bytes = 0; end < requests_.size() && bytes < kBatchBytes; ++end)
+            bytes += requests_[end].image->data.size();
+        std::vector<MipChain> chains(end - first);
+        onAllCores(chains.size(),
+                   [&](std::size_t i) { chains[i] = buildMips(requests_[first + i]); });
+        for (const MipChain& chain : chains)
+            textures_.push_back(upload(chain, uploader));
+        first = end;
+    }
+}
+
+bool Textures::present(const Texture& use, TextureKind kind, const NormalMapFormat& format) const
+{
+    return use.present() && index_.contains(keyOf(use, kind, format));
+}
+
+vk::ImageView Textures::view(const Texture& use, TextureKind kind,
+                             const NormalMapFormat& format) const
+{
+    if (!present(use, kind, format))
+        return *textures_.back().view;
+    return *textures_[index_.at(keyOf(use, kind, format))].view;
+}
+
+} // namespace cotan

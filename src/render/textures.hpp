@@ -1,0 +1,55 @@
+// The textures of a scene on the device: what materials use, each with its mip chain.
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "memory.hpp"
+#include "mips.hpp"
+
+namespace cotan {
+
+// Samplers made on demand and shared.
+class Samplers {
+public:
+    explicit Samplers(const Device& device) : device_(&device) {}
+
+    // pointSampled: nearest texel of the finest level whatever the sampler says; wrap is kept.
+    vk::Sampler get(const Sampler& sampler, bool pointSampled);
+
+private:
+    using Key = std::tuple<Wrap, Wrap, Filter, Filter, MipFilter, bool>;
+    const Device* device_;
+    std::map<Key, vk::raii::Sampler> made_;
+};
+
+class Textures {
+public:
+    explicit Textures(const Device& device) : device_(&device), memory_(device) {}
+
+    // Uploads every image that the scene's materials use, once for each way of use. Mips are
+    // built by all cores. Images without size or data count as absent.
+    void load(const Scene& scene, Uploader& uploader);
+
+    // The view of a use of an image; a white texel where there is none.
+    vk::ImageView view(const Texture& use, TextureKind kind, const NormalMapFormat& format) const;
+    bool present(const Texture& use, TextureKind kind, const NormalMapFormat& format) const;
+
+private:
+    // Image, kind, and for normal maps the coding that they are averaged in.
+    using Key = std::tuple<int, TextureKind, int, int>;
+    static Key keyOf(const Texture& use, TextureKind kind, const NormalMapFormat& format);
+    void collect(const Scene& scene);
+    void request(const Scene& scene, const Texture& use, TextureKind kind,
+                 const NormalMapFormat& format);
+    Texture2D upload(const MipChain& chain, Uploader& uploader);
+
+    const Device* device_;
+    Memory memory_;
+    std::map<Key, std::size_t> index_;
+    std::vector<MipRequest> requests_;
+    std::vector<Texture2D> textures_; // the last one is white
+};
+
+} // namespace cotan

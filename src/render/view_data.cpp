@@ -1,0 +1,247 @@
+#include "view_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+using glm::dvec3;
+
+bool finite(const dvec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+dvec3 unitOr(const dvec3& v, const dvec3& otherwise)
+{
+    const double length = glm::length(v);
+    return finite(v) && length > 1e-30 && length < 1e30 ? v / length : otherwise;
+}
+
+// Two axes perpendicular to the unit vector w; the second is as near to `up` as can be.
+void sideAxes(const dvec3& w, const dvec3& up, dvec3& right, dvec3& upwards)
+{
+    const dvec3 other = std::abs(w.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, -1);
+    dvec3 side = glm::cross(w, unitOr(up, other));
+    if (glm::length(side) < 1e-6)
+        side = glm::cross(w, other);
+    right = glm::normalize(side);
+    upwards = glm::cross(right, w);
+}
+
+double positiveOr(float value, double otherwise)
+{
+    return std::isfinite(value) && value > 0 ? double(value) : otherwise;
+}
+
+gpu::vec4 row(const dvec3& v, double w)
+{
+    return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w));
+}
+
+std::array<dvec3, 8> corners(const Bounds& b)
+{
+    std::array<dvec3, 8> result;
+    for (std::size_t i = 0; i < 8; ++i)
+        result[i] = dvec3(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y,
+                          i & 4 ? b.high.z : b.low.z);
+    return result;
+}
+
+struct Range {
+    double low = 0;
+    double high = 0;
+};
+
+// The extent of the box along `axis`, measured from `origin`.
+Range extent(const Bounds& bounds, const dvec3& axis, const dvec3& origin)
+{
+    if (bounds.empty())
+        return {-1, 1};
+    Range range{1e300, -1e300};
+    for (const dvec3& corner : corners(bounds)) {
+        const double d = glm::dot(corner - origin, axis);
+        range.low = std::min(range.low, d);
+        range.high = std::max(range.high, d);
+    }
+    return range;
+}
+
+// Distance from the eye to the far side of the scene.
+double reach(const Axes& axes, const Bounds& bounds)
+{
+    if (bounds.empty())
+        return 1;
+    const double radius = glm::length(dvec3(bounds.high) - dvec3(bounds.low)) / 2;
+    return std::max(glm::length(dvec3(bounds.centre()) - axes.eye) + radius, 1e-30);
+}
+
+// Depth is reversed (1 near, 0 far): float has its precision at 0, where perspective needs it.
+void perspectiveRows(gpu::CotanView& g, const View& view, const Axes& axes, const Bounds& bounds)
+{
+    const double fov = positiveOr(view.camera.verticalFieldOfView, 0.785398);
+    const double tanY = std::tan(std::min(fov, 3.1) / 2);
+    const double tanX = tanY * view.width / view.height;
+    const double down = view.rowsUpward ? 1 : -1; // Vulkan's clip y points down the raster
+    g.clipX = row(axes.right / tanX, 0);
+    g.clipY = row(axes.up * (down / tanY), 0);
+    // No far plane, and a near plane that cuts models seen from inside as late as possible.
+    g.clipZ = row(dvec3(0), 1e-4 * reach(axes, bounds));
+    g.clipW = row(axes.forward, 0);
+    g.right = row(axes.right * tanX, 0);
+    g.up = row(axes.up * (down * tanY), 0);
+    g.forward = row(axes.forward, 1);
+}
+
+// From the eye's plane to behind the scene.
+void orthographicRows(gpu::CotanView& g, const View& view, const Axes& axes, const Bounds& bounds)
+{
+    const double halfY = positiveOr(view.camera.verticalExtent, 2) / 2;
+    const double halfX = halfY * view.width / view.height;
+    const double down = view.rowsUpward ? 1 : -1;
+    g.clipX = row(axes.right / halfX, 0);
+    g.clipY = row(axes.up * (down / halfY), 0);
+    g.clipZ = row(axes.forward * (-1 / (reach(axes, bounds) * 1.01)), 1);
+    g.clipW = row(dvec3(0), 1);
+    g.right = row(dvec3(0), 0);
+    g.up = row(dvec3(0), 0);
+    g.forward = row(axes.forward, 0);
+}
+
+const Light* shadowLight(const View& view)
+{
+    const auto found = std::find_if(view.lights.begin(), view.lights.end(), [](const Light& light) {
+        return light.kind == LightKind::directional;
+    });
+    return found == view.lights.end() ? nullptr : &*found;
+}
+
+// An orthographic view along the light, square, just around the scene.
+void shadowRows(gpu::CotanView& g, const Light& light, const Axes& axes, const Bounds& bounds)
+{
+    const dvec3 forward = unitOr(dvec3(light.direction), dvec3(0, -1, 0));
+    dvec3 right;
+    dvec3 up;
+    sideAxes(forward, dvec3(0, 1, 0), right, up);
+    const Range x = extent(bounds, right, axes.eye);
+    const Range y = extent(bounds, up, axes.eye);
+    const Range z = extent(bounds, forward, axes.eye);
+    // Four texels of margin keep the filter inside the map.
+    const double margin = 1 + 8.0 / kShadowSize;
+    const double size = std::max({x.high - x.low, y.high - y.low, 1e-6}) * margin;
+    const double deep = std::max(z.high - z.low, 1e-6) * 1.02;
+    const auto unitRow = [&](const dvec3& axis, Range range, double length) {
+        return row(axis / length, 0.5 - (range.low + range.high) / 2 / length);
+    };
+    g.shadowX = unitRow(right, x, size);
+    g.shadowY = unitRow(up, y, size);
+    g.shadowZ = unitRow(forward, z, deep);
+    const double texel = size / kShadowSize;
+    // Half a texel of depth, for what the offset along the normal leaves.
+    g.shadow = gpu::vec4(float(texel), float(kShadowSize), float(0.5 * texel / deep), 0);
+}
+
+} // namespace
+
+Axes cameraAxes(const Camera& camera)
+{
+    Axes axes;
+    axes.eye = finite(dvec3(camera.eye)) ? dvec3(camera.eye) : dvec3(0);
+    axes.forward = unitOr(dvec3(camera.target) - axes.eye, dvec3(0, 0, -1));
+    sideAxes(axes.forward, dvec3(camera.up), axes.right, axes.up);
+    return axes;
+}
+
+gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds)
+{
+    gpu::CotanView g{};
+    if (view.camera.orthographic)
+        orthographicRows(g, view, axes, bounds);
+    else
+        perspectiveRows(g, view, axes, bounds);
+    if (const Light* light = shadowLight(view))
+        shadowRows(g, *light, axes, bounds);
+    g.tone = gpu::vec4(view.exposure, 0, 0, 0);
+    g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), 0, 0, 0);
+    return g;
+}
+
+bool castsShadow(const View& view) { return view.shadows && shadowLight(view) != nullptr; }
+
+std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes)
+{
+    std::vector<gpu::CotanLight> result;
+    result.reserve(view.lights.size() + 1);
+    const Light* caster = view.shadows ? shadowLight(view) : nullptr;
+    for (const Light& light : view.lights) {
+        gpu::CotanLight g{};
+        const double kind = light.kind == LightKind::directional ? 0
+            : light.kind == LightKind::point                     ? 1
+                                                                 : 2;
+        g.position = row(dvec3(light.position) - axes.eye, kind);
+        g.direction = row(unitOr(dvec3(light.direction), dvec3(0, -1, 0)), light.range);
+        g.color = row(dvec3(light.color) * double(light.intensity), &light == caster ? 1 : 0);
+        const float outer = std::cos(light.outerCone);
+        // Equal cones would divide zero by zero.
+        g.cone = gpu::vec4(outer, std::max(std::cos(light.innerCone), outer + 1e-4f), 0, 0);
+        result.push_back(g);
+    }
+    if (result.empty())
+        result.push_back({});
+    return result;
+}
+
+gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
+{
+    const dvec3 x(toWorld[0]);
+    const dvec3 y(toWorld[1]);
+    const dvec3 z(toWorld[2]);
+    const dvec3 origin = dvec3(toWorld[3]) - eye;
+    gpu::CotanDraw g{};
+    g.rowX = row({x.x, y.x, z.x}, origin.x);
+    g.rowY = row({x.y, y.y, z.y}, origin.y);
+    g.rowZ = row({x.z, y.z, z.z}, origin.z);
+
+    // The cofactors are the inverse transpose times the determinant; they exist for flattening
+    // matrices too. Only directions matter, so the size is brought near one.
+    dvec3 cx = glm::cross(y, z);
+    dvec3 cy = glm::cross(z, x);
+    dvec3 cz = glm::cross(x, y);
+    const double sign = glm::dot(x, cx) < 0 ? -1 : 1;
+    const double size = std::max({glm::length(cx), glm::length(cy), glm::length(cz)});
+    const double scale = size > 0 && std::isfinite(size) ? sign / size : 0;
+    cx *= scale;
+    cy *= scale;
+    cz *= scale;
+    g.normalX = row({cx.x, cy.x, cz.x}, sign);
+    g.normalY = row({cx.y, cy.y, cz.y}, 0);
+    g.normalZ = row({cx.z, cy.z, cz.z}, 0);
+    return g;
+}
+
+double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes& axes)
+{
+    const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1));
+    const double distance = glm::length(p - axes.eye);
+    return std::isfinite(distance) ? distance : 0;
+}
+
+void extend(Bounds& bounds, const Bounds& box, const glm::mat4& toWorld)
+{
+    if (box.empty())
+        return;
+    for (const dvec3& corner : corners(box)) {
+        const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(corner, 1));
+        if (!finite(p) || glm::length(p) > 1e18)
+            continue;
+        bounds.low = glm::min(bounds.low, glm::vec3(p));
+        bounds.high = glm::max(bounds.high, glm::vec3(p));
+    }
+}
+
+} // namespace cotan

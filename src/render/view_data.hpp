@@ -1,0 +1,45 @@
+// What a picture needs besides the scene on the device: matrices, lights, the numbers for each
+// instance. Computed in double, relative to the eye, and only then rounded. No Vulkan here.
+#pragma once
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "cotan/scene/view.hpp"
+#include "gpu_structs.hpp"
+
+namespace cotan {
+
+inline constexpr int kShadowSize = 1024; // texels a side
+
+// Eye and axes of a camera: right, up and forward unit and perpendicular to one another.
+// A camera that looks nowhere (eye = target) looks along -z; one that looks along its up vector
+// takes another.
+struct Axes {
+    glm::dvec3 eye;
+    glm::dvec3 right;
+    glm::dvec3 up;
+    glm::dvec3 forward;
+};
+Axes cameraAxes(const Camera& camera);
+
+// View, shadow map and background constants. bounds: of the whole scene, world space; may be empty.
+gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds);
+
+// Lights in the order of the view; at least one entry, so that a buffer can be made of it.
+// The first directional light is marked as the one that casts the shadow.
+std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes);
+
+bool castsShadow(const View& view);
+
+// The rows of CotanDraw that follow from an instance's matrix; addresses and flags are left zero.
+gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye);
+
+// Distance from the eye to a point of the mesh; 0 where that is not finite.
+double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes& axes);
+
+// The box around the eight transformed corners of `box`.
+void extend(Bounds& bounds, const Bounds& box, const glm::mat4& toWorld);
+
+} // namespace cotan

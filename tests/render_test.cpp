@@ -1,0 +1,249 @@
+// Devices, bad input, and the validation layer.
+#include <limits>
+
+#include "render_scene.hpp"
+
+namespace cotan {
+
+using namespace rendertest;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+constexpr Output kOutputs[] = {Output::shaded,    Output::normal, Output::tangent,
+                               Output::bitangent, Output::uv,     Output::depth};
+
+// One material: every alpha mode more is one more pipeline to compile.
+Scene opaqueOnly(Scene scene)
+{
+    for (Material& material : scene.materials)
+        material.alphaMode = AlphaMode::opaque;
+    return scene;
+}
+
+// Every kind of material and light at once.
+Scene everything()
+{
+    Scene scene = sceneOf(sphere(6), flatImage(texelOf({0.3f, 0.1f, 1})));
+    scene.materials.resize(4, scene.materials[0]);
+    scene.materials[1].alphaMode = AlphaMode::mask;
+    scene.materials[1].baseColorMap.image = 0;
+    scene.materials[2].alphaMode = AlphaMode::blend;
+    scene.materials[2].baseColor.w = 0.5f;
+    scene.materials[2].occlusionMap.image = 0;
+    scene.materials[2].metallicRoughnessMap.image = 0;
+    scene.materials[2].emissiveMap.image = 0;
+    scene.materials[3].unlit = true;
+    for (int i = 1; i < 4; ++i) {
+        scene.meshes.push_back(scene.meshes[0]);
+        scene.meshes.back().material = i;
+        glm::mat4 m(0.5f);
+        m[3] = {float(i) - 2, 0, 1, 1};
+        scene.instances.push_back({"", i, m});
+    }
+    Mesh& mesh = scene.meshes[1];
+    mesh.tangents.assign(mesh.vertexCount(), {1, 0, 0, 1});
+    mesh.colors.assign(mesh.vertexCount(), {1, 0.5f, 0.5f, 1});
+    mesh.cotangentsU.assign(mesh.vertexCount(), {1, 0, 0});
+    mesh.cotangentsV.assign(mesh.vertexCount(), {0, 1, 0});
+    return scene;
+}
+
+std::vector<Light> someLights()
+{
+    Light point;
+    point.kind = LightKind::point;
+    Light spot;
+    spot.kind = LightKind::spot;
+    return {Light{}, point, spot};
+}
+
+// Meshes that no file should contain.
+Scene hostile()
+{
+    Scene scene = everything();
+    scene.materials[2].alphaMode = AlphaMode::opaque;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        Mesh& mesh = scene.meshes[m];
+        mesh.tangents.assign(mesh.vertexCount(), {kNan, 0, kInfinity, kNan});
+        mesh.cotangentsU.assign(mesh.vertexCount(), {kNan, 1e38f, 0});
+        mesh.cotangentsV.assign(mesh.vertexCount(), {0, -kInfinity, 0});
+        for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+            const std::size_t k = i * 7 + m;
+            if (k % 5 == 0)
+                mesh.normals[i] = k % 2 ? glm::vec3(0) : glm::vec3(kNan, kInfinity, 1e38f);
+            if (k % 7 == 0)
+                mesh.texcoords[0][i] = k % 2 ? glm::vec2(kInfinity, kNan) : glm::vec2(1e38f, -3e38f);
+            if (k % 11 == 0)
+                mesh.positions[i] = k % 2 ? glm::vec3(kNan) : glm::vec3(1e30f, -1e38f, 3e38f);
+        }
+        mesh.indices.insert(mesh.indices.end(), {0, 0, 0, 1, 1, 2, 0, 1, 0xffffffffu});
+    }
+    glm::mat4 flat(1);
+    flat[2] = glm::vec4(0);
+    scene.instances.push_back({"flattened", 0, flat});
+    scene.instances.push_back({"vanished", 0, glm::mat4(0)});
+    scene.instances.push_back({"not a number", 0, glm::mat4(kNan)});
+    scene.instances.push_back({"no mesh", 99, glm::mat4(1)});
+    scene.images.push_back(Image{});
+    scene.materials[3].baseColorMap.image = 1;  // an image without pixels
+    scene.materials[3].normalMap.image = 12345; // none at all
+    return scene;
+}
+
+} // namespace
+
+TEST(RenderDevice, unknownNameIsUnavailableAndSaysWhatThereIs)
+{
+    const Result<std::vector<std::string>> devices = renderDevices();
+    if (!devices)
+        GTEST_SKIP() << devices.error().message;
+    RendererOptions options;
+    options.device = "no such device";
+    const Result<Renderer> renderer = Renderer::create(options);
+    ASSERT_FALSE(renderer);
+    EXPECT_EQ(renderer.error().kind, ErrorKind::unavailable);
+    EXPECT_NE(renderer.error().message.find("no such device"), std::string::npos);
+    EXPECT_NE(renderer.error().message.find(devices->front()), std::string::npos);
+    EXPECT_EQ(renderer.error().message.find('\n'), std::string::npos);
+}
+
+TEST(RenderDevice, partOfTheNameInAnyCaseChoosesIt)
+{
+    const Result<std::vector<std::string>> devices = renderDevices();
+    if (!devices)
+        GTEST_SKIP() << devices.error().message;
+    std::string part = devices->back().substr(0, 6);
+    for (char& c : part)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    RendererOptions options;
+    options.device = part;
+    COTAN_RENDERER_OR_SKIP(renderer, options);
+    EXPECT_EQ(renderer.deviceName().substr(0, 6), devices->back().substr(0, 6));
+    EXPECT_FALSE(renderer.driver().empty());
+}
+
+TEST(RenderDevice, impossibleSizesAreUsageErrors)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    for (const auto& [width, height] : {std::pair(0, 10), {10, -1}, {1 << 30, 10}, {10, 2000000}}) {
+        View view;
+        view.width = width;
+        view.height = height;
+        const Result<Image> image = renderer.render(view);
+        ASSERT_FALSE(image);
+        EXPECT_EQ(image.error().kind, ErrorKind::usage);
+    }
+}
+
+TEST(RenderDevice, drawsOddAndTinySizes)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    load(renderer, everything());
+    for (const auto& [width, height] : {std::pair(1, 1), {3, 1}, {1, 7}, {333, 17}}) {
+        View view;
+        view.width = width;
+        view.height = height;
+        const Image image = drawn(renderer, view);
+        EXPECT_EQ(image.width, width);
+        EXPECT_EQ(image.height, height);
+        EXPECT_EQ(image.data.size(), image.pixelCount() * 4);
+    }
+}
+
+TEST(RenderDevice, aSceneReplacesTheOneBefore)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    const View view = viewOf(Output::normal);
+    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f); // nothing loaded, nothing drawn
+    load(renderer, sceneOf(quad()));
+    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 1.0f);
+    load(renderer, Scene{});
+    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f);
+}
+
+TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    load(renderer, everything());
+    View view;
+    view.width = 160;
+    view.height = 90;
+    view.lights = someLights();
+    EXPECT_EQ(drawn(renderer, view).data, drawn(renderer, view).data);
+}
+
+TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    for (const FrameInfo& info : frames()) {
+        const bool first = info.frame == Frame::cotangent;
+        load(renderer, first ? hostile() : opaqueOnly(hostile()));
+        for (const Output output : kOutputs) {
+            View view = viewOf(output, info.frame);
+            view.linearOutput = true;
+            view.lights = someLights();
+            const Result<Image> image = renderer.render(view);
+            if (!image && info.frame == Frame::exact)
+                continue; // the device cannot
+            ASSERT_TRUE(image) << image.error().message;
+            EXPECT_TRUE(allFinite(*image)) << info.name << ", output " << int(output);
+        }
+    }
+}
+
+TEST(RenderHostile, camerasThatLookNowhereDrawSomethingFinite)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    load(renderer, everything());
+    Camera inside;
+    inside.eye = inside.target = {0, 0, 0};
+    Camera along;
+    along.up = {0, 0, 1};
+    Camera numberless;
+    numberless.eye = {kNan, 0, 0};
+    numberless.verticalFieldOfView = kNan;
+    for (const Camera& camera : {inside, along, numberless}) {
+        View view = viewOf(Output::shaded);
+        view.linearOutput = true;
+        view.lights = someLights();
+        view.camera = camera;
+        EXPECT_TRUE(allFinite(drawn(renderer, view)));
+    }
+}
+
+TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
+{
+    RendererOptions options;
+    options.validation = true;
+    COTAN_RENDERER_OR_SKIP(renderer, options);
+    if (!renderer.messages().empty())
+        GTEST_SKIP() << renderer.messages().front();
+    for (const FrameInfo& info : frames()) {
+        const bool first = info.frame == Frame::cotangent;
+        for (const Scene& scene : {everything(), hostile()}) {
+            load(renderer, first ? scene : opaqueOnly(scene));
+            for (const Output output : kOutputs) {
+                View view = viewOf(output, info.frame);
+                view.width = view.height = 16;
+                view.lights = someLights();
+                view.linearOutput = int(info.frame) % 2 == 0;
+                view.background = int(info.frame) % 3 != 0;
+                view.samples = int(info.frame) % 4 == 1 ? 1 : 4;
+                view.pointSampled = int(info.frame) % 2 == 1;
+                view.rowsUpward = int(info.frame) % 5 == 0;
+                view.shadows = int(info.frame) != 3;
+                const Result<Image> image = renderer.render(view);
+                if (!image) {
+                    EXPECT_EQ(info.frame, Frame::exact) << image.error().message;
+                }
+            }
+        }
+    }
+    for (const std::string& message : renderer.messages())
+        ADD_FAILURE() << message;
+}
+
+} // namespace cotan
