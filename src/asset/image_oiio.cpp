@@ -1,0 +1,214 @@
+// The module of image formats: OpenImageIO behind the two functions of image_formats.hpp.
+#include "image_formats.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <exception>
+#include <string_view>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "extension.hpp"
+#include "image_convert.hpp"
+#include "image_limits.hpp"
+
+namespace cotan {
+
+namespace {
+
+std::string oneLine(std::string text)
+{
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
+        text.pop_back();
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
+// as extensions are often wrong.
+std::string formatOf(std::span<const std::byte> bytes)
+{
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 16));
+    if (head.starts_with("\xff\xd8\xff"))
+        return "jpeg";
+    using namespace std::string_view_literals;
+    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv))
+        return "tiff";
+    if (head.starts_with("\x76\x2f\x31\x01"))
+        return "openexr";
+    if (head.starts_with("#?"))
+        return "hdr";
+    if (head.starts_with("BM"))
+        return "bmp";
+    if (head.starts_with("DDS "))
+        return "dds";
+    return "targa";
+}
+
+PixelType pixelType(OIIO::TypeDesc format)
+{
+    if (format == OIIO::TypeDesc::UINT8)
+        return PixelType::unorm8;
+    return format == OIIO::TypeDesc::UINT16 ? PixelType::unorm16 : PixelType::float32;
+}
+
+OIIO::TypeDesc typeDesc(PixelType type)
+{
+    if (type == PixelType::unorm8)
+        return OIIO::TypeDesc::UINT8;
+    return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
+template<class T>
+void completeChannels(T* pixel, std::size_t count, int channels, T one)
+{
+    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
+        if (channels == 2)
+            pixel[3] = pixel[1];
+        if (channels <= 2)
+            pixel[1] = pixel[2] = pixel[0];
+        if (channels == 1 || channels == 3)
+            pixel[3] = one;
+    }
+}
+
+void completeChannels(Image& image, int channels)
+{
+    switch (image.type) {
+    case PixelType::unorm8:
+        return completeChannels<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
+    case PixelType::unorm16:
+        return completeChannels<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
+    case PixelType::float32:
+        return completeChannels<float>(image.floats(), image.pixelCount(), channels, 1.0f);
+    }
+}
+
+// What a header may claim beyond the size of the picture: channels that we do not use and the
+// blocks that a reader allocates.
+std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name,
+                               const LoadLimits& limits)
+{
+    if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
+        return error;
+    if (spec.depth > 1 || spec.deep)
+        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
+    if (spec.nchannels < 1)
+        return inputError(fmt::format("{}: the image has no channels", name));
+    const double tile = double(spec.tile_width) * double(spec.tile_height);
+    const double stored = std::max(double(spec.width) * double(spec.height), tile)
+                          * double(spec.pixel_bytes(/*native=*/true));
+    if (stored > double(limits.imageBytes))
+        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
+                                      name, stored, limits.imageBytes));
+    return std::nullopt;
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
+                     const std::string& format, const LoadLimits& limits)
+{
+    const auto broken = [&](const std::string& why) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+    };
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    const auto input = OIIO::ImageInput::create(format);
+    if (!input)
+        return broken(OIIO::geterror());
+    input->threads(1); // callers decode images side by side
+    input->set_ioproxy(&memory);
+    OIIO::ImageSpec config, spec;
+    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
+    config.attribute("oiio:reorient", 0);
+    if (!input->open("image." + format, spec, config))
+        return broken(input->geterror());
+    if (auto error = checkSpec(spec, name, limits))
+        return *error;
+
+    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+    const int channels = std::min(spec.nchannels, 4);
+    if (!input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
+                           OIIO::stride_t(image.bytesPerPixel())))
+        return broken(input->geterror());
+    completeChannels(image, channels);
+    return image;
+}
+
+Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name,
+                           const LoadLimits& limits)
+{
+    const std::string format = formatOf(bytes);
+    try {
+        return decode(bytes, name, format, limits);
+    } catch (const std::exception& e) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(e.what())));
+    }
+}
+
+struct OutputFormat {
+    int channels = 4;
+    bool eightBitOnly = false;
+    bool floatOnly = false;
+};
+
+OutputFormat outputFormat(const std::string& extension)
+{
+    if (extension == ".exr")
+        return OutputFormat{.floatOnly = true};
+    if (extension == ".hdr")
+        return OutputFormat{.channels = 3, .floatOnly = true};
+    if (extension == ".tif" || extension == ".tiff")
+        return OutputFormat{};
+    if (extension == ".tga")
+        return OutputFormat{.eightBitOnly = true};
+    return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
+}
+
+OIIO::ImageSpec outputSpec(const Image& image, const OutputFormat& format,
+                           const std::string& extension)
+{
+    const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
+    OIIO::ImageSpec spec(image.width, image.height, format.channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
+    // The same picture gives the same bytes: no time of writing.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (extension == ".exr" || extension == ".tif" || extension == ".tiff")
+        spec.attribute("compression", "zip");
+    if (extension == ".jpg" || extension == ".jpeg")
+        spec.attribute("CompressionQuality", 95);
+    return spec;
+}
+
+Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    const std::string extension = lowerExtension(file);
+    const OutputFormat format = outputFormat(extension);
+    if (format.eightBitOnly && image.type != PixelType::unorm8)
+        return writeWithOiio(file, toUnorm8(image), name);
+    try {
+        const auto output = OIIO::ImageOutput::create(extension.substr(1));
+        if (!output)
+            return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
+        output->threads(1);
+        const OIIO::ImageSpec spec = outputSpec(image, format, extension);
+        if (!output->open(file.string(), spec)
+            || !output->write_image(typeDesc(image.type), image.data.data(),
+                                    OIIO::stride_t(image.bytesPerPixel()))
+            || !output->close())
+            return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
+    } catch (const std::exception& e) {
+        return outputError(fmt::format("{}: {}", name, oneLine(e.what())));
+    }
+    return Done{};
+}
+
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio};
+
+} // namespace
+} // namespace cotan
+
+extern "C" const cotan::ImageFormats* cotanImageFormats() { return &cotan::kFormats; }

@@ -1,0 +1,605 @@
+// Models through Assimp. Expected values come from the text of the models, not from the reader.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "cotan/asset/geometry.hpp"
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
+#include "cotan/portable.hpp"
+#include "expected_list.hpp"
+
+namespace cotan {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kQuad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
+const std::string kQuadFace = "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
+
+// What must hold for every scene that comes out of a reader.
+void expectSound(const Scene& scene)
+{
+    for (const Mesh& mesh : scene.meshes) {
+        ASSERT_LT(std::size_t(mesh.material), scene.materials.size());
+        ASSERT_EQ(mesh.indices.size() % 3, 0u);
+        for (const std::uint32_t i : mesh.indices)
+            ASSERT_LT(i, mesh.vertexCount());
+        ASSERT_EQ(mesh.normals.size(), mesh.vertexCount());
+        for (const glm::vec3& n : mesh.normals)
+            ASSERT_NEAR(glm::length(n), 1, 1e-5); // a float division
+        for (const auto& texcoords : mesh.texcoords) {
+            ASSERT_TRUE(texcoords.empty() || texcoords.size() == mesh.vertexCount());
+        }
+    }
+    for (const Instance& instance : scene.instances)
+        ASSERT_LT(std::size_t(instance.mesh), scene.meshes.size());
+    for (const Material& m : scene.materials)
+        for (const Texture* t : {&m.baseColorMap, &m.normalMap, &m.metallicRoughnessMap})
+            ASSERT_LT(t->image, int(scene.images.size()));
+}
+
+bool mentions(const std::vector<std::string>& lines, const std::string& text)
+{
+    return std::ranges::any_of(lines, [&](const std::string& s) {
+        return s.find(text) != std::string::npos;
+    });
+}
+
+// A folder "outer" with the folder "model" in it, for one test.
+class AssimpFile : public testing::Test {
+protected:
+    fs::path outer = fs::temp_directory_path()
+                     / ("cotan_assimp_test_" + std::to_string(::getpid()) + "_"
+                        + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::path folder = outer / "model";
+    void SetUp() override { fs::create_directories(folder); }
+    void TearDown() override { fs::remove_all(outer); }
+
+    fs::path write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder / name, std::ios::binary) << text;
+        return folder / name;
+    }
+
+    // Loads text as a model; the test fails where that fails.
+    Scene load(const std::string& name, const std::string& text) const
+    {
+        auto scene = loadScene(write(name, text));
+        if (!scene) {
+            ADD_FAILURE() << scene.error().message;
+            return {};
+        }
+        expectSound(*scene);
+        return *std::move(scene);
+    }
+
+    std::string problem(const std::string& name, const std::string& text,
+                        const LoadLimits& limits = {}) const
+    {
+        const auto scene = loadScene(write(name, text), limits);
+        return scene ? "" : scene.error().message;
+    }
+
+    // A quad with one material of these lines.
+    Scene loadMaterial(const std::string& lines) const
+    {
+        write("m.mtl", "newmtl m\n" + lines);
+        Scene scene = load("m.obj", "mtllib m.mtl\n" + kQuad + "usemtl m\n" + kQuadFace);
+        EXPECT_EQ(scene.meshes.size(), 1u);
+        return scene;
+    }
+
+    void writeColour(const fs::path& file, int r, int g, int b) const
+    {
+        Image image = makeImage(4, 4, PixelType::unorm8);
+        for (std::size_t i = 0; i < 16; ++i) {
+            const std::uint8_t rgba[4] = {std::uint8_t(r), std::uint8_t(g), std::uint8_t(b), 255};
+            std::memcpy(image.bytes8() + 4 * i, rgba, 4);
+        }
+        ASSERT_TRUE(writeImage(file, image));
+    }
+};
+
+const Material& materialOf(const Scene& scene)
+{
+    return scene.materials[std::size_t(scene.meshes[0].material)];
+}
+
+TEST_F(AssimpFile, quadBecomesTwoTrianglesWithVRunningDown)
+{
+    const Scene scene = load("q.obj", kQuad + kQuadFace);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    const Mesh& mesh = scene.meshes[0];
+    EXPECT_EQ(mesh.triangleCount(), 2u);
+    EXPECT_EQ(mesh.vertexCount(), 4u);
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+        // In the file v is the height y; here it counts from the top.
+        EXPECT_EQ(mesh.texcoords[0][i], glm::vec2(mesh.positions[i].x, 1 - mesh.positions[i].y));
+        EXPECT_EQ(mesh.normals[i], glm::vec3(0, 0, 1));
+    }
+    EXPECT_TRUE(materialOf(scene).doubleSided);
+}
+
+TEST_F(AssimpFile, objIndicesThatCountBackwardsMeanTheSame)
+{
+    const Scene forwards = load("a.obj", kQuad + kQuadFace);
+    const Scene backwards = load("b.obj", kQuad + "f -4/-4/-1 -3/-3/-1 -2/-2/-1 -1/-1/-1\n");
+    ASSERT_EQ(backwards.meshes.size(), 1u);
+    EXPECT_EQ(backwards.meshes[0].positions, forwards.meshes[0].positions);
+    EXPECT_EQ(backwards.meshes[0].indices, forwards.meshes[0].indices);
+}
+
+TEST_F(AssimpFile, objLineEndsTabsContinuationsAndCommentsChangeNothing)
+{
+    const Scene plain = load("a.obj", kQuad + kQuadFace);
+    std::string odd = "# a comment that goes on \\\nand on\n" + kQuad
+                      + "f 1/1/1\t2/2/1 \\\n 3/3/1 \\\n4/4/1 # behind\nl 1 2\np 3\nfoo bar\n";
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        std::string text;
+        for (const char c : odd)
+            text += c == '\n' ? end : std::string(1, c);
+        const Scene scene = load("b.obj", text);
+        ASSERT_EQ(scene.meshes.size(), 1u);
+        EXPECT_EQ(scene.meshes[0].positions, plain.meshes[0].positions);
+        EXPECT_EQ(scene.meshes[0].texcoords, plain.meshes[0].texcoords);
+        EXPECT_EQ(scene.meshes[0].indices, plain.meshes[0].indices);
+    }
+}
+
+TEST_F(AssimpFile, objByteOrderMarkIsNoPartOfTheFirstLine)
+{
+    EXPECT_EQ(load("a.obj", "\xef\xbb\xbf" + kQuad + kQuadFace).meshes.at(0).vertexCount(), 4u);
+}
+
+TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
+{
+    const std::pair<std::string, std::string> cases[] = {
+        {"v 0 0\n", "line 1: expected 3 to 7 numbers, found 2"},
+        {"v 0 0 0\r\nv 0 \\\r\n0 0\r\nv 1 2 x\r\n", "line 4: expected a finite number, found \"x\""},
+        {"v 0 0 inf\n", "found \"inf\""},
+        {"v 0 0 1e39\n", "found \"1e39\""},
+        {kQuad + "f 1 2 5\n", "line 10: expected a position index up to 4, found 5"},
+        {kQuad + "f 1/1 2/2 3/9\n", "texture coordinate index up to 4, found 9"},
+        {kQuad + "f 1//1 2//1 3//2\n", "normal index up to 1, found 2"},
+        {kQuad + "f 1 2 -5\n", "expected a position index down to -4, found -5"},
+        {kQuad + "f 1 2 0\n", "found 0"},
+        {kQuad + "f 1 2 99999999999999999999\n", "expected a corner v/vt/vn"},
+        {kQuad + "f 1 2 3/1/1/1\n", "expected a corner v/vt/vn"},
+        {kQuad + "f /1 /2 /3\n", "expected a corner with a position"},
+        {kQuad + "f\n", "expected the corners of a face, found none"},
+        {kQuad + "f 1 2/2 3\n", "found a mixture"},
+        {kQuad + "l 1 2\n", "expected faces, found none"},
+        {kQuad + std::string(1, '\0') + kQuadFace, "found a zero byte"},
+    };
+    for (const auto& [text, expected] : cases) {
+        const std::string found = problem("a.obj", text);
+        EXPECT_NE(found.find(expected), std::string::npos) << text << "\n-> " << found;
+        EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+    }
+}
+
+TEST_F(AssimpFile, limitsAreHeld)
+{
+    LoadLimits limits;
+    limits.triangles = 1;
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 1 triangles"), std::string::npos);
+    limits = {};
+    limits.vertices = 3;
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 3 vertices"), std::string::npos);
+    limits = {};
+    limits.fileBytes = 10;
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("the limit is 10"), std::string::npos);
+    limits = {};
+    limits.nodes = 1;
+    EXPECT_NE(problem("a.obj", "o a\n" + kQuad + kQuadFace + "o b\n" + kQuadFace, limits).find("1 nodes"),
+              std::string::npos);
+}
+
+TEST_F(AssimpFile, concavePolygonKeepsItsArea)
+{
+    // An arrow head: a fan from its first corner would cover the notch twice.
+    const Scene scene = load("a.obj", "v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nf 2 3 4 1\n");
+    double area = 0, doubled = 0;
+    const Mesh& mesh = scene.meshes.at(0);
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const glm::vec3 a = mesh.positions[mesh.indices[3 * t]];
+        const glm::vec3 b = mesh.positions[mesh.indices[3 * t + 1]];
+        const glm::vec3 c = mesh.positions[mesh.indices[3 * t + 2]];
+        area += glm::length(glm::cross(b - a, c - a)) / 2;
+        doubled += glm::cross(b - a, c - a).z;
+    }
+    EXPECT_NEAR(area, 2, 1e-6);                    // 8 of the whole less 6 of the notch
+    EXPECT_NEAR(std::abs(doubled) / 2, 2, 1e-6);   // and all of one orientation
+}
+
+TEST_F(AssimpFile, missingNormalsAreSmoothUpToSixtyDegrees)
+{
+    // A ridge of two quads: smooth at 40 degrees between their normals, sharp at 80.
+    for (const double degrees : {40.0, 80.0}) {
+        const double slope = std::tan(degrees / 2 * 3.14159265 / 180);
+        std::ostringstream text;
+        text << "v -1 " << -slope << " 0\nv 0 0 0\nv 1 " << -slope << " 0\nv -1 " << -slope
+             << " -1\nv 0 0 -1\nv 1 " << -slope << " -1\nf 1 2 5 4\nf 2 3 6 5\n";
+        const Scene scene = load("a.obj", text.str());
+        EXPECT_EQ(scene.meshes.at(0).vertexCount(), degrees < 60 ? 6u : 8u);
+    }
+}
+
+TEST_F(AssimpFile, mtlColourShininessAndOpacity)
+{
+    const Scene scene = loadMaterial("Kd 0.25 0.5 0.75\nNs 30\nd 0.5\nillum 2\n");
+    const Material& material = materialOf(scene);
+    EXPECT_EQ(material.baseColor, glm::vec4(0.25f, 0.5f, 0.75f, 0.5f));
+    EXPECT_EQ(material.alphaMode, AlphaMode::blend);
+    EXPECT_EQ(material.metallic, 0);
+    EXPECT_NEAR(material.roughness, 0.5, 1e-6); // (2/(30 + 2))^(1/4)
+}
+
+TEST_F(AssimpFile, mtlRoughnessAndMetalnessWithTheirMaps)
+{
+    EXPECT_NEAR(materialOf(loadMaterial("Pr 0.3\nPm 0.9\n")).roughness, 0.3, 1e-6);
+    EXPECT_NEAR(materialOf(loadMaterial("Pr 0.3\nPm 0.9\n")).metallic, 0.9, 1e-6);
+
+    writeColour(folder / "rough.png", 40, 0, 0);
+    writeColour(folder / "metal.png", 200, 0, 0);
+    const Scene scene = loadMaterial("map_Pr rough.png\nmap_Pm metal.png\n");
+    const Material& material = materialOf(scene);
+    ASSERT_TRUE(material.metallicRoughnessMap.present());
+    const Image& image = scene.images[std::size_t(material.metallicRoughnessMap.image)];
+    EXPECT_EQ(image.bytes8()[1], 40);
+    EXPECT_EQ(image.bytes8()[2], 200);
+}
+
+TEST_F(AssimpFile, mtlNormalMapsAreReadUnderEveryName)
+{
+    writeColour(folder / "n.png", 128, 128, 255);
+    for (const std::string line : {"norm n.png", "map_Bump n.png", "map_bump n.png", "bump n.png",
+                                   "map_Kn n.png", "map_Bump -bm 0.5 n.png"}) {
+        const Scene scene = loadMaterial(line + "\n");
+        const Material& material = materialOf(scene);
+        ASSERT_TRUE(material.normalMap.present()) << line;
+        EXPECT_FALSE(material.normalFormat.greenAlongV) << line;
+        EXPECT_EQ(material.normalScale, line.find("-bm") != std::string::npos ? 0.5f : 1.0f) << line;
+        EXPECT_TRUE(scene.warnings.empty()) << line << ": " << scene.warnings[0];
+    }
+}
+
+TEST_F(AssimpFile, normalMapNamedDirectXHasGreenAlongV)
+{
+    const std::pair<std::string, bool> names[] = {
+        {"wall_normal_dx.png", true},  {"Wall_NormalDX.png", true}, {"dx.png", true},
+        {"wall-DirectX-2k.png", true}, {"normal_dx8.png", true},    {"wall_gl.png", false},
+        {"deluxdx_n.png", false},      {"dxfoo.png", false}};
+    for (const auto& [name, along] : names) {
+        writeColour(folder / name, 128, 128, 255);
+        EXPECT_EQ(materialOf(loadMaterial("norm " + name + "\n")).normalFormat.greenAlongV, along) << name;
+    }
+}
+
+TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
+{
+    // Height sin(2 pi x / 64) along u and 0.5 sin along v: slopes known, and the same at the border.
+    const int side = 64;
+    Image heights = makeImage(side, side, PixelType::unorm16);
+    const double step = 2 * 3.14159265358979 / side;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const double h = 0.5 + 0.25 * std::sin(x * step) + 0.125 * std::sin(y * step);
+            for (int c = 0; c < 3; ++c)
+                heights.words()[4 * (y * side + x) + c] = std::uint16_t(h * 65535 + 0.5);
+            heights.words()[4 * (y * side + x) + 3] = 65535;
+        }
+    }
+    ASSERT_TRUE(writeImage(folder / "h.png", heights));
+    for (const double strength : {1.0, 3.0}) {
+        const Scene scene = loadMaterial(strength == 1 ? "map_Bump h.png\n" : "map_Bump -bm 3 h.png\n");
+        const Material& material = materialOf(scene);
+        ASSERT_TRUE(material.normalMap.present());
+        EXPECT_TRUE(mentions(scene.warnings, "height map"));
+        EXPECT_EQ(material.normalScale, 1);
+        EXPECT_FALSE(material.normalFormat.greenAlongV);
+        const Image& map = scene.images[std::size_t(material.normalMap.image)];
+        double worst = 0;
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const double depth = 0.01 * side * strength; // texels from black to white
+                const glm::dvec3 expected = glm::normalize(
+                    glm::dvec3(-0.25 * step * std::cos(x * step) * depth,
+                               0.125 * step * std::cos(y * step) * depth, 1));
+                const std::uint16_t* c = map.words() + 4 * (y * side + x);
+                const glm::dvec3 found = glm::normalize(
+                    glm::dvec3(c[0], c[1], c[2]) / 65535.0 * (255.0 / 127) - 128.0 / 127);
+                worst = std::max(worst, glm::length(expected - found));
+            }
+        }
+        // Central differences are short by step^2/6 = 0.16 % of slopes up to 0.05; 16 bits and the
+        // heights' rounding (2 x 8e-6 x depth) add 5e-5.
+        EXPECT_LT(worst, 2e-4);
+    }
+}
+
+TEST_F(AssimpFile, texturesThatAreMissingOrBrokenAreSaidAndLeftOut)
+{
+    write("broken.png", "not a picture");
+    for (const std::string name : {"missing.png", "broken.png"}) {
+        const Scene scene = loadMaterial("map_Kd " + name + "\nnorm " + name + "\n");
+        EXPECT_FALSE(materialOf(scene).baseColorMap.present());
+        EXPECT_FALSE(materialOf(scene).normalMap.present());
+        EXPECT_TRUE(mentions(scene.warnings, name)) << name;
+    }
+}
+
+TEST_F(AssimpFile, nothingOutsideTheFolderIsOpened)
+{
+    writeColour(outer / "secret.png", 1, 2, 3);
+    std::ofstream(outer / "secret.mtl") << "newmtl m\nKd 0.1 0.2 0.3\n";
+    fs::create_symlink(outer / "secret.png", folder / "link.png");
+    fs::create_directory_symlink(outer, folder / "up");
+    const std::string absolute = (outer / "secret.png").string();
+    for (const std::string& name : std::vector<std::string>{"../secret.png", "..\\secret.png",
+                                                            "link.png", "up/secret.png", absolute,
+                                                            "sub/../../secret.png"}) {
+        const Scene scene = loadMaterial("map_Kd " + name + "\n");
+        EXPECT_FALSE(materialOf(scene).baseColorMap.present()) << name;
+        EXPECT_TRUE(scene.images.empty()) << name;
+        EXPECT_TRUE(mentions(scene.warnings, "outside the model's folder")) << name;
+    }
+    const Scene scene = load("a.obj", "mtllib ../secret.mtl\n" + kQuad + "usemtl m\n" + kQuadFace);
+    EXPECT_NE(glm::vec3(materialOf(scene).baseColor), glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(mentions(scene.warnings, "../secret.mtl is outside the model's folder"));
+}
+
+TEST_F(AssimpFile, filesInSubfoldersAndPathsOfOtherMachinesAreFound)
+{
+    fs::create_directory(folder / "maps");
+    writeColour(folder / "maps" / "c.png", 9, 9, 9);
+    writeColour(folder / "d.png", 9, 9, 9);
+    for (const std::string name : {"maps/c.png", "maps\\c.png", "./maps/../maps/c.png",
+                                   "C:\\Users\\someone\\d.png", "/home/someone/d.png"}) {
+        const Scene scene = loadMaterial("map_Kd " + name + "\n");
+        EXPECT_TRUE(materialOf(scene).baseColorMap.present()) << name;
+    }
+}
+
+TEST_F(AssimpFile, oneImageUsedTwiceIsReadOnce)
+{
+    writeColour(folder / "c.png", 128, 128, 255);
+    EXPECT_EQ(loadMaterial("map_Kd c.png\nnorm ./c.png\n").images.size(), 1u);
+}
+
+TEST_F(AssimpFile, whatIsMissingIsSaid)
+{
+    writeColour(folder / "c.png", 1, 2, 3);
+    write("m.mtl", "newmtl m\nmap_Kd c.png\n");
+    const Scene noUv = load("a.obj", "mtllib m.mtl\n" + kQuad + "usemtl m\nf 1//1 2//1 3//1\n");
+    EXPECT_TRUE(mentions(noUv.warnings, "no texture coordinates"));
+    const Scene noLibrary = load("b.obj", "mtllib gone.mtl\r\n" + kQuad + kQuadFace);
+    EXPECT_TRUE(mentions(noLibrary.warnings, "gone.mtl was not found"));
+}
+
+TEST_F(AssimpFile, materialLibraryWithDosLineEndsIsFound)
+{
+    write("m.mtl", "newmtl m\r\nKd 0.5 0.25 1\r\n");
+    const Scene scene = load("a.obj", "mtllib m.mtl\r\n" + kQuad + "usemtl m\r\n" + kQuadFace);
+    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.5f, 0.25f, 1, 1));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(AssimpFile, plyKeepsColoursAsLinearLight)
+{
+    const Scene scene = load(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 255 0 188\n1 0 0 255 0 188\n0 1 0 255 0 188\n3 0 1 2\n");
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
+    EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(0, 0, 1));
+    ASSERT_EQ(scene.meshes[0].colors.size(), 3u);
+    // sRGB 188 is 0.5029 in linear light (IEC 61966-2-1).
+    EXPECT_NEAR(glm::length(scene.meshes[0].colors[0] - glm::vec4(1, 0, 0.5029f, 1)), 0, 1e-4);
+}
+
+TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
+{
+    for (const std::string count : {"4294967295", "100000000000", "-1", "x"}) {
+        const std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + count
+                                 + "\nproperty float x\nproperty float y\nproperty float z\n"
+                                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        EXPECT_NE(problem("a.ply", text), "") << count;
+    }
+    EXPECT_NE(problem("a.ply", "ply\nformat ascii 1.0\n"), "");
+    EXPECT_NE(problem("a.ply", "hello"), "");
+}
+
+std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& numbers)
+{
+    std::string text(80, ' ');
+    text.append(reinterpret_cast<const char*>(&claimed), 4);
+    for (std::size_t i = 0; i < numbers.size(); i += 9) {
+        text.append(12, '\0'); // the facet's normal, here unknown
+        text.append(reinterpret_cast<const char*>(&numbers[i]), 36);
+        text.append(2, '\0');
+    }
+    return text;
+}
+
+TEST_F(AssimpFile, stlWeldsItsCornersAndMakesNormals)
+{
+    const std::vector<float> quad = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+    const Scene scene = load("a.stl", stlTriangles(2, quad));
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].triangleCount(), 2u);
+    EXPECT_EQ(scene.meshes[0].vertexCount(), 4u);
+    EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(0, 0, 1));
+    EXPECT_NE(problem("b.stl", stlTriangles(3'000'000'000u, quad)), "");
+    EXPECT_NE(problem("c.stl", stlTriangles(1, {0, 0, 0, 1, 0, 0, 0, std::nanf(""), 0})), "");
+}
+
+TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
+{
+    const std::string floats = "<source id=\"p\"><float_array id=\"pa\" count=\"9\">0 0 0 1 0 0 0 1 0"
+                               "</float_array><technique_common><accessor source=\"#pa\" count=\"3\" "
+                               "stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
+                               "type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+                               "</technique_common></source>";
+    const std::string use = "<instance_geometry url=\"#g\"/>";
+    const Scene scene = load(
+        "a.dae",
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+        "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\">"
+        "<mesh>" + floats + "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
+        "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p>"
+        "</triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+        "<visual_scene id=\"s\"><node id=\"a\"><translate>10 0 0</translate>" + use
+        + "<node id=\"b\"><scale>2 -3 1</scale>" + use + "</node></node></visual_scene>"
+        "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    const Bounds box = bounds(scene);
+    EXPECT_EQ(box.low, glm::vec3(10, -3, 0));
+    EXPECT_EQ(box.high, glm::vec3(12, 1, 0));
+}
+
+TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)
+{
+    for (const char* extension : {".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"}) {
+        for (const std::string& text : {std::string("garbage"), std::string(1000, 'x'),
+                                       std::string(1000, '\0'), std::string(5000, '\xff')}) {
+            const std::string found = problem(std::string("a") + extension, text);
+            EXPECT_NE(found, "") << extension;
+            EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+        }
+    }
+}
+
+TEST_F(AssimpFile, loadSceneSaysInOneLineWhatIsWrongWithTheFile)
+{
+    fs::create_directory(folder / "d.obj");
+    const std::pair<fs::path, std::string> cases[] = {{folder / "none.obj", "no such file"},
+                                                      {folder / "d.obj", "found a folder"},
+                                                      {write("e.obj", ""), "the file is empty"},
+                                                      {write("f.xyz", "x"), "found \".xyz\""},
+                                                      {write("g", "x"), "found \"\""}};
+    for (const auto& [file, expected] : cases) {
+        const auto scene = loadScene(file);
+        ASSERT_FALSE(scene) << file;
+        EXPECT_EQ(scene.error().kind, ErrorKind::input);
+        EXPECT_TRUE(scene.error().message.starts_with(file.string())) << scene.error().message;
+        EXPECT_NE(scene.error().message.find(expected), std::string::npos) << scene.error().message;
+    }
+    EXPECT_EQ(load("Upper.OBJ", kQuad + kQuadFace).meshes.size(), 1u);
+}
+
+// Counts of an OBJ by reading its text word by word, the slow and obvious way.
+struct Counted {
+    std::size_t triangles = 0;
+    Bounds box; // of positions that faces use
+};
+
+Counted countText(const fs::path& file)
+{
+    Counted counted;
+    std::vector<glm::vec3> positions;
+    std::ifstream in(file);
+    for (std::string line, word; std::getline(in, line);) {
+        std::istringstream words(line);
+        words >> word;
+        if (!words)
+            continue;
+        if (word == "v") {
+            glm::vec3 p;
+            words >> p.x >> p.y >> p.z;
+            positions.push_back(p);
+        }
+        if (word == "f") {
+            std::size_t corners = 0;
+            for (; words >> word; ++corners) {
+                const int index = std::stoi(word);
+                const std::size_t at = index > 0 ? std::size_t(index) - 1
+                                                 : positions.size() - std::size_t(-index);
+                counted.box.low = glm::min(counted.box.low, positions[at]);
+                counted.box.high = glm::max(counted.box.high, positions[at]);
+            }
+            counted.triangles += corners - 2;
+        }
+    }
+    return counted;
+}
+
+TEST(SharedObj, everyModelHasTheTrianglesAndTheBoxOfItsText)
+{
+    const fs::path data = COTAN_SHARED_DATA;
+    if (!fs::exists(data / "classic"))
+        GTEST_SKIP() << "no shared data folder at " << data;
+    std::size_t models = 0;
+    for (const char* part : {"classic", "bake"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(data / part)) {
+            if (entry.path().extension() != ".obj")
+                continue;
+            const auto start = std::chrono::steady_clock::now();
+            const auto scene = loadScene(entry.path());
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+            ASSERT_TRUE(scene) << scene.error().message;
+            EXPECT_LT(took.count(), 5.0) << entry.path();
+            expectSound(*scene);
+            const Counted counted = countText(entry.path());
+            std::size_t triangles = 0;
+            for (const Instance& instance : scene->instances)
+                triangles += scene->meshes[std::size_t(instance.mesh)].triangleCount();
+            EXPECT_EQ(triangles, counted.triangles) << entry.path();
+            const Bounds box = bounds(*scene);
+            // Two ways to read a decimal number differ in the last bit of a float.
+            const float slack = 2e-7f * glm::length(counted.box.high - counted.box.low);
+            EXPECT_LT(glm::length(box.low - counted.box.low), slack) << entry.path();
+            EXPECT_LT(glm::length(box.high - counted.box.high), slack) << entry.path();
+            ++models;
+        }
+    }
+    EXPECT_GE(models, 11u);
+}
+
+TEST(BadData, everyObjGetsItsVerdictInTimeAndMemory)
+{
+    const auto rows = test::expectedFor(".obj");
+    if (rows.empty())
+        GTEST_SKIP() << "no shared data folder at " << COTAN_SHARED_DATA;
+    for (const auto& row : rows) {
+        testing::internal::CaptureStderr();
+        const auto start = std::chrono::steady_clock::now();
+        const auto scene = loadScene(row.file);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << row.file;
+        EXPECT_LT(took.count(), 5.0) << row.file;
+        if (row.verdict == "reject") {
+            EXPECT_FALSE(scene) << row.file;
+        }
+        if (row.verdict == "accept") {
+            EXPECT_TRUE(scene) << row.file;
+        }
+        if (row.verdict == "warn") {
+            EXPECT_TRUE(!scene || !scene->warnings.empty()) << row.file;
+        }
+        if (scene)
+            expectSound(*scene);
+        else
+            EXPECT_EQ(scene.error().message.find('\n'), std::string::npos) << scene.error().message;
+    }
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 1 << 20) << "KB";
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,192 @@
+// Small geometry: boxes, cameras that show everything, normals from triangles.
+#include "cotan/asset/geometry.hpp"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "cotan/asset/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+// The cube [-1,1]^3 with eight shared vertices and twelve triangles, outwards.
+Mesh sharedCube()
+{
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i)
+        mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    return mesh;
+}
+
+// A point in the camera's picture: x and y in [-1,1] where visible, z the distance in front.
+glm::vec3 project(const Camera& camera, float aspect, glm::vec3 p)
+{
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::vec3 up = glm::cross(right, forward);
+    const glm::vec3 d = p - camera.eye;
+    const float depth = glm::dot(d, forward);
+    const float scale = 1 / (depth * std::tan(camera.verticalFieldOfView / 2));
+    return {glm::dot(d, right) * scale / aspect, glm::dot(d, up) * scale, depth};
+}
+
+TEST(Bounds, areOfTheTransformedInstances)
+{
+    Scene scene;
+    scene.meshes = {sharedCube(), Mesh{}};
+    scene.instances.push_back({"a", 0, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
+    scene.instances.push_back({"b", 0, glm::scale(glm::mat4(1), glm::vec3(1, -3, 1))});
+    scene.instances.push_back({"nothing", 1, glm::translate(glm::mat4(1), glm::vec3(99))});
+    const Bounds box = bounds(scene);
+    EXPECT_EQ(box.low, glm::vec3(-1, -3, -1));
+    EXPECT_EQ(box.high, glm::vec3(11, 3, 1));
+    EXPECT_TRUE(bounds(Scene{}).empty());
+}
+
+TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
+{
+    const Bounds boxes[] = {{{-1, -1, -1}, {1, 1, 1}},
+                            {{100, 5, -3}, {100.1f, 9, 4}},
+                            {{-50, 0, -1}, {50, 0.1f, 1}},
+                            {{-1, -1, 0}, {1, 1, 0}},
+                            {{0, 0, -1000}, {1, 1, 1000}}};
+    for (const Bounds& box : boxes) {
+        for (const auto& [width, height] : {std::pair(1280, 720), {100, 1000}, {3000, 200}, {1, 1}}) {
+            const Camera camera = fitCamera(box, width, height);
+            float largest = 0;
+            for (int i = 0; i < 8; ++i) {
+                const glm::vec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                                       i & 4 ? box.high.z : box.low.z);
+                const glm::vec3 p = project(camera, float(width) / float(height), corner);
+                EXPECT_GT(p.z, 0);
+                EXPECT_LT(std::abs(p.x), 0.97f);
+                EXPECT_LT(std::abs(p.y), 0.97f);
+                largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+            }
+            EXPECT_GT(largest, 0.9f); // one corner is at the margin
+        }
+    }
+}
+
+TEST(FitCamera, flatFacingPlaneIsSeenStraightOnAndASolidFromTheRightAndAbove)
+{
+    const Camera plane = fitCamera({{-2, -1, 0}, {2, 1, 0.01f}}, 640, 480);
+    EXPECT_EQ(plane.eye.x, plane.target.x);
+    EXPECT_EQ(plane.eye.y, plane.target.y);
+    EXPECT_GT(plane.eye.z, plane.target.z);
+    const Camera solid = fitCamera({{-1, -1, -1}, {1, 1, 1}}, 640, 480);
+    EXPECT_GT(solid.eye.x, 0);
+    EXPECT_GT(solid.eye.y, 0);
+    EXPECT_GT(solid.eye.z, std::max(solid.eye.x, solid.eye.y));
+}
+
+TEST(FitCamera, emptyPointAndEndlessBoxesGiveAFiniteCamera)
+{
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const Bounds& box : {Bounds{}, Bounds{{3, 3, 3}, {3, 3, 3}},
+                              Bounds{glm::vec3(1e30f), glm::vec3(1e30f)}, Bounds{{-inf, 0, 0}, {inf, 1, 1}},
+                              Bounds{glm::vec3(-1e37f), glm::vec3(1e37f)}}) {
+        for (const int size : {0, 100}) {
+            const Camera camera = fitCamera(box, size, size);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_TRUE(std::isfinite(camera.eye[c]) && std::isfinite(camera.target[c]));
+            EXPECT_NE(camera.eye, camera.target);
+        }
+    }
+}
+
+TEST(DefaultLights, keyLightComesFromTheUpperLeftFront)
+{
+    const auto lights = defaultLights();
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(lights[0].kind, LightKind::directional);
+    EXPECT_GT(lights[0].direction.x, 0);
+    EXPECT_LT(lights[0].direction.y, 0);
+    EXPECT_LT(lights[0].direction.z, 0);
+    EXPECT_NEAR(glm::length(lights[0].direction), 1, 1e-6);
+}
+
+TEST(GenerateNormals, cubeSmoothedHasDiagonalsWhateverItsTriangulation)
+{
+    // Weighted by angle, the three faces at a corner count alike; by area or number they do not.
+    Mesh mesh = sharedCube();
+    generateNormals(mesh);
+    ASSERT_EQ(mesh.vertexCount(), 8u);
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_NEAR(glm::dot(mesh.normals[i], glm::normalize(mesh.positions[i])), 1, 1e-6);
+}
+
+TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesACorner)
+{
+    Mesh mesh = sharedCube();
+    for (const glm::vec3& p : mesh.positions)
+        mesh.texcoords[0].emplace_back(p.x + 2 * p.y, p.z);
+    const auto texcoords = mesh.texcoords[0];
+    const auto indices = mesh.indices;
+    generateNormals(mesh, 60);
+    ASSERT_EQ(mesh.vertexCount(), 24u);
+    ASSERT_EQ(mesh.texcoords[0].size(), 24u);
+    std::set<std::tuple<float, float, float>> normals;
+    for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
+        const std::size_t base = c / 3 * 3;
+        const glm::vec3 a = mesh.positions[mesh.indices[base]];
+        const glm::vec3 face = glm::normalize(glm::cross(mesh.positions[mesh.indices[base + 1]] - a,
+                                                         mesh.positions[mesh.indices[base + 2]] - a));
+        const glm::vec3 normal = mesh.normals[mesh.indices[c]];
+        EXPECT_NEAR(glm::dot(normal, face), 1, 1e-6);
+        EXPECT_EQ(mesh.texcoords[0][mesh.indices[c]], texcoords[indices[c]]); // taken along
+        normals.emplace(normal.x, normal.y, normal.z);
+    }
+    EXPECT_EQ(normals.size(), 6u);
+}
+
+TEST(GenerateNormals, sphereIsSmoothAcrossItsTextureSeam)
+{
+    Mesh mesh = makeSphere(1, 64);
+    mesh.normals.clear();
+    generateNormals(mesh, 60);
+    // Angle weights on a regular grid are of second order in the cell: (2 pi / 64)^2 = 0.0096 rad.
+    for (const std::uint32_t i : mesh.indices)
+        EXPECT_GT(glm::dot(mesh.normals[i], glm::normalize(mesh.positions[i])), std::cos(0.0096f));
+}
+
+TEST(GenerateNormals, degenerateTrianglesAndLooseVerticesGetAUnitNormal)
+{
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {2, 0, 0}, {5, 5, 5}};
+    mesh.indices = {0, 1, 2, 0, 1, 3, 1, 1, 1}; // faces +y; on a line; a point
+    for (const float crease : {30.0f, 180.0f}) {
+        Mesh made = mesh;
+        generateNormals(made, crease);
+        for (const glm::vec3& n : made.normals)
+            EXPECT_NEAR(glm::length(n), 1, 1e-6);
+        EXPECT_EQ(made.normals[0], glm::vec3(0, 1, 0));
+        EXPECT_EQ(made.normals[3], glm::vec3(0, 0, 1)); // no usable triangle
+        EXPECT_EQ(made.normals[4], glm::vec3(0, 0, 1)); // no triangle
+        EXPECT_EQ(made.vertexCount(), 5u);
+    }
+    Mesh empty;
+    generateNormals(empty);
+    EXPECT_TRUE(empty.normals.empty());
+}
+
+TEST(GenerateNormals, sheetsBackToBackDoNotCancelToZero)
+{
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.indices = {0, 1, 2, 2, 1, 0};
+    generateNormals(mesh);
+    for (const glm::vec3& n : mesh.normals)
+        EXPECT_NEAR(glm::length(n), 1, 1e-6);
+}
+
+} // namespace
+} // namespace cotan
