@@ -472,6 +472,21 @@ TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
     EXPECT_EQ(box.high, glm::vec3(12, 1, 0));
 }
 
+TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
+{
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                             "y\nproperty float z\nelement face 1\nproperty list uchar int "
+                             "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+    EXPECT_EQ(problem("a.ply", head + "3 0 1 2\n"), "");
+    EXPECT_NE(problem("b.ply", head + "3 0 1 3\n").find("expected an index below 3, found 3"),
+              std::string::npos);
+    // Two lines that once kept the parser busy for ever.
+    EXPECT_NE(problem("c.ply", "ply\nformat ascii 1.0\nelement vertex 8\nformat perty float32 x\n"
+                               "end_header*0 0 0\n0 0 1\n"), "");
+    EXPECT_NE(problem("d.dae", "<COLLADA><float_array count=\"8589934592\">1</float_array></COLLADA>")
+                  .find("counts 8589934592"), std::string::npos);
+}
+
 TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)
 {
     for (const char* extension : {".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"}) {

@@ -115,10 +115,14 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
         return checkElement(header, words[2], fileBytes, limits);
     if (keyword == "property")
         return checkProperty(header, words);
-    header.ended = line == "end_header";
-    if (!header.ended)
+    if (line == "end_header") {
+        header.ended = true;
+        closeElement(header);
+        return std::nullopt;
+    }
+    // Old exporters forget the word "comment" in front of their name.
+    if (header.hasElement || keyword.starts_with("e"))
         return "expected element, property, comment or end_header";
-    closeElement(header);
     return std::nullopt;
 }
 

@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-inline constexpr int kShadowSize = 1024; // texels a side
+inline constexpr int kShadowSize = 2048; // texels a side
 
 // Eye and axes of a camera: right, up and forward unit and perpendicular to one another.
 // A camera that looks nowhere (eye = target) looks along -z; one that looks along its up vector
