@@ -74,15 +74,10 @@ Status run(const Options& o)
     auto picture = openPicture(o.picture, o.common, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
-    std::string note;
-    auto painter = openPainter(o.picture.device, o.common.threads, note);
+    auto painter = openPainter(o.picture, o.common, *picture);
     if (!painter)
         return painter.error();
-    if (!note.empty())
-        warn(o.common, note);
     Stopwatch watch;
-    if (Status loaded = (*painter)->load(picture->scene); !loaded)
-        return loaded;
     std::array<Drawn, 2> drawn;
     for (std::size_t k = 0; k < 2; ++k) {
         auto d = drawAll(**painter, picture->view, (*pair)[k]);

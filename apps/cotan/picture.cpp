@@ -93,6 +93,20 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     return picture;
 }
 
+Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
+                                             const CommonOptions& common, const Picture& picture)
+{
+    std::string note;
+    auto painter = openPainter(options.device, common.threads, note);
+    if (!painter)
+        return painter;
+    if (!note.empty())
+        warn(common, note);
+    if (Status loaded = (*painter)->load(picture.scene); !loaded)
+        return loaded.error();
+    return painter;
+}
+
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)
 {
     const Scene& scene = picture.scene;

@@ -40,6 +40,11 @@ struct Picture {
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames);
 
+// The device that the options name, with the picture's scene loaded; a fallback is warned about.
+// The picture must outlive it.
+Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
+                                             const CommonOptions& common, const Picture& picture);
+
 // Sizes and counts for a report.
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture);
 

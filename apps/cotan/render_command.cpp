@@ -86,16 +86,10 @@ Status run(const Options& o)
     picture->view.output = kShows.at(o.show);
 
     Stopwatch watch;
-    std::string note;
-    auto painter = openPainter(o.picture.device, o.common.threads, note);
+    auto painter = openPainter(o.picture, o.common, *picture);
     if (!painter)
         return painter.error();
-    if (!note.empty())
-        warn(o.common, note);
-    const double openSeconds = watch.lap();
-    if (Status loaded = (*painter)->load(picture->scene); !loaded)
-        return loaded;
-    const double uploadSeconds = watch.lap();
+    const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     nlohmann::ordered_json report = {{"command", "render"}};
     auto image = drawPicture(**painter, picture->view, o, report);
     if (!image)
@@ -112,7 +106,7 @@ Status run(const Options& o)
     report["device"] = (*painter)->device();
     report["output"] = o.common.output.string();
     report["seconds"] = {{"load", picture->loadSeconds}, {"open_device", openSeconds},
-                         {"upload", uploadSeconds}, {"draw", drawSeconds},
+                         {"upload", (*painter)->uploadSeconds()}, {"draw", drawSeconds},
                          {"write", writeSeconds}, {"total", total.lap()}};
     say(o.common, fmt::format("{}: {}x{}, {} triangles, frame {}, on {}", o.common.output.string(),
                               picture->view.width, picture->view.height,
