@@ -39,7 +39,8 @@ void main()
     outCotangentV = covectorToWorld(inCotangentV);
 
     vec4 q = vec4(p, 1.0);
-    vec4 clip = vec4(dot(view.clipX, q), dot(view.clipY, q), dot(view.clipZ, q), dot(view.clipW, q));
+    vec4 clip =
+        vec4(dot(view.clipX, q), dot(view.clipY, q), dot(view.clipZ, q), dot(view.clipW, q));
     // A position beyond the range of float goes where it is clipped away.
     bool usable = abs(clip.x) + abs(clip.y) + abs(clip.w) <= COTAN_HUGE;
     gl_Position = usable ? clip : vec4(0.0, 0.0, 2.0, 1.0);

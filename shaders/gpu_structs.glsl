@@ -49,7 +49,7 @@ struct CotanView {
     vec4 shadowX; // rows: camera-relative position to shadow map u, v in [0,1] and depth in [0,1]
     vec4 shadowY;
     vec4 shadowZ;
-    vec4 shadow;  // size of a shadow texel in world units, texels a side, depth of a texel; w unused
+    vec4 shadow;  // size of a texel in world units, texels a side, half a texel as depth; w unused
     vec4 tone;    // x: exposure
     uvec4 counts; // x: lights
 };

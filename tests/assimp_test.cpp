@@ -484,7 +484,10 @@ TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
     EXPECT_NE(problem("c.ply", "ply\nformat ascii 1.0\nelement vertex 8\nformat perty float32 x\n"
                                "end_header*0 0 0\n0 0 1\n"), "");
     EXPECT_NE(problem("d.dae", "<COLLADA><float_array count=\"8589934592\">1</float_array></COLLADA>")
-                  .find("counts 8589934592"), std::string::npos);
+                  .find("found 8589934592"), std::string::npos);
+    // A stray character in a list of indices once filled the memory.
+    EXPECT_NE(problem("e.dae", "<COLLADA><p>0 1 2; 3</p></COLLADA>").find("whole numbers in <p>"),
+              std::string::npos);
 }
 
 TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)

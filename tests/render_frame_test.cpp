@@ -48,8 +48,7 @@ bool everyFrameExists(Frame frame, Renderer& renderer)
 }
 
 // Pixels where the pictures show a surface, with the vectors there.
-template<class Check>
-int overSurface(const Image& a, Check check)
+template<class Check> int overSurface(const Image& a, Check check)
 {
     int count = 0;
     for (int y = 0; y < a.height; ++y)
@@ -183,8 +182,7 @@ TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
                 at = at - double(kSize) * glm::floor(at / double(kSize));
                 const glm::dvec3 m = stored[std::size_t(int(at.y) * kSize + int(at.x))];
                 const double green = greenAlongV ? 1 : -1;
-                const glm::dvec3 expected =
-                    (g.u * m.x + g.v * (m.y * green)) / longest + g.n * m.z;
+                const glm::dvec3 expected = (g.u * m.x + g.v * (m.y * green)) / longest + g.n * m.z;
                 EXPECT_LT(degreesBetween(n, expected), 0.02) << info(frame).name;
                 ++count;
             });

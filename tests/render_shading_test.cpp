@@ -146,8 +146,8 @@ TEST(RenderShading, lightsAddWhatThePortableTextSays)
             * reflect(lamp.position / lampDistance);
         const float spotDistance = glm::length(spot.position);
         const glm::vec3 toSpot = spot.position / spotDistance;
-        const float cone = f32::cotan_smooth(std::cos(0.2f), std::cos(0.02f),
-                                             glm::dot(-toSpot, spot.direction));
+        const float cone =
+            f32::cotan_smooth(std::cos(0.2f), std::cos(0.02f), glm::dot(-toSpot, spot.direction));
         EXPECT_GT(cone, 0.1f); // so that the cone's edge is what is tested
         EXPECT_LT(cone, 0.9f);
         expected += 3.0f * f32::cotan_light_falloff(spotDistance, 9) * cone * reflect(toSpot);

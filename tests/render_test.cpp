@@ -75,7 +75,8 @@ Scene hostile()
             if (k % 5 == 0)
                 mesh.normals[i] = k % 2 ? glm::vec3(0) : glm::vec3(kNan, kInfinity, 1e38f);
             if (k % 7 == 0)
-                mesh.texcoords[0][i] = k % 2 ? glm::vec2(kInfinity, kNan) : glm::vec2(1e38f, -3e38f);
+                mesh.texcoords[0][i] =
+                    k % 2 ? glm::vec2(kInfinity, kNan) : glm::vec2(1e38f, -3e38f);
             if (k % 11 == 0)
                 mesh.positions[i] = k % 2 ? glm::vec3(kNan) : glm::vec3(1e30f, -1e38f, 3e38f);
         }

@@ -58,7 +58,7 @@ void addPictureOptions(CLI::App& command, PictureOptions& o)
     command.add_option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4")
         ->check(CLI::IsMember({1, 4}))->type_name("N")->capture_default_str();
     command.add_option("--exposure", o.exposure, "factor on all light")
-        ->check(CLI::PositiveNumber)->type_name("X")->capture_default_str();
+        ->check(CLI::Range(1e-6f, 1e6f))->type_name("X")->capture_default_str();
     command.add_option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
         ->check(CLI::IsMember({"down", "up"}))->type_name("NAME")->capture_default_str();
     command.add_option("--derivatives", o.derivatives, "fine or coarse")

@@ -1,12 +1,9 @@
 // Models through Assimp: checked before, watched during, checked after.
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
 #include <exception>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include <assimp/BaseImporter.h>
@@ -20,6 +17,7 @@
 
 #include "assimp_convert.hpp"
 #include "assimp_files.hpp"
+#include "collada_check.hpp"
 #include "extension.hpp"
 #include "file_bytes.hpp"
 #include "model_folder.hpp"
@@ -77,32 +75,13 @@ Status openModel(Job& job)
     return Done{};
 }
 
-// COLLADA states the length of its lists, and memory is taken by it: whatever is counted takes at
-// least a byte of the file.
-Status checkCollada(const Job& job)
-{
-    const std::string_view text(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
-    constexpr std::string_view kCount = "count=";
-    for (std::size_t at = text.find(kCount); at != std::string_view::npos;
-         at = text.find(kCount, at)) {
-        at += kCount.size() + 1; // the quote
-        const std::string_view digits = text.substr(std::min(at, text.size()), 20);
-        std::uint64_t count = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-        if (error == std::errc::result_out_of_range || count > text.size())
-            return inputError(fmt::format("{}: it counts {} of something, more than the file can hold",
-                                          job.name(), digits.substr(0, digits.find_first_of("\"' >"))));
-    }
-    return Done{};
-}
-
 // What can be checked in the bytes before Assimp trusts them.
 Status checkBytes(Job& job)
 {
     if (job.extension == ".ply")
         return checkPly(job.bytes, job.name(), job.limits);
     if (job.extension == ".dae")
-        return checkCollada(job);
+        return checkCollada(job.bytes, job.name());
     if (job.extension != ".obj")
         return Done{};
     std::string text(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());

@@ -26,6 +26,26 @@ Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area)
             std::min(area.x1, (highX >> 8) + 1), std::min(area.y1, (highY >> 8) + 1)};
 }
 
+Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y)
+{
+    const std::int64_t top = std::int64_t(y) * kSubPixels, bottom = top + 2 * kSubPixels;
+    for (const Edge& e : edges) {
+        // At its best in these rows the edge keeps e.x * px + best >= 0.
+        const std::int64_t best = std::max(e.y * top, e.y * bottom) + e.constant;
+        if (e.x == 0) {
+            if (best < 0)
+                bounds.x1 = bounds.x0;
+            continue;
+        }
+        const std::int64_t crossing = -best / e.x / kSubPixels; // pixels, within one
+        if (e.x > 0)
+            bounds.x0 = int(std::clamp<std::int64_t>(crossing - 1, bounds.x0, bounds.x1));
+        else
+            bounds.x1 = int(std::clamp<std::int64_t>(crossing + 2, bounds.x0, bounds.x1));
+    }
+    return bounds;
+}
+
 unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePattern& pattern)
 {
     unsigned mask = 0;

@@ -71,6 +71,10 @@ std::array<Edge, 3> edgesOf(const RasterTriangle& triangle);
 // The pixels whose samples the triangle may cover, inside the area.
 Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area);
 
+// Narrows x0 and x1 of the bounds to the columns that the edges can keep in the rows y and y + 1,
+// give or take a pixel: a sliver costs what it covers, not what its bounds cover.
+Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y);
+
 // Which samples of the pixel the edges keep.
 unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePattern& pattern);
 
@@ -83,7 +87,8 @@ void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePat
     Rectangle bounds = boundsOf(triangle, area);
     std::array<Edge, 3> edges = edgesOf(triangle);
     for (int y = bounds.y0 & ~1; y < bounds.y1; y += 2) {
-        for (int x = bounds.x0 & ~1; x < bounds.x1; x += 2) {
+        const Rectangle row = narrowed(edges, bounds, y);
+        for (int x = row.x0 & ~1; x < row.x1; x += 2) {
             Quad quad{x, y, {}};
             unsigned any = 0;
             for (int lane = 0; lane < 4; ++lane) {

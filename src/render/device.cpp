@@ -35,8 +35,11 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& mes
 {
     using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
     using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance,
-            collectMessage, &messages};
+    return {{},
+            Severity::eWarning | Severity::eError,
+            Type::eValidation | Type::ePerformance,
+            collectMessage,
+            &messages};
 }
 
 bool hasValidation(const vk::raii::Context& context)
@@ -134,8 +137,8 @@ std::string listed(const std::vector<Candidate>& candidates)
 {
     std::string text;
     for (const Candidate& c : candidates)
-        text += (text.empty() ? "" : ", ") + c.name
-            + (c.missing.empty() ? "" : " (" + c.missing + ")");
+        text +=
+            (text.empty() ? "" : ", ") + c.name + (c.missing.empty() ? "" : " (" + c.missing + ")");
     return text.empty() ? "none" : text;
 }
 
@@ -164,7 +167,8 @@ bool filterable(const vk::raii::PhysicalDevice& physical, vk::Format format)
 void describe(Device& d)
 {
     const auto properties =
-        d.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        d.physical
+            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
     const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
     d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
@@ -178,8 +182,8 @@ void describe(Device& d)
 
 void openLogicalDevice(Device& d)
 {
-    const auto has = d.physical.getFeatures2<vk::PhysicalDeviceFeatures2,
-                                             vk::PhysicalDeviceVulkan12Features>();
+    const auto has =
+        d.physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     const auto& core = has.get<vk::PhysicalDeviceFeatures2>().features;
     const auto& v12 = has.get<vk::PhysicalDeviceVulkan12Features>();
     // Mesa's CPU driver (22.3) draws dots along magnified texel edges with it, and takes long.
@@ -207,7 +211,7 @@ void startValidation(Device& d, bool wanted)
 {
     const bool validate = wanted && hasValidation(d.context);
     if (wanted && !validate)
-        d.messages->push_back(std::string(kValidationLayer) + " is not installed");
+        d.messages->emplace_back("VK_LAYER_KHRONOS_validation is not installed");
     d.instance = makeInstance(d.context, validate, *d.messages);
     if (validate)
         d.messenger = vk::raii::DebugUtilsMessengerEXT(d.instance, messengerInfo(*d.messages));
@@ -217,6 +221,11 @@ void startValidation(Device& d, bool wanted)
 
 std::string reason(const std::exception& e)
 {
+    const auto* failed = dynamic_cast<const vk::SystemError*>(&e);
+    if (failed && failed->code() == vk::Result::eErrorIncompatibleDriver)
+        return "no driver is installed (the loader found no usable ICD)";
+    if (failed && failed->code() == vk::Result::eErrorOutOfDeviceMemory)
+        return "the device has not enough memory";
     std::string text = e.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;

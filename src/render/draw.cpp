@@ -98,14 +98,15 @@ Status checkView(const Device& device, const View& view)
         room = std::max(room, device.memory.memoryHeaps[i].size);
     const vk::DeviceSize needed = Targets::bytes(targetKind(device, view));
     if (needed > room / 10 * 9)
-        return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: "
-                          + device.name + " has " + std::to_string(room >> 20));
+        return usageError("size " + size + " needs " + std::to_string(needed >> 20)
+                          + " MiB: " + device.name + " has " + std::to_string(room >> 20));
     if (view.frame < 0 || view.frame >= kFrameCount)
         return usageError("frame " + std::to_string(view.frame) + ": expected 0 to "
                           + std::to_string(kFrameCount - 1));
     if (view.frame == int(Frame::exact) && !device.exact)
         return unavailableError("the frame exact needs the features geometryShader and "
-                                "bufferDeviceAddress: " + device.name + " lacks them");
+                                "bufferDeviceAddress: "
+                                + device.name + " lacks them");
     return Done{};
 }
 
@@ -157,14 +158,11 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 1),
                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
-    pool_ = vk::raii::DescriptorPool(
-        device.device,
-        vk::DescriptorPoolCreateInfo({}, 1, sizes));
+    pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
 }
 
-Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view,
-                                    const Axes& axes) const
+Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const Axes& axes) const
 {
     DrawLists lists;
     for (const GpuInstance& instance : scene.instances) {
@@ -201,8 +199,7 @@ void Drawer::prepareShadowMap(bool needed)
     TextureInfo info;
     info.format = vk::Format::eD32Sfloat;
     info.extent = vk::Extent2D(side, side);
-    info.usage =
-        vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
+    info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
     info.aspect = vk::ImageAspectFlagBits::eDepth;
     shadowMap_ = {};
     shadowMemory_ = std::make_unique<Memory>(*device_);
@@ -218,8 +215,8 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
     if (lightBuffer_.size < size) {
         lightBuffer_ = {};
         lightMemory_ = std::make_unique<Memory>(*device_);
-        lightBuffer_ = makeHostBuffer(*device_, *lightMemory_, size,
-                                      vk::BufferUsageFlagBits::eStorageBuffer);
+        lightBuffer_ =
+            makeHostBuffer(*device_, *lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));

@@ -116,10 +116,10 @@ Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& i
 
 Commands::Commands(const Device& device) : device_(&device)
 {
-    pool_ = vk::raii::CommandPool(
-        device.device, {vk::CommandPoolCreateFlagBits::eTransient, device.queueFamily});
-    buffer_ = std::move(vk::raii::CommandBuffers(
-        device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+    pool_ = vk::raii::CommandPool(device.device,
+                                  {vk::CommandPoolCreateFlagBits::eTransient, device.queueFamily});
+    buffer_ = std::move(
+        vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
     fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
 }
 
@@ -182,8 +182,7 @@ vk::DeviceSize Uploader::room(vk::DeviceSize size, vk::DeviceSize least)
     return std::min(size, staging_.size - used_);
 }
 
-void Uploader::buffer(const Buffer& target, vk::DeviceSize offset,
-                      std::span<const std::byte> data)
+void Uploader::buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data)
 {
     while (!data.empty()) {
         const vk::DeviceSize part = room(data.size(), 4096);
@@ -196,8 +195,8 @@ void Uploader::buffer(const Buffer& target, vk::DeviceSize offset,
     }
 }
 
-void Uploader::level(const Texture2D& target, std::uint32_t index,
-                     std::span<const std::byte> data, std::size_t bytesPerTexel)
+void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<const std::byte> data,
+                     std::size_t bytesPerTexel)
 {
     const std::uint32_t width = std::max(target.extent.width >> index, 1u);
     const std::uint32_t height = std::max(target.extent.height >> index, 1u);
@@ -206,9 +205,8 @@ void Uploader::level(const Texture2D& target, std::uint32_t index,
         const vk::DeviceSize most = room(row * (height - y), row);
         const auto rows = static_cast<std::uint32_t>(most / row);
         std::memcpy(staging_.mapped + used_, data.data() + y * row, rows * row);
-        const vk::BufferImageCopy copy(
-            used_, 0, 0, {vk::ImageAspectFlagBits::eColor, index, 0, 1},
-            {0, std::int32_t(y), 0}, {width, rows, 1});
+        const vk::BufferImageCopy copy(used_, 0, 0, {vk::ImageAspectFlagBits::eColor, index, 0, 1},
+                                       {0, std::int32_t(y), 0}, {width, rows, 1});
         recording().copyBufferToImage(*staging_.buffer, *target.image,
                                       vk::ImageLayout::eTransferDstOptimal, copy);
         used_ += rows * row;
@@ -216,8 +214,7 @@ void Uploader::level(const Texture2D& target, std::uint32_t index,
     }
 }
 
-void Uploader::image(const Texture2D& target,
-                     std::span<const std::span<const std::byte>> levels,
+void Uploader::image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
                      std::size_t bytesPerTexel)
 {
     using Stage = vk::PipelineStageFlagBits2;

@@ -83,8 +83,7 @@ std::uint8_t srgbByte(float linear)
 
 void readRow8(const Image& image, int y, bool srgb, vec4* out)
 {
-    const std::uint8_t* p =
-        image.bytes8() + std::size_t(y) * std::size_t(image.width) * 4;
+    const std::uint8_t* p = image.bytes8() + std::size_t(y) * std::size_t(image.width) * 4;
     const std::array<float, 256>& linear = linearOfByte();
     for (int x = 0; x < image.width; ++x, p += 4)
         out[x] = srgb ? vec4(linear[p[0]], linear[p[1]], linear[p[2]], float(p[3]) / 255.0f)
@@ -151,8 +150,7 @@ std::vector<Taps> makeTaps(int source, int target)
 }
 
 // rowOf(y) gives a source row in what is averaged; rows are asked for in increasing order.
-template<class RowOf>
-FloatLevel halved(int width, int height, RowOf rowOf)
+template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
 {
     FloatLevel level{std::max(width / 2, 1), std::max(height / 2, 1), {}};
     level.texels.assign(std::size_t(level.width) * std::size_t(level.height), vec4(0));
@@ -209,8 +207,7 @@ void storeTexel(const vec4& t, TexelFormat format, std::byte* out)
 }
 
 // Adds a level made of width * height texels, texelAt(index).
-template<class TexelAt>
-void addLevel(MipChain& chain, int width, int height, TexelAt texelAt)
+template<class TexelAt> void addLevel(MipChain& chain, int width, int height, TexelAt texelAt)
 {
     const std::size_t size = bytesPerTexel(chain.format);
     const std::size_t count = std::size_t(width) * std::size_t(height);

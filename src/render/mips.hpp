@@ -39,7 +39,7 @@ struct MipRequest {
     TextureKind kind = TextureKind::data;
     NormalMapFormat normalFormat; // for kind normal
     TexelFormat format = TexelFormat::unorm8;
-    int largest = 16384;          // levels wider or higher than this are left out
+    int largest = 16384; // levels wider or higher than this are left out
 };
 
 // Whether the image has a size and all of its bytes.

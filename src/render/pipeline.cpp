@@ -75,13 +75,13 @@ struct VertexInput {
     {
         using F = vk::Format;
         constexpr std::array<F, kStreamCount> formats{
-            F::eR32G32B32Sfloat,    F::eR32G32B32Sfloat,    F::eR32G32Sfloat,
-            F::eR32G32Sfloat,       F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat,
-            F::eR32G32B32Sfloat,    F::eR32G32B32Sfloat,    F::eR32G32B32A32Sfloat};
+            F::eR32G32B32Sfloat, F::eR32G32B32Sfloat,    F::eR32G32Sfloat,
+            F::eR32G32Sfloat,    F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat,
+            F::eR32G32B32Sfloat, F::eR32G32B32Sfloat,    F::eR32G32B32A32Sfloat};
         std::uint32_t count = 0;
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
-            const bool forShadow = i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor
-                || i == kTexcoordOrigin;
+            const bool forShadow = i == kPosition || i == kTexcoord0 || i == kTexcoord1
+                || i == kColor || i == kTexcoordOrigin;
             if (pass == Pass::background || (pass != Pass::forward && !forShadow))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
@@ -134,12 +134,12 @@ Layouts::Layouts(const Device& device)
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
     picture = makeSetLayout(device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage});
-    material = makeSetLayout(
-        device, std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
+    material = makeSetLayout(device,
+                             std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
     const std::array sets{*picture, *material};
     const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
-    pipeline = vk::raii::PipelineLayout(device.device,
-                                        vk::PipelineLayoutCreateInfo({}, sets, constants));
+    pipeline =
+        vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
 }
 
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
@@ -177,8 +177,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
                             &specialization.info);
 
     const VertexInput vertexInput(key.pass);
-    const vk::PipelineInputAssemblyStateCreateInfo assembly(
-        {}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({},
+                                                            vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
@@ -186,9 +186,9 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineColorBlendAttachmentState attachment = blending(blend);
     const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, shadow ? 0u : 1u,
                                                       &attachment);
-    std::vector<vk::DynamicState> dynamic{
-        vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode,
-        vk::DynamicState::eFrontFace};
+    std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                          vk::DynamicState::eCullMode,
+                                          vk::DynamicState::eFrontFace};
     if (key.pass != Pass::background)
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);

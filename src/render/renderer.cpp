@@ -18,8 +18,7 @@ struct Renderer::State {
 namespace {
 
 // Runs `work`; whatever it throws becomes an Error.
-template<class T, class Work>
-Result<T> guarded(const char* doing, Work work)
+template<class T, class Work> Result<T> guarded(const char* doing, Work work)
 {
     try {
         return work();
@@ -72,9 +71,8 @@ Result<Image> Renderer::render(const View& view)
     if (!state_->scene)
         if (const Status loaded = load(Scene{}); !loaded)
             return loaded.error();
-    return guarded<Image>("drawing", [&] {
-        return state_->drawer->draw(*state_->scene, view, state_->timings);
-    });
+    return guarded<Image>(
+        "drawing", [&] { return state_->drawer->draw(*state_->scene, view, state_->timings); });
 }
 
 const std::string& Renderer::deviceName() const { return state_->device->name; }

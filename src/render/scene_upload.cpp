@@ -17,8 +17,7 @@ constexpr vk::DeviceSize kStaging = vk::DeviceSize(16) << 20;
 constexpr std::array<float, 8> kConstants{1, 1, 1, 1, 0, 0, 0, 0};
 constexpr vk::DeviceSize kZeroOffset = 16;
 
-template<class T>
-std::span<const std::byte> bytesOf(const T& array)
+template<class T> std::span<const std::byte> bytesOf(const T& array)
 {
     return std::as_bytes(std::span(array));
 }
@@ -28,8 +27,7 @@ struct StreamData {
     vk::DeviceSize stride = 0;
 };
 
-template<class T>
-StreamData streamOf(const std::vector<T>& values, std::size_t vertices)
+template<class T> StreamData streamOf(const std::vector<T>& values, std::size_t vertices)
 {
     if (values.size() != vertices || vertices == 0)
         return {};
@@ -248,8 +246,8 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
     vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eVertexBuffer
         | vk::BufferUsageFlagBits::eIndexBuffer | vk::BufferUsageFlagBits::eTransferDst;
     if (device_->exact)
-        usage |= vk::BufferUsageFlagBits::eShaderDeviceAddress
-            | vk::BufferUsageFlagBits::eStorageBuffer;
+        usage |=
+            vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eStorageBuffer;
     for (const vk::DeviceSize size : sizes) {
         buffers.push_back(makeDeviceBuffer(*device_, memory_, size, usage));
         uploader.buffer(buffers.back(), 0, bytesOf(kConstants));
@@ -274,17 +272,16 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         std::max<vk::DeviceSize>(device_->limits.minUniformBufferOffsetAlignment, 16);
     const vk::DeviceSize stride =
         (sizeof(gpu::CotanMaterial) + alignment - 1) / alignment * alignment;
-    materialBuffer_ = makeDeviceBuffer(
-        *device_, memory_, stride * count,
-        vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
+    materialBuffer_ = makeDeviceBuffer(*device_, memory_, stride * count,
+                                       vk::BufferUsageFlagBits::eUniformBuffer
+                                           | vk::BufferUsageFlagBits::eTransferDst);
 
     const auto sets = static_cast<std::uint32_t>(count);
     const std::array sizes{
         vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, sets),
         vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, sets * 5)};
-    pool_ = vk::raii::DescriptorPool(
-        device_->device,
-        vk::DescriptorPoolCreateInfo({}, sets, sizes));
+    pool_ =
+        vk::raii::DescriptorPool(device_->device, vk::DescriptorPoolCreateInfo({}, sets, sizes));
 
     for (std::size_t i = 0; i < count; ++i) {
         const Material& m = scene.materials[i];

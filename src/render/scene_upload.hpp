@@ -43,7 +43,7 @@ struct GpuMaterial {
     bool doubleSided = false;
     int normalTexcoord = 0; // the uv set of the normal map
     std::uint32_t maps = 0; // COTAN_MAP_...
-    vk::DescriptorSet set; // owned by the scene's pool
+    vk::DescriptorSet set;  // owned by the scene's pool
 };
 
 struct GpuInstance {

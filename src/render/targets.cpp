@@ -59,8 +59,8 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
 void Targets::begin(const vk::raii::CommandBuffer& commands)
 {
     transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
-               Stage::eTransfer | Stage::eColorAttachmentOutput, {},
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+               Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite);
     if (resolved_)
         transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined,
                    kAttachment, Stage::eTransfer | Stage::eColorAttachmentOutput, {},
@@ -85,8 +85,8 @@ void Targets::begin(const vk::raii::CommandBuffer& commands)
     depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
     const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
-    commands.setViewport(
-        0, vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
+    commands.setViewport(0,
+                         vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
     commands.setScissor(0, area);
 }
 
@@ -127,8 +127,8 @@ Targets::Kind targetKind(const Device& device, const View& view)
     kind.width = static_cast<std::uint32_t>(view.width);
     kind.height = static_cast<std::uint32_t>(view.height);
     const bool shaded = view.output == Output::shaded;
-    kind.format = shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb
-                                               : vk::Format::eR32G32B32A32Sfloat;
+    kind.format =
+        shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR32G32B32A32Sfloat;
     if (shaded && view.samples > 1) {
         const vk::SampleCountFlags can =
             device.physical

@@ -42,8 +42,7 @@ vk::Filter filterOf(Filter filter)
 }
 
 // Calls work(0) ... work(count - 1) on all cores, in no order; passes the first exception on.
-template<class Work>
-void onAllCores(std::size_t count, Work work)
+template<class Work> void onAllCores(std::size_t count, Work work)
 {
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
