@@ -51,17 +51,16 @@ void expectSound(const Scene& scene)
 
 bool mentions(const std::vector<std::string>& lines, const std::string& text)
 {
-    return std::ranges::any_of(lines, [&](const std::string& s) {
-        return s.find(text) != std::string::npos;
-    });
+    return std::ranges::any_of(
+        lines, [&](const std::string& s) { return s.find(text) != std::string::npos; });
 }
 
 // A folder "outer" with the folder "model" in it, for one test.
 class AssimpFile : public testing::Test {
 protected:
     fs::path outer = fs::temp_directory_path()
-                     / ("cotan_assimp_test_" + std::to_string(::getpid()) + "_"
-                        + testing::UnitTest::GetInstance()->current_test_info()->name());
+        / ("cotan_assimp_test_" + std::to_string(::getpid()) + "_"
+           + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::path folder = outer / "model";
     void SetUp() override { fs::create_directories(folder); }
     void TearDown() override { fs::remove_all(outer); }
@@ -144,7 +143,7 @@ TEST_F(AssimpFile, objLineEndsTabsContinuationsAndCommentsChangeNothing)
 {
     const Scene plain = load("a.obj", kQuad + kQuadFace);
     std::string odd = "# a comment that goes on \\\nand on\n" + kQuad
-                      + "f 1/1/1\t2/2/1 \\\n 3/3/1 \\\n4/4/1 # behind\nl 1 2\np 3\nfoo bar\n";
+        + "f 1/1/1\t2/2/1 \\\n 3/3/1 \\\n4/4/1 # behind\nl 1 2\np 3\nfoo bar\n";
     for (const std::string end : {"\n", "\r\n", "\r"}) {
         std::string text;
         for (const char c : odd)
@@ -166,7 +165,8 @@ TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
 {
     const std::pair<std::string, std::string> cases[] = {
         {"v 0 0\n", "line 1: expected 3 to 7 numbers, found 2"},
-        {"v 0 0 0\r\nv 0 \\\r\n0 0\r\nv 1 2 x\r\n", "line 4: expected a finite number, found \"x\""},
+        {"v 0 0 0\r\nv 0 \\\r\n0 0\r\nv 1 2 x\r\n",
+         "line 4: expected a finite number, found \"x\""},
         {"v 0 0 inf\n", "found \"inf\""},
         {"v 0 0 1e39\n", "found \"1e39\""},
         {kQuad + "f 1 2 5\n", "line 10: expected a position index up to 4, found 5"},
@@ -193,17 +193,21 @@ TEST_F(AssimpFile, limitsAreHeld)
 {
     LoadLimits limits;
     limits.triangles = 1;
-    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 1 triangles"), std::string::npos);
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 1 triangles"),
+              std::string::npos);
     limits = {};
     limits.vertices = 3;
-    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 3 vertices"), std::string::npos);
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("limit of 3 vertices"),
+              std::string::npos);
     limits = {};
     limits.fileBytes = 10;
-    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("the limit is 10"), std::string::npos);
+    EXPECT_NE(problem("a.obj", kQuad + kQuadFace, limits).find("the limit is 10"),
+              std::string::npos);
     limits = {};
     limits.nodes = 1;
-    EXPECT_NE(problem("a.obj", "o a\n" + kQuad + kQuadFace + "o b\n" + kQuadFace, limits).find("1 nodes"),
-              std::string::npos);
+    EXPECT_NE(
+        problem("a.obj", "o a\n" + kQuad + kQuadFace + "o b\n" + kQuadFace, limits).find("1 nodes"),
+        std::string::npos);
 }
 
 TEST_F(AssimpFile, concavePolygonKeepsItsArea)
@@ -219,8 +223,8 @@ TEST_F(AssimpFile, concavePolygonKeepsItsArea)
         area += glm::length(glm::cross(b - a, c - a)) / 2;
         doubled += glm::cross(b - a, c - a).z;
     }
-    EXPECT_NEAR(area, 2, 1e-6);                    // 8 of the whole less 6 of the notch
-    EXPECT_NEAR(std::abs(doubled) / 2, 2, 1e-6);   // and all of one orientation
+    EXPECT_NEAR(area, 2, 1e-6);                  // 8 of the whole less 6 of the notch
+    EXPECT_NEAR(std::abs(doubled) / 2, 2, 1e-6); // and all of one orientation
 }
 
 TEST_F(AssimpFile, missingNormalsAreSmoothUpToSixtyDegrees)
@@ -270,7 +274,8 @@ TEST_F(AssimpFile, mtlNormalMapsAreReadUnderEveryName)
         const Material& material = materialOf(scene);
         ASSERT_TRUE(material.normalMap.present()) << line;
         EXPECT_FALSE(material.normalFormat.greenAlongV) << line;
-        EXPECT_EQ(material.normalScale, line.find("-bm") != std::string::npos ? 0.5f : 1.0f) << line;
+        EXPECT_EQ(material.normalScale, line.find("-bm") != std::string::npos ? 0.5f : 1.0f)
+            << line;
         EXPECT_TRUE(scene.warnings.empty()) << line << ": " << scene.warnings[0];
     }
 }
@@ -283,13 +288,15 @@ TEST_F(AssimpFile, normalMapNamedDirectXHasGreenAlongV)
         {"deluxdx_n.png", false},      {"dxfoo.png", false}};
     for (const auto& [name, along] : names) {
         writeColour(folder / name, 128, 128, 255);
-        EXPECT_EQ(materialOf(loadMaterial("norm " + name + "\n")).normalFormat.greenAlongV, along) << name;
+        EXPECT_EQ(materialOf(loadMaterial("norm " + name + "\n")).normalFormat.greenAlongV, along)
+            << name;
     }
 }
 
 TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
 {
-    // Height sin(2 pi x / 64) along u and 0.5 sin along v: slopes known, and the same at the border.
+    // Height sin(2 pi x / 64) along u and 0.5 sin along v: slopes known, and the same at the
+    // border.
     const int side = 64;
     Image heights = makeImage(side, side, PixelType::unorm16);
     const double step = 2 * 3.14159265358979 / side;
@@ -303,7 +310,8 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
     }
     ASSERT_TRUE(writeImage(folder / "h.png", heights));
     for (const double strength : {1.0, 3.0}) {
-        const Scene scene = loadMaterial(strength == 1 ? "map_Bump h.png\n" : "map_Bump -bm 3 h.png\n");
+        const Scene scene =
+            loadMaterial(strength == 1 ? "map_Bump h.png\n" : "map_Bump -bm 3 h.png\n");
         const Material& material = materialOf(scene);
         ASSERT_TRUE(material.normalMap.present());
         EXPECT_TRUE(mentions(scene.warnings, "height map"));
@@ -314,9 +322,9 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
                 const double depth = 0.01 * side * strength; // texels from black to white
-                const glm::dvec3 expected = glm::normalize(
-                    glm::dvec3(-0.25 * step * std::cos(x * step) * depth,
-                               0.125 * step * std::cos(y * step) * depth, 1));
+                const glm::dvec3 expected =
+                    glm::normalize(glm::dvec3(-0.25 * step * std::cos(x * step) * depth,
+                                              0.125 * step * std::cos(y * step) * depth, 1));
                 const std::uint16_t* c = map.words() + 4 * (y * side + x);
                 const glm::dvec3 found = glm::normalize(
                     glm::dvec3(c[0], c[1], c[2]) / 65535.0 * (255.0 / 127) - 128.0 / 127);
@@ -347,9 +355,9 @@ TEST_F(AssimpFile, nothingOutsideTheFolderIsOpened)
     fs::create_symlink(outer / "secret.png", folder / "link.png");
     fs::create_directory_symlink(outer, folder / "up");
     const std::string absolute = (outer / "secret.png").string();
-    for (const std::string& name : std::vector<std::string>{"../secret.png", "..\\secret.png",
-                                                            "link.png", "up/secret.png", absolute,
-                                                            "sub/../../secret.png"}) {
+    for (const std::string& name :
+         std::vector<std::string>{"../secret.png", "..\\secret.png", "link.png", "up/secret.png",
+                                  absolute, "sub/../../secret.png"}) {
         const Scene scene = loadMaterial("map_Kd " + name + "\n");
         EXPECT_FALSE(materialOf(scene).baseColorMap.present()) << name;
         EXPECT_TRUE(scene.images.empty()) << name;
@@ -398,11 +406,12 @@ TEST_F(AssimpFile, materialLibraryWithDosLineEndsIsFound)
 
 TEST_F(AssimpFile, plyKeepsColoursAsLinearLight)
 {
-    const Scene scene = load(
-        "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                 "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                 "0 0 0 255 0 188\n1 0 0 255 0 188\n0 1 0 255 0 188\n3 0 1 2\n");
+    const Scene scene =
+        load("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+             "0 0 0 255 0 188\n1 0 0 255 0 188\n0 1 0 255 0 188\n3 0 1 2\n");
     ASSERT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
     EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(0, 0, 1));
@@ -415,8 +424,8 @@ TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
 {
     for (const std::string count : {"4294967295", "100000000000", "-1", "x"}) {
         const std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + count
-                                 + "\nproperty float x\nproperty float y\nproperty float z\n"
-                                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+            + "\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
         EXPECT_NE(problem("a.ply", text), "") << count;
     }
     EXPECT_NE(problem("a.ply", "ply\nformat ascii 1.0\n"), "");
@@ -449,22 +458,29 @@ TEST_F(AssimpFile, stlWeldsItsCornersAndMakesNormals)
 
 TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
 {
-    const std::string floats = "<source id=\"p\"><float_array id=\"pa\" count=\"9\">0 0 0 1 0 0 0 1 0"
-                               "</float_array><technique_common><accessor source=\"#pa\" count=\"3\" "
-                               "stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
-                               "type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
-                               "</technique_common></source>";
+    const std::string floats =
+        "<source id=\"p\"><float_array id=\"pa\" count=\"9\">0 0 0 1 0 0 0 1 0"
+        "</float_array><technique_common><accessor source=\"#pa\" count=\"3\" "
+        "stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
+        "type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+        "</technique_common></source>";
     const std::string use = "<instance_geometry url=\"#g\"/>";
     const Scene scene = load(
         "a.dae",
         "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-        "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\">"
-        "<mesh>" + floats + "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
-        "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p>"
-        "</triangles></mesh></geometry></library_geometries><library_visual_scenes>"
-        "<visual_scene id=\"s\"><node id=\"a\"><translate>10 0 0</translate>" + use
-        + "<node id=\"b\"><scale>2 -3 1</scale>" + use + "</node></node></visual_scene>"
-        "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+        "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry "
+        "id=\"g\">"
+        "<mesh>"
+            + floats
+            + "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
+              "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 "
+              "1 2</p>"
+              "</triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+              "<visual_scene id=\"s\"><node id=\"a\"><translate>10 0 0</translate>"
+            + use + "<node id=\"b\"><scale>2 -3 1</scale>" + use
+            + "</node></node></visual_scene>"
+              "</library_visual_scenes><scene><instance_visual_scene "
+              "url=\"#s\"/></scene></COLLADA>");
     EXPECT_EQ(scene.meshes.size(), 1u);
     ASSERT_EQ(scene.instances.size(), 2u);
     const Bounds box = bounds(scene);
@@ -474,17 +490,22 @@ TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
 
 TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
 {
-    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
-                             "y\nproperty float z\nelement face 1\nproperty list uchar int "
-                             "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+        "y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
     EXPECT_EQ(problem("a.ply", head + "3 0 1 2\n"), "");
     EXPECT_NE(problem("b.ply", head + "3 0 1 3\n").find("expected an index below 3, found 3"),
               std::string::npos);
     // Two lines that once kept the parser busy for ever.
-    EXPECT_NE(problem("c.ply", "ply\nformat ascii 1.0\nelement vertex 8\nformat perty float32 x\n"
-                               "end_header*0 0 0\n0 0 1\n"), "");
-    EXPECT_NE(problem("d.dae", "<COLLADA><float_array count=\"8589934592\">1</float_array></COLLADA>")
-                  .find("found 8589934592"), std::string::npos);
+    EXPECT_NE(problem("c.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 8\nformat perty float32 x\n"
+                      "end_header*0 0 0\n0 0 1\n"),
+              "");
+    EXPECT_NE(
+        problem("d.dae", "<COLLADA><float_array count=\"8589934592\">1</float_array></COLLADA>")
+            .find("found 8589934592"),
+        std::string::npos);
     // A stray character in a list of indices once filled the memory.
     EXPECT_NE(problem("e.dae", "<COLLADA><p>0 1 2; 3</p></COLLADA>").find("whole numbers in <p>"),
               std::string::npos);
@@ -494,7 +515,7 @@ TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)
 {
     for (const char* extension : {".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"}) {
         for (const std::string& text : {std::string("garbage"), std::string(1000, 'x'),
-                                       std::string(1000, '\0'), std::string(5000, '\xff')}) {
+                                        std::string(1000, '\0'), std::string(5000, '\xff')}) {
             const std::string found = problem(std::string("a") + extension, text);
             EXPECT_NE(found, "") << extension;
             EXPECT_EQ(found.find('\n'), std::string::npos) << found;
@@ -545,8 +566,8 @@ Counted countText(const fs::path& file)
             std::size_t corners = 0;
             for (; words >> word; ++corners) {
                 const int index = std::stoi(word);
-                const std::size_t at = index > 0 ? std::size_t(index) - 1
-                                                 : positions.size() - std::size_t(-index);
+                const std::size_t at =
+                    index > 0 ? std::size_t(index) - 1 : positions.size() - std::size_t(-index);
                 counted.box.low = glm::min(counted.box.low, positions[at]);
                 counted.box.high = glm::max(counted.box.high, positions[at]);
             }

@@ -59,11 +59,13 @@ TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
                             {{-1, -1, 0}, {1, 1, 0}},
                             {{0, 0, -1000}, {1, 1, 1000}}};
     for (const Bounds& box : boxes) {
-        for (const auto& [width, height] : {std::pair(1280, 720), {100, 1000}, {3000, 200}, {1, 1}}) {
+        for (const auto& [width, height] :
+             {std::pair(1280, 720), {100, 1000}, {3000, 200}, {1, 1}}) {
             const Camera camera = fitCamera(box, width, height);
             float largest = 0;
             for (int i = 0; i < 8; ++i) {
-                const glm::vec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                const glm::vec3 corner(i & 1 ? box.high.x : box.low.x,
+                                       i & 2 ? box.high.y : box.low.y,
                                        i & 4 ? box.high.z : box.low.z);
                 const glm::vec3 p = project(camera, float(width) / float(height), corner);
                 EXPECT_GT(p.z, 0);
@@ -91,9 +93,9 @@ TEST(FitCamera, flatFacingPlaneIsSeenStraightOnAndASolidFromTheRightAndAbove)
 TEST(FitCamera, emptyPointAndEndlessBoxesGiveAFiniteCamera)
 {
     const float inf = std::numeric_limits<float>::infinity();
-    for (const Bounds& box : {Bounds{}, Bounds{{3, 3, 3}, {3, 3, 3}},
-                              Bounds{glm::vec3(1e30f), glm::vec3(1e30f)}, Bounds{{-inf, 0, 0}, {inf, 1, 1}},
-                              Bounds{glm::vec3(-1e37f), glm::vec3(1e37f)}}) {
+    for (const Bounds& box :
+         {Bounds{}, Bounds{{3, 3, 3}, {3, 3, 3}}, Bounds{glm::vec3(1e30f), glm::vec3(1e30f)},
+          Bounds{{-inf, 0, 0}, {inf, 1, 1}}, Bounds{glm::vec3(-1e37f), glm::vec3(1e37f)}}) {
         for (const int size : {0, 100}) {
             const Camera camera = fitCamera(box, size, size);
             for (int c = 0; c < 3; ++c)
@@ -138,8 +140,9 @@ TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesACorner)
     for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
         const std::size_t base = c / 3 * 3;
         const glm::vec3 a = mesh.positions[mesh.indices[base]];
-        const glm::vec3 face = glm::normalize(glm::cross(mesh.positions[mesh.indices[base + 1]] - a,
-                                                         mesh.positions[mesh.indices[base + 2]] - a));
+        const glm::vec3 face =
+            glm::normalize(glm::cross(mesh.positions[mesh.indices[base + 1]] - a,
+                                      mesh.positions[mesh.indices[base + 2]] - a));
         const glm::vec3 normal = mesh.normals[mesh.indices[c]];
         EXPECT_NEAR(glm::dot(normal, face), 1, 1e-6);
         EXPECT_EQ(mesh.texcoords[0][mesh.indices[c]], texcoords[indices[c]]); // taken along

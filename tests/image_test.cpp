@@ -40,8 +40,8 @@ Pixel pixel(const Image& image, int x, int y)
 class ImageFile : public testing::Test {
 protected:
     fs::path folder = fs::temp_directory_path()
-                      / ("cotan_image_test_" + std::to_string(::getpid()) + "_"
-                         + testing::UnitTest::GetInstance()->current_test_info()->name());
+        / ("cotan_image_test_" + std::to_string(::getpid()) + "_"
+           + testing::UnitTest::GetInstance()->current_test_info()->name());
     void SetUp() override { fs::create_directories(folder); }
     void TearDown() override { fs::remove_all(folder); }
 
@@ -81,8 +81,8 @@ TEST(Png, greyOfFewBitsIsScaledToTheFullRange)
                  {2, "\0\x1b"s, {0, 85, 170, 255}},
                  {4, "\0\x05\xaf"s, {0, 85, 170, 255}}};
     for (const auto& c : cases) {
-        const auto image = decodeImage(
-            makePng({.width = 4, .bits = c.bits, .colour = 0, .rows = c.row}), "grey");
+        const auto image =
+            decodeImage(makePng({.width = 4, .bits = c.bits, .colour = 0, .rows = c.row}), "grey");
         ASSERT_TRUE(image) << image.error().message;
         for (int x = 0; x < 4; ++x) {
             const int g = c.grey[std::size_t(x)];
@@ -93,10 +93,13 @@ TEST(Png, greyOfFewBitsIsScaledToTheFullRange)
 
 TEST(Png, paletteBecomesColoursAndItsTransparencyAlpha)
 {
-    const auto image = decodeImage(
-        makePng({.width = 2, .colour = 3, .rows = "\0\1\0"s,
-                 .before = test::chunk("PLTE", "\x0a\x14\x1e\x28\x32\x3c"s) + test::chunk("tRNS", "\x80"s)}),
-        "palette");
+    const auto image =
+        decodeImage(makePng({.width = 2,
+                             .colour = 3,
+                             .rows = "\0\1\0"s,
+                             .before = test::chunk("PLTE", "\x0a\x14\x1e\x28\x32\x3c"s)
+                                 + test::chunk("tRNS", "\x80"s)}),
+                    "palette");
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{40, 50, 60, 255}));
     EXPECT_EQ(pixel(*image, 1, 0), (Pixel{10, 20, 30, 128}));
@@ -104,8 +107,8 @@ TEST(Png, paletteBecomesColoursAndItsTransparencyAlpha)
 
 TEST(Png, sixteenBitsAreKept)
 {
-    const auto image = decodeImage(
-        makePng({.bits = 16, .colour = 2, .rows = "\0\x12\x34\xab\xcd\0\1"s}), "wide");
+    const auto image =
+        decodeImage(makePng({.bits = 16, .colour = 2, .rows = "\0\x12\x34\xab\xcd\0\1"s}), "wide");
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->type, PixelType::unorm16);
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{0x1234, 0xabcd, 1, 65535}));
@@ -113,7 +116,8 @@ TEST(Png, sixteenBitsAreKept)
 
 TEST(Png, valuesAreNotMultipliedByAlphaNorConvertedByGamma)
 {
-    const auto image = decodeImage(makePng({.colour = 6, .rows = "\0\xc8\x64\x32\x0a"s,
+    const auto image = decodeImage(makePng({.colour = 6,
+                                            .rows = "\0\xc8\x64\x32\x0a"s,
                                             .before = test::chunk("gAMA", test::big32(100000))}),
                                    "alpha");
     ASSERT_TRUE(image) << image.error().message;
@@ -122,12 +126,15 @@ TEST(Png, valuesAreNotMultipliedByAlphaNorConvertedByGamma)
 
 TEST(Png, interlacedRowsFindTheirPlaces)
 {
-    // 3 x 3 in Adam7: pass 1 has (0,0), pass 4 (2,0), pass 5 row 2: (0,2) (2,2), pass 6 columns 1 of
-    // rows 0 and 2, pass 7 row 1. Every pixel holds 10 * x + y.
-    const auto image = decodeImage(
-        makePng({.width = 3, .height = 3, .colour = 0, .interlaced = true,
-                 .rows = "\0\x00\0\x14\0\x02\x16\0\x0a\0\x0c\0\x01\x0b\x15"s}),
-        "adam7");
+    // 3 x 3 in Adam7: pass 1 has (0,0), pass 4 (2,0), pass 5 row 2: (0,2) (2,2), pass 6 columns 1
+    // of rows 0 and 2, pass 7 row 1. Every pixel holds 10 * x + y.
+    const auto image =
+        decodeImage(makePng({.width = 3,
+                             .height = 3,
+                             .colour = 0,
+                             .interlaced = true,
+                             .rows = "\0\x00\0\x14\0\x02\x16\0\x0a\0\x0c\0\x01\x0b\x15"s}),
+                    "adam7");
     ASSERT_TRUE(image) << image.error().message;
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x)
@@ -142,7 +149,8 @@ TEST(Png, brokenFilesAreRefusedSilentlyWithOneLine)
     for (std::size_t length = 0; length < good.size(); ++length)
         broken.emplace_back("cut to " + std::to_string(length),
                             Bytes(good.begin(), good.begin() + std::ptrdiff_t(length)));
-    for (const std::size_t at : {17u, 29u, 45u, 55u}) { // header, its checksum, pixels, their checksum
+    for (const std::size_t at :
+         {17u, 29u, 45u, 55u}) { // header, its checksum, pixels, their checksum
         broken.emplace_back("flipped bit at " + std::to_string(at), good);
         broken.back().second[at] ^= std::byte{4};
     }
@@ -308,7 +316,8 @@ TEST_F(ImageFile, brokenJpegIsRefusedSilentlyWithOneLine)
     test::put(good, readAll(folder / "a.jpg"));
     ASSERT_TRUE(decodeImage(good, "a.jpg"));
     testing::internal::CaptureStderr();
-    for (const std::size_t length : {std::size_t(3), std::size_t(20), good.size() / 2, good.size() - 40}) {
+    for (const std::size_t length :
+         {std::size_t(3), std::size_t(20), good.size() / 2, good.size() - 40}) {
         const auto image = decodeImage(std::span(good).first(length), "a.jpg");
         ASSERT_FALSE(image) << length;
         EXPECT_EQ(image.error().message.find('\n'), std::string::npos) << image.error().message;

@@ -30,15 +30,16 @@ inline void putChunk(Bytes& bytes, const std::string& type, const std::string& d
     const std::string body = type + data;
     put(bytes, big32(std::uint32_t(data.size())));
     put(bytes, body);
-    put(bytes, big32(std::uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()),
-                                         uInt(body.size())))));
+    put(bytes,
+        big32(std::uint32_t(
+            crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size())))));
 }
 
 struct Png {
     std::uint32_t width = 1;
     std::uint32_t height = 1;
     int bits = 8;
-    int colour = 2;          // 0 grey, 2 rgb, 3 palette, 4 grey and alpha, 6 rgb and alpha
+    int colour = 2; // 0 grey, 2 rgb, 3 palette, 4 grey and alpha, 6 rgb and alpha
     bool interlaced = false;
     std::string rows;        // as stored, each with its filter byte
     std::string before = {}; // chunks between header and pixels, whole

@@ -1,5 +1,7 @@
 #include "picture.hpp"
 
+#include <cstdlib>
+
 
 #include <fmt/format.h>
 
@@ -12,6 +14,15 @@
 namespace cotan::app {
 
 namespace {
+
+// CLI11's own range checks let NaN pass.
+std::string positiveNumber(const std::string& text)
+{
+    char* end = nullptr;
+    const float value = std::strtof(text.c_str(), &end);
+    const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
+    return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
+}
 
 Result<View> makeView(const PictureOptions& options, const Scene& scene)
 {
@@ -58,7 +69,7 @@ void addPictureOptions(CLI::App& command, PictureOptions& o)
     command.add_option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4")
         ->check(CLI::IsMember({1, 4}))->type_name("N")->capture_default_str();
     command.add_option("--exposure", o.exposure, "factor on all light")
-        ->check(CLI::Range(1e-6f, 1e6f))->type_name("X")->capture_default_str();
+        ->check(positiveNumber)->type_name("X")->capture_default_str();
     command.add_option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
         ->check(CLI::IsMember({"down", "up"}))->type_name("NAME")->capture_default_str();
     command.add_option("--derivatives", o.derivatives, "fine or coarse")

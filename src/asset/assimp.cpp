@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include <assimp/BaseImporter.h>
-#include <assimp/defs.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
+#include <assimp/defs.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -45,13 +45,13 @@ namespace {
 
 // The model on its way through the reader.
 struct Job {
-    fs::path file;       // as passed, for messages
+    fs::path file; // as passed, for messages
     fs::path canonical;
-    fs::path folder;     // canonical
+    fs::path folder;       // canonical
     std::string extension; // lower case, with the dot
     const LoadLimits& limits;
     std::vector<std::byte> bytes;
-    ObjFacts obj;        // of an OBJ
+    ObjFacts obj; // of an OBJ
     FileRequests requests;
     Scene scene;
 
@@ -115,7 +115,8 @@ bool keepOneReader(Assimp::Importer& importer, const std::string& extension)
 const aiScene* import(Job& job, Assimp::Importer& importer)
 {
     importer.SetIOHandler(new ModelFiles(job.canonical, job.bytes, job.limits, job.requests));
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     return importer.ReadFile(job.canonical.string(), 0);
@@ -147,11 +148,11 @@ Status checkCounts(const aiScene& source, const Job& job)
     }
     // Before equal vertices are merged every corner has its own: three times the limit.
     if (vertices / 3 > job.limits.vertices)
-        return inputError(fmt::format("{}: over the limit of {} vertices", job.name(),
-                                      job.limits.vertices));
+        return inputError(
+            fmt::format("{}: over the limit of {} vertices", job.name(), job.limits.vertices));
     if (triangles > job.limits.triangles)
-        return inputError(fmt::format("{}: over the limit of {} triangles", job.name(),
-                                      job.limits.triangles));
+        return inputError(
+            fmt::format("{}: over the limit of {} triangles", job.name(), job.limits.triangles));
     return Done{};
 }
 
@@ -182,7 +183,8 @@ void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
     const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap,
-                                  &material.normalMap, &material.occlusionMap, &material.emissiveMap};
+                                  &material.normalMap, &material.occlusionMap,
+                                  &material.emissiveMap};
     for (const Texture* texture : all) {
         if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
             scene.warnings.push_back(fmt::format(
@@ -207,8 +209,8 @@ Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
         if (mesh->indices.empty())
             continue;
         const unsigned material = source.mMeshes[i]->mMaterialIndex;
-        mesh->material = material < source.mNumMaterials ? int(material)
-                                                         : defaultMaterial(job.scene, fallback);
+        mesh->material =
+            material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
         warnAboutTexcoords(*mesh, job.scene);
         indexOf[i] = int(job.scene.meshes.size());
         job.scene.meshes.push_back(*std::move(mesh));
@@ -222,9 +224,9 @@ void warnAboutLibraries(Job& job)
     for (const std::string& library : job.obj.libraries) {
         bool outside = false;
         if (!findInFolder(job.folder, library, outside))
-            job.scene.warnings.push_back(
-                fmt::format("material library {} {}", library,
-                            outside ? "is outside the model's folder; not opened" : "was not found"));
+            job.scene.warnings.push_back(fmt::format(
+                "material library {} {}", library,
+                outside ? "is outside the model's folder; not opened" : "was not found"));
     }
 }
 
@@ -267,8 +269,8 @@ Result<Scene> load(Job& job)
 
     Assimp::Importer importer;
     if (!keepOneReader(importer, job.extension))
-        return inputError(fmt::format("{}: no reader for the extension \"{}\"", job.name(),
-                                      job.extension));
+        return inputError(
+            fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
         return inputError(fmt::format("{}: {}", job.name(), oneLine(importer.GetErrorString())));

@@ -73,7 +73,8 @@ Texture use(const Slot& slot, int image)
     return texture;
 }
 
-float number(const aiMaterial& source, const char* key, unsigned type, unsigned index, float fallback)
+float number(const aiMaterial& source, const char* key, unsigned type, unsigned index,
+             float fallback)
 {
     ai_real value = 0;
     if (source.Get(key, type, index, value) != aiReturn_SUCCESS || !std::isfinite(value))
@@ -105,15 +106,17 @@ void setSurface(const aiMaterial& source, TextureReader& textures, Material& mat
     const int metalImage = metal.path.empty() ? -1 : textures.image(metal.path, material.name);
     const float shininess = number(source, AI_MATKEY_SHININESS, 0);
     const float roughness = roughImage >= 0 ? 1 : roughnessFromShininess(shininess);
-    material.roughness = std::clamp(number(source, AI_MATKEY_ROUGHNESS_FACTOR, roughness), 0.0f, 1.0f);
+    material.roughness =
+        std::clamp(number(source, AI_MATKEY_ROUGHNESS_FACTOR, roughness), 0.0f, 1.0f);
     material.metallic = std::clamp(
         number(source, AI_MATKEY_METALLIC_FACTOR, metalImage >= 0 ? 1.0f : 0.0f), 0.0f, 1.0f);
     // Without a map of its own the other factor must not be scaled by a white channel's neighbour.
-    material.metallicRoughnessMap = use(roughImage >= 0 ? rough : metal,
-                                        textures.metallicRoughness(roughImage, metalImage));
+    material.metallicRoughnessMap =
+        use(roughImage >= 0 ? rough : metal, textures.metallicRoughness(roughImage, metalImage));
 }
 
-void setBaseColor(const aiMaterial& source, TextureReader& textures, Scene& scene, Material& material)
+void setBaseColor(const aiMaterial& source, TextureReader& textures, Scene& scene,
+                  Material& material)
 {
     const Slot slot = findSlot(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     if (!slot.path.empty())
@@ -154,23 +157,25 @@ bool namesDirectX(const std::string& path)
     if (name.find("directx") != std::string::npos)
         return true;
     for (std::size_t at = name.find("dx"); at != std::string::npos; at = name.find("dx", at + 1)) {
-        const bool starts = at == 0 || !letter(at - 1)
-                            || std::string_view(name).substr(0, at).ends_with("normal");
+        const bool starts =
+            at == 0 || !letter(at - 1) || std::string_view(name).substr(0, at).ends_with("normal");
         if (starts && !letter(at + 2))
             return true;
     }
     return false;
 }
 
-void setNormalMap(const aiMaterial& source, TextureReader& textures, Scene& scene, Material& material)
+void setNormalMap(const aiMaterial& source, TextureReader& textures, Scene& scene,
+                  Material& material)
 {
-    const Slot slot = findSlot(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA,
-                                        aiTextureType_HEIGHT});
+    const Slot slot = findSlot(
+        source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA, aiTextureType_HEIGHT});
     if (slot.path.empty())
         return;
     const float strength = number(source, AI_MATKEY_OBJ_BUMPMULT(slot.type, 0), 1);
     bool converted = false;
-    material.normalMap = use(slot, textures.normalMap(slot.path, material.name, strength, converted));
+    material.normalMap =
+        use(slot, textures.normalMap(slot.path, material.name, strength, converted));
     if (!material.normalMap.present() || converted)
         return; // the strength is in the conversion
     material.normalScale = strength;

@@ -31,9 +31,9 @@ Status copyPositions(const aiMesh& source, const std::string& file, Mesh& mesh)
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
         const aiVector3D& p = source.mVertices[i];
         if (!finite(p))
-            return inputError(fmt::format(
-                "{}: mesh {}: position {}: expected finite numbers, found {} {} {}", file, mesh.name,
-                i, p.x, p.y, p.z));
+            return inputError(
+                fmt::format("{}: mesh {}: position {}: expected finite numbers, found {} {} {}",
+                            file, mesh.name, i, p.x, p.y, p.z));
         mesh.positions.emplace_back(p.x, p.y, p.z);
     }
     return Done{};
@@ -48,9 +48,9 @@ Status copyTriangles(const aiMesh& source, const std::string& file, Mesh& mesh)
             continue; // points and lines
         for (unsigned c = 0; c < 3; ++c) {
             if (face.mIndices[c] >= source.mNumVertices)
-                return inputError(fmt::format(
-                    "{}: mesh {}: triangle {}: expected an index below {}, found {}", file, mesh.name,
-                    f, source.mNumVertices, face.mIndices[c]));
+                return inputError(
+                    fmt::format("{}: mesh {}: triangle {}: expected an index below {}, found {}",
+                                file, mesh.name, f, source.mNumVertices, face.mIndices[c]));
             mesh.indices.push_back(face.mIndices[c]);
         }
     }
@@ -126,8 +126,8 @@ Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const Me
     const bool stored = source.mNormals && !choices.regenerateNormals;
     const bool usable = stored && copyNormals(source, mesh);
     if (stored && !usable)
-        scene.warnings.push_back(
-            fmt::format("mesh {}: some normals are zero or not finite; all are made anew", mesh.name));
+        scene.warnings.push_back(fmt::format(
+            "mesh {}: some normals are zero or not finite; all are made anew", mesh.name));
     if (!usable) {
         mesh.normals.clear();
         generateNormals(mesh, choices.creaseDegrees);

@@ -48,7 +48,7 @@ void addCamera(const aiCamera& source, const glm::mat4& toWorld, Scene& scene)
 
     const float area = glm::length(glm::cross(camera.target - camera.eye, camera.up));
     const bool usable = area > 0 && std::isfinite(area) && std::isfinite(glm::length(camera.eye))
-                        && camera.verticalFieldOfView > 0.01f && camera.verticalFieldOfView < kPi;
+        && camera.verticalFieldOfView > 0.01f && camera.verticalFieldOfView < kPi;
     if (usable)
         scene.cameras.push_back(camera);
     else

@@ -42,8 +42,8 @@ int TextureReader::load(const std::string& path, const std::string& material)
         return -1;
     };
     if (bytes_ >= limits_.allImageBytes)
-        return unusable(fmt::format("the images are over the limit of {} bytes",
-                                    limits_.allImageBytes));
+        return unusable(
+            fmt::format("the images are over the limit of {} bytes", limits_.allImageBytes));
     if (const aiTexture* texture = source_.GetEmbeddedTexture(path.c_str())) {
         std::string problem;
         if (auto image = embedded(*texture, fmt::format("{} {}", scene_.name, path), problem))
@@ -77,15 +77,16 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
         return std::nullopt;
     }
     if (texture.mHeight == 0) { // a whole image file of mWidth bytes
-        auto image = decodeImage(std::as_bytes(std::span(
-                                     reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
-                                 name, limits_);
+        auto image = decodeImage(
+            std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
+            name, limits_);
         if (image)
             return *std::move(image);
         problem = image.error().message;
         return std::nullopt;
     }
-    if (auto error = checkImageSize(texture.mWidth, texture.mHeight, PixelType::unorm8, name, limits_)) {
+    if (auto error =
+            checkImageSize(texture.mWidth, texture.mHeight, PixelType::unorm8, name, limits_)) {
         problem = error->message;
         return std::nullopt;
     }
@@ -106,7 +107,8 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     if (source < 0 || !looksLikeHeight(scene_.images[std::size_t(source)]))
         return source;
     converted = true;
-    const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
+    const auto [entry, isNew] =
+        known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {
         entry->second = add(normalMapFromHeight(scene_.images[std::size_t(source)], strength));
         scene_.warnings.push_back(fmt::format(
@@ -134,8 +136,8 @@ int TextureReader::metallicRoughness(int roughness, int metallic)
 {
     if (roughness < 0 && metallic < 0)
         return -1;
-    const auto [entry, isNew] = known_.try_emplace(
-        fmt::format("roughness\n{}\nmetallic\n{}", roughness, metallic), -1);
+    const auto [entry, isNew] =
+        known_.try_emplace(fmt::format("roughness\n{}\nmetallic\n{}", roughness, metallic), -1);
     if (!isNew)
         return entry->second;
     std::optional<Image> rough, metal;
@@ -150,7 +152,8 @@ int TextureReader::metallicRoughness(int roughness, int metallic)
         for (int x = 0; x < w; ++x) {
             const std::uint8_t rgba[4] = {255, redNearest(rough ? &*rough : nullptr, x, y, w, h),
                                           redNearest(metal ? &*metal : nullptr, x, y, w, h), 255};
-            std::memcpy(out.bytes8() + 4 * (std::size_t(y) * std::size_t(w) + std::size_t(x)), rgba, 4);
+            std::memcpy(out.bytes8() + 4 * (std::size_t(y) * std::size_t(w) + std::size_t(x)), rgba,
+                        4);
         }
     }
     return entry->second = add(std::move(out));

@@ -48,8 +48,8 @@ private:
     const aiScene& source_;
     const std::filesystem::path& folder_;
     const LoadLimits& limits_;
-    std::size_t bytes_ = 0;                       // of all images
-    std::map<std::string, int> known_;            // what a path, or a conversion, gave
+    std::size_t bytes_ = 0;            // of all images
+    std::map<std::string, int> known_; // what a path, or a conversion, gave
 };
 
 } // namespace cotan

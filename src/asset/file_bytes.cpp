@@ -28,8 +28,8 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     if (size == 0)
         return inputError(fmt::format("{}: the file is empty", file.string()));
     if (size > limit)
-        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", file.string(),
-                                      size, limit));
+        return inputError(
+            fmt::format("{}: the file has {} bytes, the limit is {}", file.string(), size, limit));
 
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(
         std::fopen(file.c_str(), "rb"), [](std::FILE* f) { return std::fclose(f); });
@@ -60,8 +60,8 @@ Status writeBeside(const fs::path& file, const std::function<Status(const fs::pa
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     std::error_code error;
     if (!fs::is_directory(folder, error))
-        return outputError(fmt::format("{}: the folder {} does not exist", file.string(),
-                                       folder.string()));
+        return outputError(
+            fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
     if (fs::is_directory(file, error))
         return outputError(fmt::format("{}: is a folder", file.string()));
 

@@ -10,10 +10,7 @@ namespace cotan {
 
 namespace {
 
-bool finite(glm::vec3 v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 } // namespace
 
@@ -35,8 +32,8 @@ Bounds bounds(const Scene& scene)
 namespace {
 
 constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
-constexpr float kMargin = 0.94f;     // of the half picture that the box may fill
-constexpr float kFlatness = 0.05f;   // depth over width or height below which a box is a picture
+constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
+constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
 const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
 
 // The smallest distance along `back` from the centre at which every corner of the box is inside
@@ -47,10 +44,10 @@ float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
     const glm::vec3 up = glm::cross(back, right);
     float distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p = halfSize
-                            * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const float beside = std::max(std::abs(glm::dot(p, right)) / tanX,
-                                      std::abs(glm::dot(p, up)) / tanY);
+        const glm::vec3 p =
+            halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float beside =
+            std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
         distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
     }
     return distance;

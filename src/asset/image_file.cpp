@@ -25,7 +25,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
             return *std::move(image);
     if (!knownImage(bytes, name))
         return inputError(fmt::format(
-            "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
+            "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data",
+            name));
     const auto formats = imageFormats();
     if (!formats)
         return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
@@ -75,16 +76,15 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
     if (!writableImage(file))
-        return usageError(fmt::format(
-            "{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"", name,
-            file.extension().string()));
+        return usageError(
+            fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"",
+                        name, file.extension().string()));
     if (image.width <= 0 || image.height <= 0
         || image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name,
                                       image.width, image.height, image.data.size()));
-    return writeBeside(file, [&](const std::filesystem::path& beside) {
-        return write(beside, image, name);
-    });
+    return writeBeside(
+        file, [&](const std::filesystem::path& beside) { return write(beside, image, name); });
 }
 
 } // namespace cotan

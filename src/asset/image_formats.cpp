@@ -44,15 +44,15 @@ Result<const ImageFormats*> loadModule()
             problem = ::dlerror();
             continue;
         }
-        const auto entry = reinterpret_cast<const ImageFormats* (*)()>(
-            ::dlsym(module, "cotanImageFormats"));
+        const auto entry =
+            reinterpret_cast<const ImageFormats* (*)()>(::dlsym(module, "cotanImageFormats"));
         const ImageFormats* formats = entry ? entry() : nullptr;
         if (formats && std::strcmp(formats->version, COTAN_MODULE_VERSION) == 0)
             return formats;
         problem = fmt::format("{} is not of this version", file.string());
     }
-    return unavailableError(fmt::format("this image format needs the module {}: {}",
-                                        COTAN_MODULE_NAME, problem));
+    return unavailableError(
+        fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
 }
 
 } // namespace
@@ -71,7 +71,7 @@ bool knownImage(std::span<const std::byte> bytes, const std::string& name)
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
                                 std::min<std::size_t>(bytes.size(), 4));
     return std::ranges::any_of(kStarts, [&](auto start) { return head.starts_with(start); })
-           || (lowerExtension(name) == ".tga" && !bytes.empty());
+        || (lowerExtension(name) == ".tga" && !bytes.empty());
 }
 
 bool writableImage(const fs::path& file)

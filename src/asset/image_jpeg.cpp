@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 // libjpeg's header needs <cstdio> before it.
-#include <jpeglib.h>
 #include <jerror.h>
+#include <jpeglib.h>
 
 #include "image_limits.hpp"
 
@@ -44,7 +44,8 @@ void onError(j_common_ptr common)
 void onMessage(j_common_ptr common, int level)
 {
     const int code = common->err->msg_code;
-    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE))
+    if (level < 0
+        && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE))
         onError(common);
 }
 

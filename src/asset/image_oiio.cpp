@@ -64,8 +64,7 @@ OIIO::TypeDesc typeDesc(PixelType type)
 }
 
 // Spreads the first `channels` components of every pixel over red, green, blue and alpha.
-template<class T>
-void completeChannels(T* pixel, std::size_t count, int channels, T one)
+template<class T> void completeChannels(T* pixel, std::size_t count, int channels, T one)
 {
     for (std::size_t i = 0; i < count; ++i, pixel += 4) {
         if (channels == 2)
@@ -102,7 +101,7 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
         return inputError(fmt::format("{}: the image has no channels", name));
     const double tile = double(spec.tile_width) * double(spec.tile_height);
     const double stored = std::max(double(spec.width) * double(spec.height), tile)
-                          * double(spec.pixel_bytes(/*native=*/true));
+        * double(spec.pixel_bytes(/*native=*/true));
     if (stored > double(limits.imageBytes))
         return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
                                       name, stored, limits.imageBytes));

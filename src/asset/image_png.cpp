@@ -21,7 +21,7 @@ namespace {
 struct Session {
     const png_byte* next = nullptr; // reading: the bytes not yet consumed
     std::size_t left = 0;
-    std::FILE* out = nullptr;       // writing
+    std::FILE* out = nullptr; // writing
     char message[128] = "";
 };
 
@@ -130,7 +130,7 @@ Error pngError(const std::string& name, const Session& session)
 bool isPng(std::span<const std::byte> bytes)
 {
     return bytes.size() >= 8
-           && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) == 0;
+        && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) == 0;
 }
 
 Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,

@@ -11,8 +11,7 @@ namespace {
 using Index = std::uint32_t;
 
 // Calls f with each attribute array that the mesh has.
-template<class M, class F>
-void eachAttribute(M& mesh, F f)
+template<class M, class F> void eachAttribute(M& mesh, F f)
 {
     const auto call = [&](auto& attribute) {
         if (!attribute.empty())

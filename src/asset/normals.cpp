@@ -40,8 +40,8 @@ std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
 }
 
 struct Face {
-    glm::dvec3 normal{0};           // unit; zero for a degenerate triangle
-    std::array<double, 3> angle{};  // at each corner, radians
+    glm::dvec3 normal{0};          // unit; zero for a degenerate triangle
+    std::array<double, 3> angle{}; // at each corner, radians
     bool usable() const { return normal != glm::dvec3(0); }
 };
 
@@ -111,9 +111,8 @@ std::vector<Edge> sortedEdges(const std::vector<Index>& pointOfCorner)
         }
         edges.push_back(edge);
     }
-    std::ranges::sort(edges, {}, [](const Edge& e) {
-        return std::tuple(e.low, e.high, e.cornerAtLow);
-    });
+    std::ranges::sort(edges, {},
+                      [](const Edge& e) { return std::tuple(e.low, e.high, e.cornerAtLow); });
     return edges;
 }
 
@@ -179,8 +178,7 @@ std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& po
     return normals;
 }
 
-template<class T>
-void copyLast(std::vector<T>& attribute, Index vertex)
+template<class T> void copyLast(std::vector<T>& attribute, Index vertex)
 {
     if (!attribute.empty())
         attribute.push_back(T(attribute[vertex]));
@@ -212,8 +210,7 @@ void assignNormals(Mesh& mesh, Groups& groups, const std::vector<glm::vec3>& nor
         if (groupOfVertex[vertex] == kNone) {
             groupOfVertex[vertex] = group;
             mesh.normals[vertex] = normals[group];
-        } else if (groupOfVertex[vertex] != group
-                   && mesh.normals[vertex] != normals[group]) {
+        } else if (groupOfVertex[vertex] != group && mesh.normals[vertex] != normals[group]) {
             const auto [found, isNew] = splits.try_emplace(std::uint64_t(vertex) << 32 | group, 0);
             if (isNew) {
                 found->second = duplicateVertex(mesh, vertex);

@@ -34,7 +34,7 @@ struct Check {
     ObjFacts facts;
     std::array<std::int64_t, 3> counts{}; // positions, texture coordinates, normals so far
     std::array<HighestIndex, 3> highest{};
-    std::vector<std::size_t> joined;      // offsets where a continued line was joined
+    std::vector<std::size_t> joined; // offsets where a continued line was joined
 };
 
 // How many bytes at `i` are a line end that a backslash before it would undo: 0, 1 or 2.
@@ -81,7 +81,7 @@ std::size_t lineNumber(const Check& check, std::size_t offset)
 {
     const auto before = check.text.begin() + std::ptrdiff_t(offset);
     return 1 + std::size_t(std::count(check.text.begin(), before, '\n'))
-           + std::size_t(std::ranges::upper_bound(check.joined, offset) - check.joined.begin());
+        + std::size_t(std::ranges::upper_bound(check.joined, offset) - check.joined.begin());
 }
 
 // Walks over the words of a line.
@@ -101,7 +101,8 @@ struct Words {
 std::string quoted(std::string_view word)
 {
     std::string shown(word.substr(0, 40));
-    std::ranges::replace_if(shown, [](unsigned char c) { return c < 32 || c > 126; }, '?');
+    std::ranges::replace_if(
+        shown, [](unsigned char c) { return c < 32 || c > 126; }, '?');
     return fmt::format("\"{}\"", shown);
 }
 
@@ -233,7 +234,8 @@ Problem checkLine(Check& check, std::size_t begin, std::size_t end)
         if (Problem problem = countAttribute(check, attribute))
             return problem;
         return attribute == 0 ? checkNumbers(words, 3, 7)
-               : attribute == 1 ? checkNumbers(words, 2, 3) : checkNumbers(words, 3, 3);
+            : attribute == 1  ? checkNumbers(words, 2, 3)
+                              : checkNumbers(words, 3, 3);
     }
     if (keyword == "mtllib") {
         const std::size_t start = words.rest.find_first_not_of(' ');
@@ -280,7 +282,8 @@ Result<ObjFacts> checkObj(std::string& text, const std::string& name, const Load
     unifySpace(check);
     std::size_t offset = 0;
     if (Problem problem = checkLines(check, offset))
-        return inputError(fmt::format("{}: line {}: {}", name, lineNumber(check, offset), *problem));
+        return inputError(
+            fmt::format("{}: line {}: {}", name, lineNumber(check, offset), *problem));
     if (check.facts.polygons == 0)
         return inputError(fmt::format("{}: expected faces, found none", name));
     check.facts.positions = std::size_t(check.counts[0]);

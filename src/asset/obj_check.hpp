@@ -14,10 +14,10 @@ struct ObjFacts {
     std::size_t positions = 0;
     std::size_t texcoords = 0;
     std::size_t normals = 0;
-    std::size_t polygons = 0;            // faces with three corners or more
-    std::size_t triangles = 0;           // of those polygons, corners - 2 each
+    std::size_t polygons = 0;  // faces with three corners or more
+    std::size_t triangles = 0; // of those polygons, corners - 2 each
     std::size_t polygonsWithoutUv = 0;
-    std::vector<std::string> libraries;  // what mtllib lines name
+    std::vector<std::string> libraries; // what mtllib lines name
 };
 
 // Checks the whole text and reduces it in place to what has been checked: continued lines are

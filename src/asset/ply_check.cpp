@@ -21,10 +21,22 @@ struct TypeSize {
     std::size_t bytes;
 };
 
-constexpr std::array<TypeSize, 16> kTypes = {{{"char", 1}, {"uchar", 1}, {"int8", 1}, {"uint8", 1},
-                                              {"short", 2}, {"ushort", 2}, {"int16", 2}, {"uint16", 2},
-                                              {"int", 4}, {"uint", 4}, {"int32", 4}, {"uint32", 4},
-                                              {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}}};
+constexpr std::array<TypeSize, 16> kTypes = {{{"char", 1},
+                                              {"uchar", 1},
+                                              {"int8", 1},
+                                              {"uint8", 1},
+                                              {"short", 2},
+                                              {"ushort", 2},
+                                              {"int16", 2},
+                                              {"uint16", 2},
+                                              {"int", 4},
+                                              {"uint", 4},
+                                              {"int32", 4},
+                                              {"uint32", 4},
+                                              {"float", 4},
+                                              {"float32", 4},
+                                              {"double", 8},
+                                              {"float64", 8}}};
 
 std::size_t typeSize(std::string_view name)
 {
@@ -52,9 +64,9 @@ struct Header {
     bool ascii = false;
     bool hasFormat = false;
     bool ended = false;
-    std::uint64_t leastBytes = 0;   // of the elements so far, but the last
-    std::uint64_t count = 0;        // of the last element
-    std::uint64_t rowBytes = 0;     // of one of it, at least
+    std::uint64_t leastBytes = 0; // of the elements so far, but the last
+    std::uint64_t count = 0;      // of the last element
+    std::uint64_t rowBytes = 0;   // of one of it, at least
     bool hasElement = false;
 };
 
@@ -102,8 +114,8 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
         return std::nullopt;
     if (keyword == "format") {
         header.hasFormat = words.size() == 3
-                           && (words[1] == "ascii" || words[1] == "binary_little_endian"
-                               || words[1] == "binary_big_endian");
+            && (words[1] == "ascii" || words[1] == "binary_little_endian"
+                || words[1] == "binary_big_endian");
         header.ascii = header.hasFormat && words[1] == "ascii";
         if (!header.hasFormat || header.hasElement)
             return "expected ascii, binary_little_endian or binary_big_endian and a version";
@@ -136,13 +148,15 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
     for (std::size_t number = 1; !header.ended; ++number) {
         const std::size_t end = text.find('\n', at);
         if (end == std::string_view::npos)
-            return inputError(fmt::format("{}: expected end_header, found the end of the file", name));
+            return inputError(
+                fmt::format("{}: expected end_header, found the end of the file", name));
         std::string_view line = text.substr(at, end - at);
         at = end + 1;
         while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
             line.remove_suffix(1);
         if (number == 1 && line != "ply")
-            return inputError(fmt::format("{}: expected \"ply\" at the start, found other data", name));
+            return inputError(
+                fmt::format("{}: expected \"ply\" at the start, found other data", name));
         if (number == 1)
             continue;
         if (Problem problem = checkLine(header, line, bytes.size(), limits))
@@ -150,9 +164,9 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
     }
     // The last line of a text need not end.
     if (text.size() - at + 1 < header.leastBytes)
-        return inputError(fmt::format(
-            "{}: the header's counts take at least {} bytes, the file has {} after it", name,
-            header.leastBytes, text.size() - at));
+        return inputError(
+            fmt::format("{}: the header's counts take at least {} bytes, the file has {} after it",
+                        name, header.leastBytes, text.size() - at));
     return Done{};
 }
 

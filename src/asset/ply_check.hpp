@@ -13,6 +13,7 @@ namespace cotan {
 // Checks the header of a PLY file line by line, and that the rest of the file is long enough for
 // what the header counts, as memory is taken by those counts.
 // Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
-Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+Status checkPly(std::span<const std::byte> bytes, const std::string& name,
+                const LoadLimits& limits);
 
 } // namespace cotan
