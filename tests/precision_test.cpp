@@ -152,7 +152,7 @@ TEST(FrameBarD1, exactGradientsHoldAtEveryFootprint)
         for (double offset : {0.0, 1e6}) {
             const Error e = meanError(offset, footprint, false, true);
             EXPECT_EQ(e.notFinite, 0);
-            EXPECT_LT(e.mean, 1e-4) << footprint << " at " << offset; // measured 2.7e-6
+            EXPECT_LT(e.mean, 1e-4) << footprint << " at " << offset; // measured 2.9e-6
         }
 }
 
