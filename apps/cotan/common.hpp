@@ -54,7 +54,7 @@ void say(const CommonOptions& options, const std::string& line);
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);
 
-// The last part of a message from a command that cannot write a folder or file.
+// Makes a folder and those above it. Errors: ErrorKind::output.
 Status makeFolder(const std::filesystem::path& folder);
 
 } // namespace cotan::app

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "common.hpp"
 #include "cotan/reference/render.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
@@ -23,18 +22,13 @@ public:
     }
     Result<Image> draw(const View& view) override
     {
-        Stopwatch watch;
-        auto image = renderReference(*scene_, view, threads_);
-        seconds_ = watch.lap();
-        return image;
+        return renderReference(*scene_, view, threads_);
     }
     std::string device() const override { return "reference"; }
-    double drawSeconds() const override { return seconds_; }
 
 private:
     const Scene* scene_ = nullptr;
     int threads_;
-    double seconds_ = 0;
 };
 
 #ifdef COTAN_WITH_VULKAN
@@ -46,10 +40,6 @@ public:
     Result<Image> draw(const View& view) override { return renderer_.render(view); }
     std::string device() const override { return renderer_.deviceName(); }
     double uploadSeconds() const override { return renderer_.timings().upload; }
-    double drawSeconds() const override
-    {
-        return renderer_.timings().draw + renderer_.timings().readBack;
-    }
 
 private:
     Renderer renderer_;

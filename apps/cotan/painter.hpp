@@ -16,7 +16,6 @@ public:
     virtual Result<Image> draw(const View& view) = 0;
     virtual std::string device() const = 0;
     virtual double uploadSeconds() const { return 0; }
-    virtual double drawSeconds() const = 0;
 };
 
 // `device`: "reference", a part of a Vulkan device's name, or "auto": the best Vulkan device, and

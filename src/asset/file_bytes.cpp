@@ -12,7 +12,7 @@ namespace cotan {
 
 namespace fs = std::filesystem;
 
-Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
+Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
 {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
@@ -30,12 +30,19 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     if (size > limit)
         return inputError(
             fmt::format("{}: the file has {} bytes, the limit is {}", file.string(), size, limit));
+    return static_cast<std::size_t>(size);
+}
 
+Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
+{
+    const auto size = usableFileSize(file, limit);
+    if (!size)
+        return size.error();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(
         std::fopen(file.c_str(), "rb"), [](std::FILE* f) { return std::fclose(f); });
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    std::vector<std::byte> bytes(*size);
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;

@@ -10,6 +10,10 @@
 
 namespace cotan {
 
+// The size in bytes of a regular file that may be read.
+// Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes.
+Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_t limit);
+
 // All bytes of a regular file of at most `limit` bytes.
 // Errors (ErrorKind::input): missing, not a regular file, empty, too large, not readable.
 Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit);
