@@ -2,12 +2,11 @@
 // tests/core.cmake with covector_mixture.cpp.
 #include <gtest/gtest.h>
 
-#include "patches.hpp"
+#include "cotan/truth/patch.hpp"
 
 namespace cotan {
 namespace {
 
-using namespace test;
 
 glm::dmat3 randomMatrix(Random& random)
 {

@@ -8,119 +8,12 @@
 #include <limits>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
-#include "patches.hpp"
+#include "cotan/truth/degenerate.hpp"
 
 namespace cotan {
 namespace {
 
-using namespace test;
 using f32::cotan_frame;
-
-// Flushes denormals while it lives.
-class FlushDenormals {
-public:
-#if defined(__SSE2__)
-    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040); }
-    ~FlushDenormals() { _mm_setcsr(saved_); }
-
-private:
-    unsigned saved_;
-#endif
-};
-
-struct Input {
-    glm::vec3 n; // as interpolated, not unit
-    Differences<float> d;
-    glm::vec3 m;
-};
-
-struct Case {
-    const char* name;
-    std::function<void(Random&, Input&)> spoil;
-    bool plainNormal = false; // the answer is the plain normal to rounding
-    double leanDegrees = 10;  // of n from the face
-    bool mirrored = false;
-};
-
-Input goodInput(Random& random, double leanDegrees, bool mirrored)
-{
-    const AffinePatch p = randomPatch(random, mirrored);
-    const glm::dvec3 e = glm::normalize(glm::cross(p.normal, random.direction()));
-    glm::dvec3 view;
-    do
-        view = random.direction();
-    while (glm::dot(view, p.normal) < 0.25);
-    const auto d = screenDifferences(
-        PixelCamera::lookAt(view * 3.0, {0, 0, 0}, random.direction(), 1000), p, e * 0.3);
-    const glm::dvec3 away = glm::normalize(glm::cross(p.normal, random.direction()));
-    const double a = leanDegrees * kDegree;
-    const glm::dvec3 n = p.normal * std::cos(a) + away * std::sin(a);
-    return {glm::vec3(n * random.range(0.6, 1)), toFloat(d), glm::vec3(tiltedTexel(random, 35))};
-}
-
-const std::vector<Case>& cases()
-{
-    using F = float;
-    static const std::vector<Case> list = {
-        {"good", [](Random&, Input&) {}},
-        {"mirrored uv", [](Random&, Input&) {}, false, 10, true},
-        {"constant uv", [](Random&, Input& x) { x.d.duvdx = x.d.duvdy = {0, 0}; }, true},
-        {"collinear uv", [](Random& r, Input& x) { x.d.duvdy = x.d.duvdx * F(r.range(-2, 2)); }},
-        {"u constant, v varies", [](Random&, Input& x) { x.d.duvdx.x = x.d.duvdy.x = 0; }},
-        {"zero-area pixel triangle", [](Random& r, Input& x) {
-             const F k = F(r.range(-2, 2));
-             x.d.dpdy = x.d.dpdx * k;
-             x.d.duvdy = x.d.duvdx * k;
-         }},
-        {"second difference zero", [](Random&, Input& x) {
-             x.d.dpdy = {};
-             x.d.duvdy = {0, 0};
-         }, true},
-        {"all differences zero", [](Random&, Input& x) { x.d = {}; }, true},
-        {"n 80 degrees off the face", [](Random&, Input&) {}, false, 80},
-        {"n 89.9 degrees off the face", [](Random&, Input&) {}, false, 89.9},
-        {"n in the face plane", [](Random&, Input& x) { x.n = x.d.dpdx.raw(); }},
-        {"n zero", [](Random&, Input& x) { x.n = {0, 0, 0}; }},
-        {"tiny: everything x 1e-12", [](Random&, Input& x) {
-             x.d.dpdx = x.d.dpdx * 1e-12f;
-             x.d.dpdy = x.d.dpdy * 1e-12f;
-             x.d.duvdx *= 1e-12f;
-             x.d.duvdy *= 1e-12f;
-         }},
-        {"huge: dp x 1e16, uv x 1e8", [](Random&, Input& x) {
-             x.d.dpdx = x.d.dpdx * 1e16f;
-             x.d.dpdy = x.d.dpdy * 1e16f;
-             x.d.duvdx *= 1e8f;
-             x.d.duvdy *= 1e8f;
-         }},
-        {"uneven: dp x 1e10, uv x 1e-14", [](Random&, Input& x) {
-             x.d.dpdx = x.d.dpdx * 1e10f;
-             x.d.dpdy = x.d.dpdy * 1e10f;
-             x.d.duvdx *= 1e-14f;
-             x.d.duvdy *= 1e-14f;
-         }},
-        {"helper lane beyond the horizon", [](Random& r, Input& x) {
-             const F k = F(-r.range(5, 500));
-             x.d.dpdy = x.d.dpdy * k + x.d.dpdx * 0.3f;
-             x.d.duvdy = x.d.duvdy * k + x.d.duvdx * 0.3f;
-         }},
-        {"one difference infinite or NaN", [](Random& r, Input& x) {
-             const F bad = r.unit() < 0.5 ? std::numeric_limits<F>::infinity()
-                                          : std::numeric_limits<F>::quiet_NaN();
-             (r.unit() < 0.5 ? x.d.dpdy.x : x.d.duvdx.x) = bad;
-         }, true},
-        {"constant uv and a horizontal texel", [](Random&, Input& x) {
-             x.d.duvdx = x.d.duvdy = {0, 0};
-             x.m = {1, 0, 0};
-         }, true},
-        {"empty texel", [](Random&, Input& x) { x.m = {0, 0, 0}; }, true},
-    };
-    return list;
-}
 
 // The sign-corrected frame without a guard, from its formula.
 cotan_frame unguarded(glm::vec3 n, const Differences<float>& d)
@@ -141,14 +34,13 @@ constexpr std::array kTotalFrames = {Frame::cotangent, Frame::orthonormal, Frame
 
 TEST(FrameBarD3, totalFramesGiveFiniteUnitNormalsInAll19Cases)
 {
-    ASSERT_EQ(cases().size(), 19u);
+    ASSERT_EQ(degenerateCases().size(), 19u);
     FlushDenormals flush;
     for (Frame frame : kTotalFrames)
-        for (const Case& c : cases()) {
+        for (const DegenerateCase& c : degenerateCases()) {
             Random random(91);
             for (int i = 0; i < 2000; ++i) {
-                Input x = goodInput(random, c.leanDegrees, c.mirrored);
-                c.spoil(random, x);
+                const PixelInput x = makeInput(random, c);
                 const auto f = makeFrame(frame, Covector3f(x.n), x.d);
                 const glm::vec3 r = perturb(f, x.m).raw();
                 ASSERT_TRUE(std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z))
@@ -164,13 +56,12 @@ TEST(FrameBarD3, degenerateInputReturnsThePlainNormal)
 {
     FlushDenormals flush;
     for (Frame frame : kTotalFrames)
-        for (const Case& c : cases()) {
+        for (const DegenerateCase& c : degenerateCases()) {
             if (!c.plainNormal)
                 continue;
             Random random(92);
             for (int i = 0; i < 500; ++i) {
-                Input x = goodInput(random, c.leanDegrees, c.mirrored);
-                c.spoil(random, x);
+                const PixelInput x = makeInput(random, c);
                 const glm::vec3 r = perturb(makeFrame(frame, Covector3f(x.n), x.d), x.m).raw();
                 // float rounding of two normalisations: 1e-7 rad each, in degrees
                 EXPECT_LT(degreesBetween(glm::dvec3(r), glm::normalize(glm::dvec3(x.n))), 3e-5)
@@ -182,12 +73,12 @@ TEST(FrameBarD3, degenerateInputReturnsThePlainNormal)
 TEST(FrameBarD3, guardsChangeNoBitOfAGoodPixel)
 {
     FlushDenormals flush;
-    for (const Case& c : cases()) {
+    for (const DegenerateCase& c : degenerateCases()) {
         if (std::string_view(c.name) != "good" && std::string_view(c.name) != "mirrored uv")
             continue;
         Random random(93);
         for (int i = 0; i < 4000; ++i) {
-            const Input x = goodInput(random, c.leanDegrees, c.mirrored);
+            const PixelInput x = makeInput(random, c);
             const glm::vec3 n = x.n * (1 / std::sqrt(glm::dot(x.n, x.n)));
             const glm::vec3 plain = cotan_apply(unguarded(n, x.d), x.m);
             const glm::vec3 total = perturb(makeFrame(Frame::cotangent, Covector3f(x.n), x.d), x.m).raw();
@@ -199,7 +90,7 @@ TEST(FrameBarD3, guardsChangeNoBitOfAGoodPixel)
 TEST(FrameBarD3, theUnguardedFormGivesNanOnConstantUv)
 {
     Random random(94); // the control: the guards are needed
-    Input x = goodInput(random, 10, false);
+    PixelInput x = makeInput(random, degenerateCases().front());
     x.d.duvdx = x.d.duvdy = {0, 0};
     EXPECT_TRUE(std::isnan(unguarded(x.n, x.d).t.x));
 }
@@ -241,7 +132,7 @@ TEST(Frame, noFiniteOrNonFiniteBitPatternGivesANan)
 TEST(Frame, normalThatCancelledOutIsReplacedByTheFaceNormal)
 {
     Random random(96);
-    Input x = goodInput(random, 10, false);
+    PixelInput x = makeInput(random, degenerateCases().front());
     const auto f = makeFrame(Frame::cotangent, Covector3f{0, 0, 0}, x.d);
     const auto face = cross(x.d.dpdx, x.d.dpdy);
     EXPECT_LT(angle(f.n, face), 1e-6f);

@@ -5,12 +5,11 @@
 #include <set>
 #include <string>
 
-#include "patches.hpp"
+#include "cotan/truth/signs.hpp"
 
 namespace cotan {
 namespace {
 
-using namespace test;
 
 constexpr std::array kDifferenceFrames = {
     Frame::cotangent,      Frame::cotangent2013,   Frame::nonperspective, Frame::paperFull,
@@ -238,14 +237,8 @@ TEST(FrameBarA2, squarePatchFramesMissStretchedUvByTheKnownAmount)
         int count = 0;
         for (int j = 0; j < 128; ++j)
             for (int i = 0; i < 128; ++i) {
-                // Domes of radius 0.1 on a 0.25 grid, steepest slope 0.92 (docs/testing.md).
-                const double u = (i + 0.5) / 128, v = (j + 0.5) / 128, radius = 0.1;
-                const double x = u - (std::floor(u * 4) + 0.5) / 4, y = v - (std::floor(v * 4) + 0.5) / 4;
-                const double w = 1 - (x * x + y * y) / (radius * radius);
-                if (w <= 0)
-                    continue;
-                const double k = -4 * 0.6 * radius * w / (radius * radius);
-                const glm::dvec3 m = glm::normalize(glm::dvec3(-k * x, -k * y, 1));
+                const double u = (i + 0.5) / 128, v = (j + 0.5) / 128;
+                const glm::dvec3 m = domeTexel(u, v);
                 const glm::dvec3 truth = truthS(p, m);
                 if (degreesBetween(truth, p.normal) < 5)
                     continue;
@@ -339,49 +332,14 @@ TEST(FrameBarA3, nonperspectiveDependsOnTheView)
 
 // ---- A4: signs -------------------------------------------------------------------------------
 
-struct SignCase {
-    bool leftHanded, rowsDown, back, flippedNormal, mirrored;
-};
-
-std::vector<SignCase> signCases()
-{
-    std::vector<SignCase> cases;
-    for (int k = 0; k < 32; ++k) {
-        const SignCase c{bool(k & 1), bool(k & 2), bool(k & 4), bool(k & 8), bool(k & 16)};
-        if (c.back || !c.flippedNormal) // a front face's normal is not turned
-            cases.push_back(c);
-    }
-    return cases;
-}
-
 // Share of random planes where t points along grad u and b along grad v.
 double shareRight(Frame frame, const SignCase& c)
 {
     Random random(7);
     int right = 0;
     constexpr int kPlanes = 400;
-    for (int i = 0; i < kPlanes; ++i) {
-        AffinePatch p = randomPatch(random, c.mirrored);
-        const glm::dvec3 side = c.back ? -p.normal : p.normal;
-        glm::dvec3 eye;
-        do
-            eye = random.direction();
-        while (glm::dot(eye, side) < 0.3);
-        PixelCamera camera = PixelCamera::lookAt(eye * 3.0, {0, 0, 0}, random.direction(), 800);
-        camera.rowsDown = c.rowsDown;
-        auto d = screenDifferences(camera, p, {0, 0, 0});
-        glm::dvec3 n = glm::normalize(p.normal + random.direction() * 0.1);
-        if (c.flippedNormal)
-            n = -n;
-        if (c.leftHanded) { // the same picture in coordinates with z negated
-            for (glm::dvec3* v : {&n, &p.gradU, &p.gradV})
-                v->z = -v->z;
-            d.dpdx.z = -d.dpdx.z;
-            d.dpdy.z = -d.dpdy.z;
-        }
-        const auto f = makeFrame(frame, Covector3d(n), d);
-        right += glm::dot(f.t.raw(), p.gradU) > 0 && glm::dot(f.b.raw(), p.gradV) > 0;
-    }
+    for (int i = 0; i < kPlanes; ++i)
+        right += signsRight(frame, makeSignTrial(random, c));
     return double(right) / kPlanes;
 }
 
@@ -391,9 +349,7 @@ TEST(FrameBarA4, all24SignCombinationsAreRightForEverySignCorrectFrame)
     for (Frame frame : kSignCorrectFrames)
         for (const SignCase& c : signCases())
             EXPECT_EQ(shareRight(frame, c), 1)
-                << name(frame) << (c.leftHanded ? " left-handed" : "") << (c.rowsDown ? " rows down" : "")
-                << (c.back ? " back" : "") << (c.flippedNormal ? " flipped" : "")
-                << (c.mirrored ? " mirrored" : "");
+                << name(frame) << ", " << c.name();
 }
 
 TEST(FrameBarA4, cotangent2013IsReversedInExactlyHalfOfThem)
@@ -403,9 +359,7 @@ TEST(FrameBarA4, cotangent2013IsReversedInExactlyHalfOfThem)
         const double share = shareRight(Frame::cotangent2013, c);
         EXPECT_TRUE(share == 0 || share == 1);
         reversed += share == 0;
-        // Right exactly where n . (dpdx x dpdy) > 0 in a right-handed cross product.
-        const bool positive = (c.leftHanded + c.rowsDown + (c.back && !c.flippedNormal)) % 2 == 0;
-        EXPECT_EQ(share == 1, positive);
+        EXPECT_EQ(share == 1, c.positive());
     }
     EXPECT_EQ(reversed, 12);
 }

@@ -3,12 +3,11 @@
 
 #include <cmath>
 
-#include "patches.hpp"
+#include "cotan/truth/patch.hpp"
 
 namespace cotan {
 namespace {
 
-using namespace test;
 using Format = f64::cotan_normal_format;
 
 Format format(int expansion, int channels, double green = 1, double strength = 1)
