@@ -1,0 +1,139 @@
+// Flat patches under seven layouts of uv: Figure 2.6.4 of the 2006 chapter in numbers.
+#include "rows.hpp"
+#include "tables.hpp"
+
+#include "cotan/tangents.hpp"
+
+namespace cotan {
+
+namespace {
+
+// What the generators of per-vertex frames give on a patch: the same at every vertex.
+struct VertexFrames {
+    glm::dvec3 tangent, mikktspaceTangent, cotangentU, cotangentV;
+    double handedness, mikktspaceHandedness;
+};
+
+VertexFrames vertexFrames(const Layout& l)
+{
+    std::vector<glm::vec3> positions, normals(4, glm::vec3(0, 0, 1));
+    std::vector<glm::vec2> texcoords;
+    for (glm::dvec2 uv : {glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+        positions.emplace_back(float(l.a * uv.x + l.b * uv.y), float(l.c * uv.x + l.d * uv.y), 0.0f);
+        texcoords.emplace_back(uv);
+    }
+    // Triangles run counter-clockwise seen from +z, also where the layout mirrors.
+    const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0
+        ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
+    const MeshView mesh{positions, normals, texcoords, indices};
+    const glm::vec4 classic = vertexTangents(mesh).front(), mikktspace = mikktspaceTangents(mesh).front();
+    const Cotangents cotangents = smoothCotangents(mesh);
+    // handedness: the negative of glTF's w, see cotan_frame_vertex
+    return {glm::dvec3(classic), glm::dvec3(mikktspace), glm::dvec3(cotangents.u.front()),
+            glm::dvec3(cotangents.v.front()), -double(classic.w), -double(mikktspace.w)};
+}
+
+glm::dvec3 shadeVertexFrame(bool single, Frame frame, const VertexFrames& v, glm::dvec3 m)
+{
+    const glm::dvec3 n(0, 0, 1);
+    if (single) {
+        const glm::vec3 nf(n);
+        const auto f = frame == Frame::smooth
+            ? f32::cotan_frame_smooth(nf, glm::vec3(v.cotangentU), glm::vec3(v.cotangentV))
+            : frame == Frame::vertex
+            ? f32::cotan_frame_vertex(nf, glm::vec3(v.tangent), float(v.handedness))
+            : f32::cotan_frame_mikktspace(nf, glm::vec3(v.mikktspaceTangent), float(v.mikktspaceHandedness));
+        return glm::dvec3(f32::cotan_apply(f, glm::vec3(m)));
+    }
+    const auto f = frame == Frame::smooth ? f64::cotan_frame_smooth(n, v.cotangentU, v.cotangentV)
+        : frame == Frame::vertex ? f64::cotan_frame_vertex(n, v.tangent, v.handedness)
+                                 : f64::cotan_frame_mikktspace(n, v.mikktspaceTangent, v.mikktspaceHandedness);
+    return f64::cotan_apply(f, m);
+}
+
+// The rows of one layout and view, ready to be added to.
+struct PatchRows {
+    FrameRows s, e;
+
+    PatchRows(const AccuracySelection& selection, const char* layout, const char* view)
+    {
+        for (const FrameInfo& f : frames()) {
+            if (f.frame != Frame::gradient) // metric by definition
+                s.add(selection, f.frame, {"flat", layout, view, "", "S", ""});
+            e.add(selection, f.frame, {"flat", layout, view, "", "E", ""});
+        }
+    }
+
+    // Pixels whose true normal is tilted by less than `leastTilt` degrees are left out.
+    void add(const AffinePatch& patch, const VertexFrames& vertices, const Differences<double>& d, glm::dvec3 m,
+             double leastTilt)
+    {
+        const glm::dvec3 truths[] = {truthS(patch, m), truthE(patch, m)};
+        for (int k = 0; k < 2; ++k) {
+            if (degreesBetween(truths[k], patch.normal) < leastTilt)
+                continue;
+            for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
+                const glm::dvec3 n = info(row.frame).source == FrameSource::vertices
+                    ? shadeVertexFrame(row.single, row.frame, vertices, m)
+                    : shadeAs(row.single, row.frame, patch.normal, d, m);
+                row.angles.add(degreesBetween(n, truths[k]));
+            }
+        }
+    }
+};
+
+// Embossed domes seen by a parallel camera from that direction.
+void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::dvec3 up)
+{
+    const AffinePatch patch = patchOf(layout);
+    const VertexFrames vertices = vertexFrames(layout);
+    const PixelCamera camera =
+        PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
+    for (int j = 0; j < 128; ++j)
+        for (int i = 0; i < 128; ++i) {
+            const double u = (i + 0.5) / 128, v = (j + 0.5) / 128;
+            const glm::dvec3 m = domeTexel(u, v);
+            const glm::dvec3 p{layout.a * u + layout.b * v, layout.c * u + layout.d * v, 0};
+            rows.add(patch, vertices, screenDifferences(camera, patch, p), m, 5);
+        }
+}
+
+// Tilts of 0 to 80 degrees, parallel and perspective cameras, texels tilted by 35 degrees.
+void measureAllViews(PatchRows& rows, const Layout& layout)
+{
+    Random random(4);
+    const AffinePatch patch = patchOf(layout);
+    const VertexFrames vertices = vertexFrames(layout);
+    for (double tilt = 0; tilt <= 80; tilt += 5)
+        for (int i = 0; i < 200; ++i) {
+            const PixelCamera camera = viewAt(random, tilt, i & 1);
+            const glm::dvec3 p{random.range(-0.5, 0.5), random.range(-0.5, 0.5), 0};
+            rows.add(patch, vertices, screenDifferences(camera, patch, p), tiltedTexel(random, 35), 0);
+        }
+}
+
+} // namespace
+
+std::vector<Measurement> measureFlat(const AccuracySelection& selection)
+{
+    std::vector<Measurement> result;
+    const double tilt = 60 * kDegree, turn = 30 * kDegree;
+    const glm::dvec3 tilted{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+    for (const Layout& layout : kLayouts) {
+        if (!selection.wantsScene(layout.name))
+            continue;
+        PatchRows frontal(selection, layout.name, "domes, frontal"),
+            inclined(selection, layout.name, "domes, 60 degrees, orthographic"),
+            all(selection, layout.name, "any view, 0 to 80 degrees");
+        measureDomes(frontal, layout, {0, 0, 1}, {0, 1, 0});
+        measureDomes(inclined, layout, tilted, {0, 0, 1});
+        measureAllViews(all, layout);
+        for (PatchRows* rows : {&frontal, &inclined, &all}) {
+            rows->s.finish(result);
+            rows->e.finish(result);
+        }
+    }
+    return result;
+}
+
+} // namespace cotan

@@ -1,0 +1,21 @@
+#include "tables.hpp"
+
+namespace cotan {
+
+const std::vector<AccuracyTable>& accuracyTables()
+{
+    static const std::vector<AccuracyTable> tables = {
+        {"flat", "flat patches: seven layouts of uv, stretched, sheared, mirrored, scaled", measureFlat},
+        {"foreshortening", "a square patch tilted by 0 to 85 degrees, no perspective", measureForeshortening},
+        {"perspective", "a ground plane up to the horizon", measurePerspective},
+        {"views", "does the frame depend on where its differences come from?", measureViews},
+        {"signs", "handedness, rows up and down, facing, mirroring; green and v", measureSigns},
+        {"precision", "float: distance from the origin, pixel size, size of uv", measurePrecision},
+        {"half", "half-precision arithmetic", measureHalf},
+        {"degenerate", "nineteen kinds of difficult pixel", measureDegenerate},
+        {"procedural", "uv computed in the shader", measureProcedural},
+    };
+    return tables;
+}
+
+} // namespace cotan

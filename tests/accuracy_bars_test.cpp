@@ -1,0 +1,207 @@
+// Bars and controls that the tables of `cotan accuracy` must keep: A2, A4, D1 to D4 of
+// docs/testing.md. (A1, A3 and the details of D3 have tests of their own beside the frames.)
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cotan/truth/measurement.hpp"
+
+namespace cotan {
+namespace {
+
+std::vector<Measurement> measure(const char* table, AccuracySelection selection = {})
+{
+    for (const AccuracyTable& t : accuracyTables())
+        if (t.name == table)
+            return t.measure(selection);
+    ADD_FAILURE() << "no table " << table;
+    return {};
+}
+
+// The one row with these names; a failure and zeros if there is not exactly one.
+Measurement only(const std::vector<Measurement>& rows, const char* setting, const char* frame,
+                 const char* arithmetic = "double", const char* truth = "S")
+{
+    Measurement found;
+    int count = 0;
+    for (const Measurement& m : rows)
+        if (m.setting == setting && m.frame == frame && m.arithmetic == arithmetic && m.truth == truth) {
+            found = m;
+            ++count;
+        }
+    EXPECT_EQ(count, 1) << setting << ", " << frame << ", " << arithmetic << ", " << truth;
+    return found;
+}
+
+AccuracySelection scene(const char* name) { return {{}, name}; }
+
+TEST(AccuracyBarA2, squarePatchFramesMissStretchedAndShearedUvByTheirKnownAmounts)
+{
+    const char* domes = "domes, frontal";
+    // Independent figures of the same domes; tolerance: another sampling of them.
+    const auto stretched = measure("flat", scene("stretch 2:1"));
+    for (const char* frame : {"paper-transpose", "unit", "orthonormal", "vertex", "mikktspace"})
+        for (const char* arithmetic : {"double", "float"})
+            EXPECT_NEAR(only(stretched, domes, frame, arithmetic).mean, 9.47, 0.1) << frame;
+    const auto stretched4 = measure("flat", scene("stretch 4:1"));
+    for (const char* frame : {"paper-transpose", "unit", "orthonormal", "vertex", "mikktspace"})
+        EXPECT_NEAR(only(stretched4, domes, frame).mean, 14.91, 0.15) << frame;
+    const auto sheared = measure("flat", scene("shear 45"));
+    for (const char* frame : {"orthonormal", "vertex", "mikktspace"})
+        EXPECT_NEAR(only(sheared, domes, frame).mean, 16.3, 0.2) << frame;
+    EXPECT_NEAR(only(sheared, domes, "paper-transpose").mean, 5.32, 0.1);
+    // Frames that keep lengths and skew are right on all of them, in truth S.
+    for (const auto* rows : {&stretched, &stretched4, &sheared})
+        for (const char* frame : {"cotangent", "exact", "smooth", "paper-full"})
+            EXPECT_LT(only(*rows, domes, frame).maximum, frame == std::string("smooth") ? 1e-5 : 1e-9)
+                << frame; // smooth: attributes of float
+}
+
+TEST(AccuracyBarA2, oneCommonFactorCostsMetricTruthAndTheGradientFrameDoesNot)
+{
+    const char* domes = "domes, frontal";
+    const auto sheared = measure("flat", scene("shear 45")), larger = measure("flat", scene("scale 3"));
+    EXPECT_NEAR(only(sheared, domes, "cotangent", "double", "E").mean, 8.0, 0.2);
+    EXPECT_NEAR(only(larger, domes, "cotangent", "double", "E").mean, 21.3, 0.3);
+    EXPECT_LT(only(sheared, domes, "gradient", "double", "E").maximum, 1e-9);
+    EXPECT_LT(only(larger, domes, "gradient", "double", "E").maximum, 1e-9);
+    EXPECT_LT(only(larger, domes, "gradient", "float", "E").maximum, 1e-4);
+}
+
+TEST(AccuracyBarA2, shortcutsFailOnForeshorteningWithoutPerspective)
+{
+    const auto rows = measure("foreshortening");
+    EXPECT_NEAR(only(rows, "tilt 45", "nonperspective").mean, 9.8, 0.3);
+    EXPECT_NEAR(only(rows, "tilt 60", "nonperspective").mean, 15.8, 0.4);
+    EXPECT_NEAR(only(rows, "tilt 45", "paper-orthogonal").mean, 6.5, 0.3);
+    EXPECT_NEAR(only(rows, "tilt 60", "paper-orthogonal").mean, 12.5, 0.4);
+    EXPECT_LT(only(rows, "tilt 0", "nonperspective").maximum, 1e-9);
+    for (const Measurement& m : rows)
+        if (m.frame != "nonperspective" && m.frame != "paper-orthogonal" && m.arithmetic == "double"
+            && m.frame != "gradient") {
+            EXPECT_LT(m.maximum, 1e-9) << m.frame << ", " << m.setting;
+        }
+}
+
+TEST(AccuracyBarA4, everySignCombinationIsExactButForTheFrameKeptAsPrinted)
+{
+    int reversed = 0, rows = 0;
+    for (const Measurement& m : measure("signs")) {
+        if (m.setting != "square, face on")
+            continue;
+        ++rows;
+        if (m.frame == "cotangent-2013") {
+            // The tilt of 35 degrees points the other way: 70 degrees off.
+            EXPECT_TRUE(m.maximum < 1e-4 || std::abs(m.mean - 70) < 1e-4) << m.scene;
+            reversed += m.maximum > 1;
+        } else {
+            EXPECT_LT(m.maximum, m.arithmetic == "double" ? 1e-9 : 1e-4) << m.scene << ", " << m.frame;
+        }
+    }
+    EXPECT_EQ(rows, 24 * 11 * 2);
+    EXPECT_EQ(reversed, 12 * 2);
+}
+
+TEST(AccuracyBarA4, greenIsRightInAllFourCombinationsWithTheFlagSetRightAndOnlyThen)
+{
+    int right = 0, wrong = 0;
+    for (const Measurement& m : measure("signs")) {
+        if (m.setting == "flag right") {
+            ++right;
+            EXPECT_LT(m.maximum, m.arithmetic == "double" ? 1e-9 : 1e-4) << m.scene;
+        }
+        if (m.setting == "flag wrong") {
+            ++wrong;
+            EXPECT_GT(m.mean, 10) << m.scene; // slopes to 0.4: about 22 degrees mean
+        }
+    }
+    EXPECT_EQ(right, 8);
+    EXPECT_EQ(wrong, 8);
+}
+
+TEST(AccuracyBarD1, largeUvCostAboutADegreeTimesTheirRoundingOverTheFootprint)
+{
+    const auto rows = measure("precision", {{Frame::cotangent}, "large uv"});
+    auto mean = [&](const char* setting) {
+        return only(rows, setting, "cotangent", "float", "exact arithmetic").mean;
+    };
+    // One degree times uv x 1e-6 / footprint, to a factor of two: rounding of a float.
+    EXPECT_NEAR(mean("uv up to 16, footprint 0.0001"), 0.123, 0.06);
+    EXPECT_NEAR(mean("uv up to 256, footprint 0.001"), 0.196, 0.1);
+    EXPECT_NEAR(mean("uv up to 4096, footprint 0.01"), 0.311, 0.15);
+    for (const Measurement& m : rows)
+        EXPECT_EQ(m.invalid, 0) << m.setting;
+}
+
+TEST(AccuracyBarD2, halfArithmeticHoldsAfterScalingInFloatAndFailsWithoutIt)
+{
+    const auto scaled = measure("half", scene("scaled in float, frame in half"));
+    for (const char* frame : {"cotangent", "orthonormal"})
+        for (const char* setting : {"footprint 0.0001", "footprint 0.001", "footprint 0.01", "footprint 0.1"})
+            EXPECT_LT(only(scaled, setting, frame, "half", "exact arithmetic").mean, 0.03) << frame << setting;
+    for (const Measurement& m : scaled)
+        EXPECT_EQ(m.invalid, 0) << m.frame << ", " << m.setting;
+    const auto plain = measure("half", scene("all in half"));
+    EXPECT_EQ(only(plain, "footprint 0.001", "cotangent-2013", "half", "exact arithmetic").invalid, 1);
+    EXPECT_NEAR(only(plain, "footprint 0.01", "cotangent-2013", "half", "exact arithmetic").invalid, 0.79, 0.03);
+}
+
+TEST(AccuracyBarD3, totalFramesAreFiniteInAll19CasesAndTheOthersAreNot)
+{
+    std::size_t total = 0;
+    bool othersFail = false;
+    for (const Measurement& m : measure("degenerate")) {
+        const FrameInfo& f = info(*frameFromName(m.frame));
+        total += f.total;
+        if (f.total) {
+            EXPECT_EQ(m.invalid, 0) << m.frame << ": " << m.scene;
+        } else {
+            othersFail = othersFail || (m.scene == "constant uv" && m.invalid == 1);
+        }
+    }
+    EXPECT_EQ(total, 19u * 4u);
+    EXPECT_TRUE(othersFail);
+}
+
+TEST(AccuracyBarD4, proceduralUvCostUnderADegreeWhereAWarpSpans64Pixels)
+{
+    const auto fine = measure("procedural", scene("fine derivatives"));
+    EXPECT_LT(only(fine, "64 pixels a wave", "cotangent").mean, 0.9);
+    // First order in the footprint: a quarter of the pixels, four times the error.
+    EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean,
+                4, 0.2);
+    const auto analytic = measure("procedural", scene("analytic Jacobian"));
+    for (const char* setting : {"64 pixels a wave", "4 pixels a wave"})
+        EXPECT_LT(only(analytic, setting, "cotangent").maximum, 1e-6);
+}
+
+TEST(Accuracy, rowsDoNotDependOnTheSelection)
+{
+    const auto all = measure("foreshortening");
+    const auto few = measure("foreshortening", {{Frame::unit, Frame::paperOrthogonal}, ""});
+    ASSERT_EQ(few.size(), 9u * 2 * 2);
+    for (const Measurement& m : few) {
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Measurement& o) {
+            return o.setting == m.setting && o.frame == m.frame && o.arithmetic == m.arithmetic;
+        });
+        ASSERT_NE(same, all.end());
+        EXPECT_EQ(same->mean, m.mean);
+        EXPECT_EQ(same->maximum, m.maximum);
+    }
+}
+
+TEST(Accuracy, collectorCountsWhatIsNotFiniteApart)
+{
+    AngleCollector angles;
+    for (double d : {3.0, 1.0, 2.0, double(NAN), double(INFINITY)})
+        angles.add(d);
+    const Measurement m = angles.finish({});
+    EXPECT_EQ(m.samples, 5u);
+    EXPECT_DOUBLE_EQ(m.mean, 2);
+    EXPECT_DOUBLE_EQ(m.maximum, 3);
+    EXPECT_DOUBLE_EQ(m.percentile95, 2); // rank floor(0.95 * 2) of 1 2 3
+    EXPECT_DOUBLE_EQ(m.invalid, 0.4);
+}
+
+} // namespace
+} // namespace cotan

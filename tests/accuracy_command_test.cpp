@@ -1,0 +1,79 @@
+// `cotan accuracy` as a user runs it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+TEST(AccuracyCommand, printsTheTablesAskedFor)
+{
+    TemporaryFolder folder;
+    const ToolRun r = runTool({"accuracy", "--tables", "foreshortening", "--frames", "cotangent,nonperspective"}, folder.path());
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.out.find("## foreshortening"), std::string::npos);
+    EXPECT_NE(r.out.find("| nonperspective |"), std::string::npos);
+    EXPECT_EQ(r.out.find("| unit |"), std::string::npos);
+    EXPECT_EQ(r.err, "");
+}
+
+TEST(AccuracyCommand, sameFiguresForAnyNumberOfThreads)
+{
+    TemporaryFolder folder;
+    for (const char* threads : {"1", "3"}) {
+        const ToolRun r = runTool({"accuracy", "--tables", "views,signs,half", "--threads", threads, "--csv",
+                                   std::string(threads) + ".csv", "--quiet"}, folder.path());
+        ASSERT_EQ(r.code, 0) << r.err;
+    }
+    EXPECT_GT(readWhole(folder / "1.csv").size(), 1000u);
+    EXPECT_EQ(readWhole(folder / "1.csv"), readWhole(folder / "3.csv"));
+}
+
+TEST(AccuracyCommand, aFigureThatBecameWorseIsExitCode5)
+{
+    TemporaryFolder folder;
+    const std::vector<std::string> words{"accuracy", "--tables", "procedural", "--frames", "gradient"};
+    auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return runTool(more, folder.path());
+    };
+    ASSERT_EQ(with({"--csv", "figures.csv", "--quiet"}).code, 0);
+    const ToolRun same = with({"--against", "figures.csv"});
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_NE(same.out.find("none is worse"), std::string::npos);
+    // Pretend that the past was better: one row of degrees becomes 0.01.
+    std::string text = readWhole(folder / "figures.csv");
+    const std::size_t row = text.find("fine derivatives,4 pixels a wave,gradient,E,double,6000,");
+    ASSERT_NE(row, std::string::npos);
+    const std::size_t number = text.find("6000,", row) + 5;
+    text.replace(number, text.find(',', number) - number, "0.01");
+    std::ofstream(folder / "figures.csv") << text;
+    const ToolRun worse = with({"--against", "figures.csv"});
+    EXPECT_EQ(worse.code, 5);
+    EXPECT_NE(worse.err.find("worse: procedural, fine derivatives, 4 pixels a wave, gradient"), std::string::npos)
+        << worse.err;
+}
+
+TEST(AccuracyCommand, wrongWordsGetOneLineAndTheirExitCode)
+{
+    TemporaryFolder folder;
+    std::ofstream(folder / "not.csv") << "hello\n";
+    const std::pair<std::vector<std::string>, int> runs[] = {
+        {{"accuracy", "--tables", "flatt"}, 1},
+        {{"accuracy", "--frames", "cotan"}, 1},
+        {{"accuracy", "--tables", "views", "--scene", "nowhere"}, 1},
+        {{"accuracy", "--tables", "views", "--against", "missing.csv"}, 2},
+        {{"accuracy", "--tables", "views", "--against", "not.csv"}, 2},
+        {{"accuracy", "--tables", "views", "--csv", "no/such/folder/a.csv", "--quiet"}, 4},
+    };
+    for (const auto& [words, code] : runs) {
+        const ToolRun r = runTool(words, folder.path());
+        EXPECT_EQ(r.code, code) << words.back();
+        EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    }
+}
+
+} // namespace
+} // namespace cotan::test
