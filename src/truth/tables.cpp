@@ -10,6 +10,8 @@ const std::vector<AccuracyTable>& accuracyTables()
         {"perspective", "a ground plane up to the horizon", measurePerspective},
         {"views", "does the frame depend on where its differences come from?", measureViews},
         {"signs", "handedness, rows up and down, facing, mirroring; green and v", measureSigns},
+        {"curved", "a relief on sphere, Mercator sphere, torus and spout; 8 to 256 segments", measureCurved},
+        {"facets", "steps across the edges of triangles, errors inside", measureFacets},
         {"precision", "float: distance from the origin, pixel size, size of uv", measurePrecision},
         {"half", "half-precision arithmetic", measureHalf},
         {"degenerate", "nineteen kinds of difficult pixel", measureDegenerate},
