@@ -1,8 +1,10 @@
 // `cotan accuracy` as a user runs it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
+#include "cotan/report/measurements.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {
@@ -72,6 +74,61 @@ TEST(AccuracyCommand, wrongWordsGetOneLineAndTheirExitCode)
         const ToolRun r = runTool(words, folder.path());
         EXPECT_EQ(r.code, code) << words.back();
         EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    }
+}
+
+// The bars B1 to B4 for pictures: the device draws, normals are read back. On a machine without a
+// Vulkan device the reference renderer draws, and must hold them too.
+TEST(AccuracyCommand, barsOfCurvedSurfacesHoldOnTheDevice)
+{
+    TemporaryFolder folder;
+    const ToolRun r = runTool({"accuracy", "--tables", "rendered", "--scene", "sphere", "--frames",
+                               "cotangent,exact,smooth,gradient,mikktspace", "--csv", "r.csv", "--quiet"},
+                              folder.path(), 240);
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto rows = measurementsFromCsv(readWhole(folder / "r.csv"), "r.csv");
+    ASSERT_TRUE(rows) << rows.error().message;
+    auto mean = [&](const char* segments, const char* frame) {
+        for (const Measurement& m : *rows)
+            if (m.setting == segments && m.frame == frame)
+                return m.mean;
+        ADD_FAILURE() << "no row " << segments << ", " << frame;
+        return 0.0;
+    };
+    for (const char* frame : {"cotangent", "exact"}) {
+        EXPECT_LT(mean("16", frame), 2.4);
+        EXPECT_LT(mean("32", frame), 1.15);
+        EXPECT_LT(mean("64", frame), 0.57);
+        EXPECT_GT(mean("32", frame) / mean("64", frame), 1.9);
+    }
+    EXPECT_LT(mean("32", "smooth"), 0.30);
+    EXPECT_LT(mean("64", "smooth"), 0.09);
+    EXPECT_LT(mean("64", "gradient"), 0.90);
+    EXPECT_GT(mean("64", "mikktspace"), 2); // the control; pixels weigh the poles less than area does
+    for (const Measurement& m : *rows) {
+        EXPECT_EQ(m.invalid, 0) << m.frame;
+        EXPECT_GT(m.samples, 50000u); // three pictures of 384 x 384
+    }
+}
+
+TEST(AccuracyCommand, flatPatchesOnTheDeviceAreExactToTheMapsFiltering)
+{
+    TemporaryFolder folder;
+    for (const char* layout : {"stretch 2:1", "shear 45", "mirrored"}) {
+        const ToolRun r = runTool({"accuracy", "--tables", "rendered", "--scene", layout, "--frames",
+                                   "cotangent,paper-full,exact,smooth,orthonormal", "--csv", "r.csv", "--quiet"},
+                                  folder.path(), 240);
+        ASSERT_EQ(r.code, 0) << r.err;
+        const auto rows = measurementsFromCsv(readWhole(folder / "r.csv"), "r.csv");
+        ASSERT_TRUE(rows) << rows.error().message;
+        ASSERT_EQ(rows->size(), 5u);
+        for (const Measurement& m : *rows)
+            if (m.frame == "orthonormal" && m.scene != "mirrored") {
+                EXPECT_GT(m.mean, 5) << m.scene;
+            } else {
+                EXPECT_LT(m.mean, 0.03) << m.scene << ", " << m.frame;
+                EXPECT_LT(m.maximum, 0.1) << m.scene << ", " << m.frame;
+            }
     }
 }
 

@@ -13,6 +13,7 @@
 #include "file_output.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "rendered_table.hpp"
 
 namespace cotan::app {
 
@@ -21,28 +22,44 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string tables, frames, scene, csv;
+    std::string device = "auto";
     std::filesystem::path against;
     bool list = false;
 };
 
-Result<std::vector<const AccuracyTable*>> chooseTables(const std::string& text)
+constexpr std::string_view kRendered = "rendered";
+constexpr std::string_view kRenderedSummary = "the curved surfaces drawn by the device, normals read back";
+
+struct ChosenTables {
+    std::vector<const AccuracyTable*> computed;
+    bool rendered = false;
+};
+
+Result<ChosenTables> chooseTables(const std::string& text)
 {
-    std::vector<const AccuracyTable*> chosen;
+    ChosenTables chosen;
     std::string names;
     for (const AccuracyTable& table : accuracyTables())
-        names += (names.empty() ? "" : ", ") + std::string(table.name);
+        names += std::string(table.name) + ", ";
+    names += kRendered;
     std::stringstream words(text);
     for (std::string word; std::getline(words, word, ',');) {
+        if (word == kRendered) {
+            chosen.rendered = true;
+            continue;
+        }
         const auto& all = accuracyTables();
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const AccuracyTable& t) { return t.name == word; });
         if (found == all.end())
             return usageError(fmt::format("--tables: expected names out of {}; found '{}'", names, word));
-        chosen.push_back(&*found);
+        chosen.computed.push_back(&*found);
     }
-    if (chosen.empty())
+    if (text.empty()) {
+        chosen.rendered = true;
         for (const AccuracyTable& table : accuracyTables())
-            chosen.push_back(&table);
+            chosen.computed.push_back(&table);
+    }
     return chosen;
 }
 
@@ -127,6 +144,7 @@ Status run(const Options& o)
     if (o.list) {
         for (const AccuracyTable& table : accuracyTables())
             say(o.common, fmt::format("{:<16}{}", table.name, table.summary));
+        say(o.common, fmt::format("{:<16}{}", kRendered, kRenderedSummary));
         return Done{};
     }
     const auto tables = chooseTables(o.tables);
@@ -135,7 +153,13 @@ Status run(const Options& o)
     const auto selection = chooseRows(o);
     if (!selection)
         return selection.error();
-    const auto rows = measure(o, *tables, *selection);
+    auto rows = measure(o, tables->computed, *selection);
+    if (tables->rendered && o.device != "none") {
+        auto rendered = measureRendered(o.device, o.common, *selection);
+        if (!rendered)
+            return rendered.error();
+        rows.insert(rows.end(), rendered->begin(), rendered->end());
+    }
     if (rows.empty())
         return usageError("nothing was measured: no chosen table has that scene with those frames");
     if (o.common.output.empty() && o.against.empty())
@@ -163,6 +187,9 @@ Command addAccuracyCommand(CLI::App& app)
         ->type_name("A,B");
     command->add_option("--frames", options->frames, "frames, separated by commas (default: all): " + frameNames())
         ->type_name("A,B");
+    command->add_option("--device", options->device,
+                        "draws the table rendered: auto, reference, a part of a Vulkan device's name, or none")
+        ->type_name("DEVICE")->capture_default_str();
     command->add_option("--scene", options->scene, "only this scene of the tables, such as sphere")->type_name("NAME");
     command->add_option("--csv", options->csv, "write all figures as CSV")->type_name("FILE");
     command->add_option("--against", options->against,

@@ -122,6 +122,14 @@ const std::vector<Surface>& surfaces()
     return list;
 }
 
+Surface patchSurface(const Layout& l)
+{
+    auto position = [l](Jet u, Jet v) {
+        return JetVector{u * l.a + v * l.b, u * l.c + v * l.d, 0};
+    };
+    return {l.name, glm::dmat2(1), l.a * l.d - l.b * l.c < 0, position};
+}
+
 glm::dvec3 truthS(const SurfacePoint& p, glm::dvec3 m)
 {
     const double s = commonScale(p.gradU, p.gradV);

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/truth/jet.hpp"
+#include "cotan/truth/patch.hpp"
 #include "cotan/truth/relief.hpp"
 
 namespace cotan {
@@ -47,6 +48,9 @@ struct Surface {
 // sphere: latitude and longitude within 75 degrees; mercator: the same sphere with conformal uv;
 // torus: radii 1 and 0.4; spout: bent and tapering like a teapot's, uv sheared and stretched.
 const std::vector<Surface>& surfaces();
+
+// A flat patch in the plane z = 0, facing +z: position = [a b; c d] uv.
+Surface patchSurface(const Layout& layout);
 
 // Truth S on a curved surface: normalize(n - s (h_u gradU + h_v gradV)), s = 1 over the longer
 // gradient. For a texel m = (-h_u, -h_v, 1).
