@@ -16,6 +16,7 @@ struct PictureOptions {
     std::string camera;           // empty: the built-in scene's own, fit for a model
     std::string device = "auto";
     std::string shading = "pbr";
+    std::string lighting = "world";
     std::string tangents = "stored";
     std::string rows = "down";
     std::string derivatives = "fine";
