@@ -1,5 +1,6 @@
 // Decoding: what zero is, two channels, and which way green points.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -23,27 +24,25 @@ Image flatMap()
     return image;
 }
 
-// A mirror on the floor, of two charts: the right half's texcoords are those of the left, mirrored.
+// An upright mirror of two charts side by side; the right one's texcoords run up, the left one's down.
 Scene mirrorScene(int expansion)
 {
-    Mesh mesh = makePatch(1, 0, false, 2);
-    for (glm::vec2& uv : mesh.texcoords[0])
-        uv.x = std::min(uv.x, 1 - uv.x);
-    Scene scene = sceneOf(std::move(mesh), flatMap(), metal({0.9f, 0.9f, 0.9f}, 0.02f));
+    Scene scene = sceneOf(makePatch(1, 0, false, 1), flatMap(), metal({0.9f, 0.9f, 0.9f}, 0));
     scene.materials[0].normalFormat.expansion = expansion;
-    scene.instances[0].toWorld = glm::scale(
-        glm::rotate(glm::mat4(1), glm::radians(-90.0f), glm::vec3(1, 0, 0)), glm::vec3(2));
+    scene.instances[0].toWorld = glm::translate(glm::mat4(1), glm::vec3(-0.5f, 0, 0));
+    scene.meshes.push_back(scene.meshes[0]);
+    for (glm::vec2& uv : scene.meshes[1].texcoords[0])
+        uv.y = -uv.y;
+    scene.instances.push_back({"", 1, glm::translate(glm::mat4(1), glm::vec3(0.5f, 0, 0))});
     return scene;
 }
 
-// Looks down so that the soft box of the environment is seen in the mirror, across the seam.
+// Straight into the mirror, which shows the horizon of the environment. Nothing else gives light.
 View mirrorView(const Studio& studio)
 {
     Camera camera;
-    camera.eye = glm::vec3(0, 0.80f, 0) + glm::vec3(-0.48f, 0, -0.36f);
-    camera.eye *= 1.9f;
-    camera.target = {0, 0, 0};
-    camera.verticalFieldOfView = glm::radians(42.0f);
+    camera.eye = {0, 0, 3};
+    camera.verticalFieldOfView = glm::radians(14.0f);
     View view = wideView(studio, camera);
     view.shading = Shading::pbr;
     view.lights.clear();
@@ -64,6 +63,8 @@ Height domeHeight()
     return [](double u, double v) { return relief(Relief::domes, u, v); };
 }
 
+constexpr std::array<float, 3> kUpright{0, 0, 1};
+
 void addMirrors(Studio& studio, Figure& figure)
 {
     const View view = mirrorView(studio);
@@ -71,15 +72,15 @@ void addMirrors(Studio& studio, Figure& figure)
     studio.show(exact);
     Image exactPicture = studio.shaded(view, Frame::cotangent);
     const Image exactNormals = studio.normals(view, Frame::cotangent);
-    Image plain = exactNormals; // straight up wherever the mirror is
+    Image plain = exactNormals; // (0,0,1) wherever the mirror is
     for (std::size_t i = 0; i < plain.pixelCount(); ++i)
-        std::copy_n(std::initializer_list<float>{0, 1, 0}.begin(), 3, plain.floats() + 4 * i);
+        std::copy_n(kUpright.begin(), 3, plain.floats() + 4 * i);
     studio.show(biased);
     Image biasedPicture = studio.shaded(view, Frame::cotangent);
     figure.measures.push_back({"flat texel 128, biased", compareNormals(studio.normals(view, Frame::cotangent), plain).degrees});
     figure.measures.push_back({"flat texel 128, exact", compareNormals(exactNormals, plain).degrees});
     Image difference = differenceOf(biasedPicture, exactPicture, 8);
-    figure.panels.push_back({"a-biased", "2c - 1", "Each half leans its own way: a seam in the mirror.", std::move(biasedPicture)});
+    figure.panels.push_back({"a-biased", "2c - 1", "Each half leans its own way: the horizon breaks.", std::move(biasedPicture)});
     figure.panels.push_back({"b-exact", "(255c - 128)/127", "128 is zero: flat is flat.", std::move(exactPicture)});
     figure.panels.push_back({"c-difference", "difference of the two, 8 times", "", std::move(difference)});
 }
@@ -114,8 +115,8 @@ Figure makeDecodeFigure(Studio& studio)
     figure.title = "Decoding: zero, two channels, green";
     figure.text = {
         "A flat mirror whose normal map is the flat texel (128, 128, 255) everywhere. Read as 2c - 1 no byte is zero: the mirror "
-        "leans by 0.32 degrees, the reflection by twice that, and where the texture coordinates are mirrored, at the line through "
-        "the middle, it breaks. Read as (255c - 128)/127, 128 is zero.",
+        "leans by 0.32 degrees, the reflection by twice that. The right half's texture coordinates are mirrored, so that it leans "
+        "the other way, and the horizon in the mirror breaks in the middle. Read as (255c - 128)/127, 128 is zero.",
         "Below, an 8-bit map of domes: all three channels; x and y alone, z from their lengths; and with green read the wrong "
         "way, which turns the light round on every slope across."};
     figure.measured = "Angles to the analytic normals; domes where they tilt by at least 5 degrees, 8-bit map.";

@@ -33,7 +33,7 @@ Figure makeFacetingFigure(Studio& studio)
         for (int segments : {kSegments, 4 * kSegments}) {
             Mesh mesh = makeSphere(1, segments);
             scaleTexcoords(mesh, kRepeatU, kRepeatV);
-            const Scene scene = withVertexFrames(sceneOf(std::move(mesh), map, dielectric({0.03f, 0.09f, 0.2f}, 0.4f)), frame);
+            const Scene scene = withVertexFrames(sceneOf(std::move(mesh), map, dielectric({0.03f, 0.09f, 0.2f}, 0.32f)), frame);
             studio.show(scene);
             const Image uv = studio.vectors(view, frame, Output::uv);
             const Image truth = truthNormals(uv, waves, sphereChart({kRepeatU, kRepeatV}));

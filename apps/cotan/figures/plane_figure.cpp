@@ -38,13 +38,25 @@ Scene planeScene(Mesh mesh, const glm::mat4& toWorld)
     return scene;
 }
 
+// One unit above the floor, half downwards: from right below to close to the horizon.
 Camera lowCamera()
 {
     Camera camera;
     camera.eye = {0, 1, 0};
-    camera.target = {0, 0.62f, -1};
-    camera.verticalFieldOfView = glm::radians(62.0f);
+    camera.target = {0, 0, -1};
+    camera.verticalFieldOfView = glm::radians(80.0f);
     return camera;
+}
+
+View planeView(const Studio& studio, const Camera& camera)
+{
+    View view = wideView(studio, camera);
+    view.environment = false; // the sky in the floor would drown the dots
+    Light fill;
+    fill.intensity = 0.9f;
+    view.lights = {behindLeft(), fill};
+    view.lights[0].intensity = 5;
+    return view;
 }
 
 // The part of a picture of angles where the depth lies in a range.
@@ -109,24 +121,24 @@ Figure makePlaneFigure(Studio& studio)
     figure.title = "2.6.5: foreshortening, not perspective";
     figure.text = {
         "The last optimisation of the chapter takes the matrix of the edges to be orthogonal and leaves out the "
-        "inverse transpose. On a plane in perspective the two agree where the plane is seen steeply and part "
-        "towards the horizon: the dots turn flat across the view, and their light wanders.",
-        "The chapter puts it down to perspective. The second plane is drawn without any: an orthographic camera, "
-        "the plane tilted by 60 degrees. The error is the same everywhere on it, and as large. What breaks "
-        "the short cut is foreshortening; it is exact only where the surface faces the camera."};
+        "inverse transpose. On a plane in perspective the two agree in part of the foreground and part towards the "
+        "horizon: highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because there "
+        "the filtered map is flat.)",
+        "The chapter puts it down to perspective. The second plane is drawn without any: an orthographic camera, the plane "
+        "tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the short cut is "
+        "foreshortening; it is exact only where the surface faces the camera."};
     figure.measured = "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is turned by "
                       "30 degrees. Rows by tilt: the formulas alone, a texel tilted by 35 degrees, over all azimuths and turns "
                       "of the texture.";
 
     const Scene floor = planeScene(makePlane(80, 40, 80), glm::mat4(1));
     studio.show(floor);
-    View perspective = wideView(studio, lowCamera());
-    perspective.lights = {behindLeft()};
+    const View perspective = planeView(studio, lowCamera());
     const auto degrees = addTriple(studio, perspective, "perspective", "Perspective", figure);
     const Image depth = studio.vectors(perspective, Frame::exact, Output::depth);
-    figure.measures.push_back({"perspective, nearer than 1.5 eye heights", withinDepth(degrees, depth, 0, 1.5f)});
-    figure.measures.push_back({"perspective, 1.5 to 4", withinDepth(degrees, depth, 1.5f, 4)});
-    figure.measures.push_back({"perspective, farther than 4", withinDepth(degrees, depth, 4, 1e9f)});
+    figure.measures.push_back({"perspective, depth up to 1.2 eye heights", withinDepth(degrees, depth, 0, 1.2f)});
+    figure.measures.push_back({"perspective, 1.2 to 3", withinDepth(degrees, depth, 1.2f, 3)});
+    figure.measures.push_back({"perspective, 3 and more", withinDepth(degrees, depth, 3, 1e9f)});
 
     Mesh patch = makePatch(1, 0, false, 1);
     scaleTexcoords(patch, 4, 4);
@@ -134,7 +146,7 @@ Figure makePlaneFigure(Studio& studio)
         glm::rotate(glm::mat4(1), glm::radians(-kTilt), glm::vec3(1, 0, 0)), glm::vec3(4));
     const Scene plane = planeScene(std::move(patch), tilted);
     studio.show(plane);
-    const View orthographic = wideView(studio, frontal(1.95f));
+    const View orthographic = planeView(studio, frontal(1.3f));
     const auto tiltDegrees = addTriple(studio, orthographic, "orthographic", "Orthographic, tilted 60 degrees", figure);
     figure.measures.push_back({"orthographic, 60 degrees, the dots of the picture", angleStatistics(tiltDegrees)});
     for (int tilt : {0, 10, 20, 30, 45, 60, 70, 80})

@@ -67,7 +67,7 @@ Image truthNormals(const Image& uv, const Height& height, const Chart& chart, do
         if (!surface)
             continue;
         const glm::dvec3 n = perturbed(*surface, height(c.x, c.y));
-        if (glm::dot(n, surface->normal) > mostUpright)
+        if (leastTilt > 0 && glm::dot(n, surface->normal) > mostUpright)
             continue;
         float* out = truth.floats() + 4 * i;
         for (int k = 0; k < 3; ++k)

@@ -28,7 +28,8 @@ Scene tutorialScene()
     scene.name = "tutorial";
     scene.images.push_back(makeReliefMap(Relief::bricks, 512));
     addShape(scene, makePlane(12, 6, 8), dielectric({0.16f, 0.065f, 0.04f}, 0.45f), {0, 0, 0}, true);
-    Mesh ball = makeSphere(0.6f, 20);
+    scene.materials.back().normalScale = 1.6f;
+    Mesh ball = makeSphere(0.6f, 12);
     scaleTexcoords(ball, 2, 1);
     addShape(scene, std::move(ball), dielectric({0.10f, 0.12f, 0.06f}, 0.4f), {-0.75f, 0.6f, 0.2f}, true);
     addShape(scene, makeCube(0.8f, 1), dielectric({0.05f, 0.09f, 0.18f}, 0.4f), {0.85f, 0.4f, -0.5f}, false);
@@ -104,8 +105,8 @@ Figure makeTutorialFigure(Studio& studio)
         view.lighting = row.lighting;
         Image picture = studio.drawReference(view);
         const Levels levels = levelsBetween(world, picture);
-        differences.push_back({std::string(row.file) + "-difference", std::string(row.label) + ": difference, 8 times",
-                               levelsText(levels), differenceOf(world, picture, 8)});
+        differences.push_back({std::string(row.file) + "-difference", std::string(row.label) + ": difference, 16 times",
+                               levelsText(levels), differenceOf(world, picture, 16)});
         figure.panels.push_back({row.file, row.label, fmt::format("Frame {}.", name(row.frame)), std::move(picture)});
         figure.numbers.push_back({std::string(row.label) + ", mean levels of 255", levels.mean});
         figure.numbers.push_back({std::string(row.label) + ", most levels of 255", double(levels.maximum)});
