@@ -191,6 +191,19 @@ TEST(Figures, wrongWordsExitOneAndAnUnwritableFolderExitsFour)
     EXPECT_EQ(lines(run.err), 1) << run.err;
 }
 
+TEST(Lighting, inTangentSpaceIsDrawnByTheReferenceAndAsksForTangents)
+{
+    TemporaryFolder folder;
+    const ToolRun run = runTool({"render", "-o", "a.png", "--size", "32x24", "--samples", "1", "--lighting", "tangent-vertex",
+                                 "--frame", "mikktspace", "--json", "-"}, folder.path());
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
+    const ToolRun wrong = runTool({"render", "-o", "b.png", "--lighting", "tangent-vertex"}, folder.path());
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
+}
+
 TEST(Page, escapesTextAndEncodesBytes)
 {
     EXPECT_EQ(escapeHtml("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");

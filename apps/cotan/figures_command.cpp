@@ -170,8 +170,8 @@ Status run(const Options& o)
     for (const Figure& figure : made)
         for (std::size_t panel : {figure.overview.first, figure.overview.second})
             overview.push_back(&figure.panels[panel].image);
-    const Image sheet = contactSheet(overview, std::min(6, int(overview.size())), std::min(size->first, 240),
-                                     std::min(size->second, 180));
+    const int columns = overview.size() > 8 ? 6 : std::min(4, int(overview.size()));
+    const Image sheet = contactSheet(overview, columns, std::min(size->first, 240), std::min(size->second, 180));
     if (Status done = writeImage(o.common.output / "overview.png", sheet); !done)
         return done;
     if (Status done = writeFileWhole(o.common.output / "index.html", toHtml(page)); !done)

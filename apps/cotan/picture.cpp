@@ -115,7 +115,8 @@ Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
                                              const CommonOptions& common, const Picture& picture)
 {
     std::string note;
-    auto painter = openPainter(options.device, common.threads, note);
+    const bool reference = options.device == "auto" && options.lighting != "world";
+    auto painter = openPainter(reference ? "reference" : options.device, common.threads, note);
     if (!painter)
         return painter;
     if (!note.empty())
@@ -123,6 +124,14 @@ Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
     return painter;
+}
+
+Status checkLighting(const PictureOptions& options, Frame frame)
+{
+    if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
+        return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                                      "mikktspace; found '{}'", name(frame)));
+    return Done{};
 }
 
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)

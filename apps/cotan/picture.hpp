@@ -41,7 +41,11 @@ struct Picture {
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames);
 
+// Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
+Status checkLighting(const PictureOptions& options, Frame frame);
+
 // The device that the options name, with the picture's scene loaded; a fallback is warned about.
+// Lighting in tangent space is drawn by the reference renderer unless another device is named.
 // The picture must outlive it.
 Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
                                              const CommonOptions& common, const Picture& picture);

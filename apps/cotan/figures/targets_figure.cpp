@@ -17,8 +17,13 @@ Figure makeTargetsFigure(Studio& studio)
         "the sign of the y derivative: right on one kind of target, and on the other every bump is a dent. The frame "
         "cotangent carries the sign of n . (dpdx x dpdy) and is the same on both."};
     figure.measured = "Angles to the normals from whole triangles (frame exact) on the same target.";
-    const Scene scene = builtinScene();
+    Scene scene = builtinScene();
+    for (Material& material : scene.materials) {
+        material.metallic = 0; // reflections hide whether a bump is a dent
+        material.baseColor *= glm::vec4(0.6f, 0.6f, 0.6f, 1);
+    }
     studio.show(scene);
+    scene.cameras[0].verticalFieldOfView *= 1.25f; // the built-in camera is for wider pictures
     View view = wideView(studio, scene.cameras[0]);
     view.lights = scene.lights;
     view.shading = Shading::pbr;
