@@ -122,7 +122,7 @@ TEST(Figures, squarePatchErrorsAreThoseOfTheDomesMathematics)
         EXPECT_NEAR(angle(r, 0, name + ", orthonormal"), orthonormal, 0.015 * orthonormal) << name;
         const double unit = domeMean(l.stretch, l.shear, Wrong::unit);
         EXPECT_NEAR(angle(r, 0, name + ", unit"), unit, 0.015 * unit) << name;
-        // The bilinear reading of a 16-bit map with 102 texels to a dome's radius.
+        // The bilinear reading of a 16-bit map with 51 texels to a dome's radius.
         EXPECT_LT(angle(r, 0, name + ", cotangent", "max_degrees"), 0.1) << name;
     }
     for (const char* frame : {"orthonormal", "unit", "cotangent"})
@@ -163,6 +163,26 @@ TEST(Figures, decodingNormalMatricesAndTargetsHaveTheirKnownErrors)
     EXPECT_LT(angle(r, 2, "flat texel 128, exact", "max_degrees"), 1e-4);
     // A slope of 0.92 at most: turned over in v it is off by at most twice its tilt of 42.6 degrees.
     EXPECT_NEAR(angle(r, 2, "green the wrong way", "max_degrees"), 2 * std::atan(2.4 * 2 / (3 * std::sqrt(3))) * 180 / std::numbers::pi, 1);
+}
+
+TEST(Figures, curvedMeshesConvergeWithTheFramesThatFollowTheTexture)
+{
+    const auto r = report("2.6.3,mirrored,faceting", "120x90");
+    const auto gain = [&](const std::string& frame) {
+        return angle(r, 2, frame + ", 12 segments") / angle(r, 2, frame + ", 48 segments");
+    };
+    // Four times the segments: a frame that is constant in a triangle gains four (first order), averaged
+    // cotangents up to sixteen (second order), and an orthonormal frame next to nothing where the
+    // latitudes squeeze the texture. Half of each for coarse meshes, where other terms count.
+    EXPECT_GT(gain("cotangent"), 2);
+    EXPECT_GT(gain("smooth"), 8);
+    EXPECT_LT(gain("mikktspace"), 2);
+    // Reversed on half of the sphere, where domes tilt by tens of degrees; right on both.
+    EXPECT_GT(angle(r, 1, "stored tangents without their sign"), 5);
+    EXPECT_LT(angle(r, 1, "cotangent, nothing stored"), 0.5);
+    // What the chapter's figure shows: by and large alike, but not at the nozzle.
+    EXPECT_GT(angle(r, 0, "vertex, inset at the nozzle"), 4 * angle(r, 0, "cotangent, inset at the nozzle"));
+    EXPECT_GT(angle(r, 0, "vertex, inset at the nozzle"), 2 * angle(r, 0, "vertex, whole teapot"));
 }
 
 TEST(Figures, tangentSpaceByTheInverseAgreesWithTheWorldToALevel)

@@ -27,7 +27,7 @@ Figure makeFacetingFigure(Studio& studio)
                       "of the equator.";
     const View view = squareView(studio, frontal(2.05f));
     const Height waves = [](double u, double v) { return relief(Relief::waves, u, v); };
-    const Image map = heightMap16(waves, 1024);
+    const Image map = heightMap16(waves, 512);
     std::vector<Panel> heats;
     for (Frame frame : {Frame::cotangent, Frame::smooth, Frame::mikktspace}) {
         for (int segments : {kSegments, 4 * kSegments}) {

@@ -59,7 +59,7 @@ Figure makePatchFigure(Studio& studio)
         "on pure stretch as wrong as the orthonormal frame."};
     figure.measured = "Angles to the analytic normals, over pixels tilted by at least 5 degrees. Flat, orthographic, "
                       "16-bit map.";
-    const Image map = heightMap16(domeHeight(), 1024);
+    const Image map = heightMap16(domeHeight(), 512);
     const View view = squareView(studio, frontal(1));
 
     const Scene square = patchScene(kSquare, map);

@@ -15,7 +15,7 @@ namespace cotan::app {
 namespace {
 
 constexpr int kSegments = 24;      // a patch, of the teapot that is drawn
-constexpr int kTruthSegments = 96; // of the one that says what is right
+constexpr int kTruthSegments = 64; // of the one that says what is right
 
 // Stripes and circular spots, as on the chapter's teapot: ridges that run down in the upper half of
 // the map, rows of domes in the lower, which is the one at the nozzle.
@@ -97,7 +97,7 @@ Figure makeTeapotFigure(Studio& studio)
     figure.measured = "Angles to the normals of the fine teapot, away from outlines.";
 
     const Pair views = viewsOf(studio);
-    const Image map = heightMap16(spotsAndStripes, 1024);
+    const Image map = heightMap16(spotsAndStripes, 512);
     const Scene fine = teapotScene(kTruthSegments, map);
     studio.show(fine);
     const Image truthWhole = studio.normals(views.whole, Frame::exact);
