@@ -76,7 +76,7 @@ std::string readBytes(const std::filesystem::path& file)
 
 PageTable tableOf(const Figure& figure)
 {
-    PageTable table{figure.measured, {"", "mean", "95 %", "largest, degrees"}, {}};
+    PageTable table{figure.measured, {"degrees", "mean", "95 %", "largest"}, {}};
     for (const Measure& m : figure.measures)
         table.rows.push_back({m.name, fmt::format("{:.2f}", m.degrees.mean), fmt::format("{:.2f}", m.degrees.percentile95),
                               fmt::format("{:.1f}", m.degrees.maximum)});

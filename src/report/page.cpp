@@ -14,7 +14,7 @@ section { border-top: 1px solid var(--line); margin-top: 2.5rem; }
 p { max-width: 46rem; }
 nav a { margin-right: 1em; }
 code { background: var(--soft); padding: .1em .4em; border-radius: 4px; overflow-wrap: anywhere; }
-.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr)); gap: 1rem; }
+.panels { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(21rem, 100%), 1fr)); gap: 1rem; }
 figure { margin: 0; }
 figcaption { font-size: .9em; }
 img { max-width: 100%; height: auto; display: block; background: #8883; }
@@ -23,12 +23,13 @@ table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular
 caption { text-align: left; font-size: .9em; padding-bottom: .3em; max-width: 46rem; }
 th, td { border: 1px solid var(--line); padding: .2em .7em; text-align: left; }
 td + td { text-align: right; }
-.slider { max-width: 46rem; margin: 1rem 0; }
+.panels + .panels { margin-top: 1rem; }
 .stack { position: relative; }
 .stack img { width: 100%; }
 .stack img + img { position: absolute; inset: 0; }
 .slider input { width: 100%; margin: .3rem 0; }
-.ends { display: flex; justify-content: space-between; font-size: .9em; }
+.ends { display: flex; justify-content: space-between; gap: 1em; font-size: .9em; }
+.ends span + span { text-align: right; }
 )";
 
 // A slider is an empty element until this fills it from the two pictures that it names.
@@ -101,10 +102,11 @@ std::string figureHtml(const PageFigure& figure)
     std::string html = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", escapeHtml(figure.name),
                                    escapeHtml(figure.title));
     html += paragraphs(figure.text);
+    html += "<div class=\"panels\">\n";
     for (const auto& [before, after] : figure.sliders)
         html += fmt::format("<div class=\"slider\" data-before=\"{}\" data-after=\"{}\"></div>\n",
                             panelId(figure, before), panelId(figure, after));
-    html += "<div class=\"panels\">\n";
+    html += "</div>\n<div class=\"panels\">\n";
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         html += panelHtml(figure, i);
     html += "</div>\n";

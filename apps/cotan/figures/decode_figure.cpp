@@ -122,6 +122,10 @@ Figure makeDecodeFigure(Studio& studio)
     figure.measured = "Angles to the analytic normals; domes where they tilt by at least 5 degrees, 8-bit map.";
     addMirrors(studio, figure);
     addDomes(studio, figure);
+    addError(figure, 0, "flat texel 128, biased");
+    addError(figure, 1, "flat texel 128, exact");
+    for (std::size_t i = 3; i < figure.panels.size(); ++i)
+        addError(figure, i, figure.panels[i].label);
     figure.sliders = {{0, 1}, {5, 3}};
     return figure;
 }

@@ -47,6 +47,8 @@ Figure makeFacetingFigure(Studio& studio)
                              "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.", std::move(c.heat)});
         }
     }
+    for (std::size_t i = 0; i < figure.panels.size(); ++i)
+        addError(figure, i, fmt::format("{}, {} segments", figure.panels[i].label, kSegments));
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
     figure.sliders = {{0, 1}, {2, 1}};
     figure.overview = {0, 1};

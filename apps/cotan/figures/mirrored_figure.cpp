@@ -1,5 +1,6 @@
 // Mirrored texture coordinates, and the sign that a stored tangent needs for them.
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -78,6 +79,8 @@ Figure makeMirroredFigure(Studio& studio)
         heats.push_back({std::string(row.file) + "-error", std::string(row.label) + ": error",
                          "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.", std::move(c.heat)});
     }
+    for (std::size_t i = 0; i < std::size(rows); ++i)
+        addError(figure, i, rows[i].label);
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
     figure.sliders = {{0, 1}};
     return figure;

@@ -86,6 +86,8 @@ Figure makeNormalMatrixFigure(Studio& studio)
         heats.push_back({std::string(way.file) + "-error", std::string(way.label) + ": error",
                          "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.", std::move(c.heat)});
     }
+    addError(figure, 0, "rotation only, as drawn");
+    addError(figure, 1, "scale undone, as drawn");
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
     figure.sliders = {{0, 2}, {1, 2}};
     figure.overview = {0, 2};

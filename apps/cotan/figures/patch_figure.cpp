@@ -79,6 +79,10 @@ Figure makePatchFigure(Studio& studio)
         studio.show(scene);
         measureLayout(studio, layout, view, figure);
     }
+    addError(figure, 0, "square, orthonormal");
+    addError(figure, 1, fmt::format("{}, orthonormal", kSheared.name));
+    addError(figure, 2, fmt::format("{}, cotangent", kSheared.name));
+    addError(figure, 3, fmt::format("{}, unit", kSheared.name));
     return figure;
 }
 

@@ -151,6 +151,8 @@ Figure makePlaneFigure(Studio& studio)
     figure.measures.push_back({"orthographic, 60 degrees, the dots of the picture", angleStatistics(tiltDegrees)});
     for (int tilt : {0, 10, 20, 30, 45, 60, 70, 80})
         figure.measures.push_back({fmt::format("orthographic, {} degrees, formula", tilt), sweep(tilt)});
+    addError(figure, 1, "perspective, 1.2 to 3", "At depths of 1.2 to 3 eye heights it is off");
+    addError(figure, 4, "orthographic, 60 degrees, the dots of the picture", "It is off");
     figure.sliders = {{0, 1}, {3, 4}};
     return figure;
 }

@@ -37,6 +37,8 @@ Figure makeTargetsFigure(Studio& studio)
             figure.measures.push_back({fmt::format("{}, y {}", name(frame), rows),
                                        compareNormals(studio.normals(view, frame), studio.normals(view, Frame::exact)).degrees});
         }
+    for (std::size_t i = 0; i < figure.panels.size(); ++i)
+        addError(figure, i, figure.panels[i].label);
     figure.sliders = {{0, 1}, {2, 3}};
     return figure;
 }

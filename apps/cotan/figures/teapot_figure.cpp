@@ -94,7 +94,7 @@ Figure makeTeapotFigure(Studio& studio)
         "every spot is lit from where the light is.",
         fmt::format("Both are drawn with {} segments a patch. What is right is the normal on the same teapot with "
                     "{} segments a patch and the gradients of each triangle (frame exact).", kSegments, kTruthSegments)};
-    figure.measured = "Angles to the normals of the fine teapot, away from outlines.";
+    figure.measured = "Angles to the normals of the fine teapot, away from its outline. The largest are where one part hides another.";
 
     const Pair views = viewsOf(studio);
     const Image map = heightMap16(spotsAndStripes, 512);
@@ -118,6 +118,10 @@ Figure makeTeapotFigure(Studio& studio)
         figure.measures.push_back({fmt::format("{}, inset at the nozzle", name(frame)), nozzle.degrees});
     }
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
+    for (const auto& [panel, frame] : {std::pair<std::size_t, Frame>(0, Frame::vertex), {1, Frame::cotangent}}) {
+        addError(figure, panel, fmt::format("{}, whole teapot", name(frame)), "The whole is off");
+        addError(figure, panel, fmt::format("{}, inset at the nozzle", name(frame)), "The inset is off");
+    }
     figure.sliders = {{0, 1}, {2, 3}};
     return figure;
 }

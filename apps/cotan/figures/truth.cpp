@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "cotan/report/angles.hpp"
@@ -90,6 +91,16 @@ Image heightMap16(const Height& height, int side)
             texel[3] = 65535;
         }
     return image;
+}
+
+void addError(Figure& figure, std::size_t panel, std::string_view measure, std::string_view what)
+{
+    for (const Measure& m : figure.measures)
+        if (m.name == measure) {
+            std::string& caption = figure.panels[panel].caption;
+            caption += fmt::format("{}{} by {:.2f} degrees on average, {:.1f} at 95 %.", caption.empty() ? "" : " ", what,
+                                   m.degrees.mean, m.degrees.percentile95);
+        }
 }
 
 Compared compareNormals(const Image& a, const Image& b)

@@ -38,6 +38,9 @@ Image truthNormals(const Image& uv, const Height& height, const Chart& chart, do
 // degrees of their own.
 Image heightMap16(const Height& height, int side);
 
+// Says in a panel's caption how far it is off, from the measure of that name. `what`: before the numbers.
+void addError(Figure& figure, std::size_t panel, std::string_view measure, std::string_view what = "Off");
+
 // Angles between two pictures of directions, as numbers and as a heat map.
 struct Compared {
     AngleStatistics degrees;
