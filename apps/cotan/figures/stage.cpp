@@ -96,11 +96,11 @@ View squareView(const Studio& studio, const Camera& camera)
     return view;
 }
 
-void pasteInset(Image& picture, const Image& inset, Corner corner)
+void pasteInset(Image& picture, const Image& inset)
 {
     const int border = std::max(picture.height / 160, 1);
-    const int x0 = corner == Corner::bottomLeft ? border : picture.width - inset.width - border;
-    const int y0 = corner == Corner::topRight ? border : picture.height - inset.height - border;
+    const int x0 = picture.width - inset.width - border;
+    const int y0 = picture.height - inset.height - border;
     for (int y = -border; y < inset.height + border; ++y)
         for (int x = -border; x < inset.width + border; ++x) {
             const int px = x0 + x, py = y0 + y;

@@ -32,9 +32,8 @@ Camera frontal(float extent);
 View squareView(const Studio& studio, const Camera& camera);
 View wideView(const Studio& studio, const Camera& camera);
 
-// Draws `inset` into the corner of `picture`, with a frame around it. Both unorm8.
-enum class Corner { topRight, bottomRight, bottomLeft };
-void pasteInset(Image& picture, const Image& inset, Corner corner);
+// Draws `inset` into the lower right corner of `picture`, with a frame around it. Both unorm8.
+void pasteInset(Image& picture, const Image& inset);
 
 // |a - b| * factor per channel, opaque. Both unorm8, of one size.
 Image differenceOf(const Image& a, const Image& b, int factor);

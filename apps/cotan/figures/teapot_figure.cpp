@@ -77,7 +77,7 @@ Pair viewsOf(const Studio& studio)
 Image withInset(Studio& studio, const Pair& views, Frame frame)
 {
     Image picture = studio.shaded(views.whole, frame);
-    pasteInset(picture, studio.shaded(views.nozzle, frame), Corner::bottomRight);
+    pasteInset(picture, studio.shaded(views.nozzle, frame));
     return picture;
 }
 
@@ -111,7 +111,7 @@ Figure makeTeapotFigure(Studio& studio)
         figure.panels.push_back({file, label, fmt::format("Frame {}.", name(frame)), withInset(studio, views, frame)});
         Compared whole = compareInterior(studio.normals(views.whole, frame), truthWhole);
         const Compared nozzle = compareInterior(studio.normals(views.nozzle, frame), truthNozzle);
-        pasteInset(whole.heat, nozzle.heat, Corner::bottomRight);
+        pasteInset(whole.heat, nozzle.heat);
         heats.push_back({std::string(file) + "-error", std::string(label) + ": error",
                          "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.", whole.heat});
         figure.measures.push_back({fmt::format("{}, whole teapot", name(frame)), whole.degrees});
