@@ -26,7 +26,13 @@ int runCommandLine(int argc, char** argv)
     app.require_subcommand(1);
     app.footer(kFooter);
     std::vector<Command> commands;
-    for (auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addAccuracyCommand}) {
+    constexpr Command (*kCommands[])(CLI::App&) = {
+        addRenderCommand,
+        addCompareCommand,
+        addFiguresCommand,
+        addAccuracyCommand,
+    };
+    for (auto add : kCommands) {
         commands.push_back(add(app));
         commands.back().app->footer(kFooter);
     }
