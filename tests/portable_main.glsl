@@ -23,6 +23,10 @@ void main()
     sum += cotan_apply(cotan_frame_smooth(n, p, m), m);
     sum += cotan_apply(cotan_frame_vertex(n, p, 1.0), m);
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
+    sum += cotan_perturb_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
+    sum += cotan_perturb_cotangent_area(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
+    sum += cotan_perturb_gradient(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
+    sum += cotan_perturb_orthonormal(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_encode(cotan_frame_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), sum);
     sum += cotan_encode_texel(m, format);
     cotan_surface s;

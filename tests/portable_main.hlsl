@@ -22,6 +22,10 @@ float4 main(float3 n : TEXCOORD0, float3 p : TEXCOORD1, float2 uv : TEXCOORD2) :
     sum += cotan_apply(cotan_frame_smooth(n, p, m), m);
     sum += cotan_apply(cotan_frame_vertex(n, p, 1.0), m);
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
+    sum += cotan_perturb_cotangent(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
+    sum += cotan_perturb_cotangent_area(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
+    sum += cotan_perturb_gradient(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
+    sum += cotan_perturb_orthonormal(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_encode(cotan_frame_cotangent(n, ddx(p), ddy(p), ddx(uv), ddy(uv)), sum);
     sum += cotan_encode_texel(m, format);
     cotan_surface s;
