@@ -31,6 +31,9 @@ int runCommandLine(int argc, char** argv)
         addCompareCommand,
         addFiguresCommand,
         addAccuracyCommand,
+#ifdef COTAN_WITH_VULKAN
+        addCostCommand,
+#endif
     };
     for (auto add : kCommands) {
         commands.push_back(add(app));

@@ -41,8 +41,14 @@ struct CountedReal {
         return counted(&Operations::add, v);
     }
 
-    friend CountedReal operator+(CountedReal a, CountedReal b) { return sum(a, b, a.value + b.value); }
-    friend CountedReal operator-(CountedReal a, CountedReal b) { return sum(a, b, a.value - b.value); }
+    friend CountedReal operator+(CountedReal a, CountedReal b)
+    {
+        return sum(a, b, a.value + b.value);
+    }
+    friend CountedReal operator-(CountedReal a, CountedReal b)
+    {
+        return sum(a, b, a.value - b.value);
+    }
     friend CountedReal operator-(CountedReal a)
     {
         a.value = -a.value;
@@ -95,7 +101,10 @@ struct CountedReal {
         return counted(&Operations::bits, std::ldexp(a.value, e));
     }
     friend CountedReal exp2(CountedReal a) { return CountedReal(std::exp2(a.value)); }
-    friend CountedReal pow(CountedReal a, CountedReal b) { return CountedReal(std::pow(a.value, b.value)); }
+    friend CountedReal pow(CountedReal a, CountedReal b)
+    {
+        return CountedReal(std::pow(a.value, b.value));
+    }
 
 private:
     static bool count(bool result)
@@ -109,4 +118,5 @@ private:
 } // namespace cotan::cost
 
 // GLM asks whether its scalar is a floating-point number.
-template<> struct std::numeric_limits<cotan::cost::CountedReal> : std::numeric_limits<double> {};
+template<> struct std::numeric_limits<cotan::cost::CountedReal> : std::numeric_limits<double> {
+};

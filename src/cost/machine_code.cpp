@@ -2,6 +2,10 @@
 
 #include <cstdlib>
 
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "pipeline.hpp"
 
 namespace cotan::cost {
@@ -48,7 +52,8 @@ StageCode readStage(const Device& device, const vk::raii::Pipeline& pipeline,
                     vk::ShaderStageFlagBits stage)
 {
     StageCode code;
-    const auto executables = device.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
+    const auto executables =
+        device.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
     for (std::uint32_t i = 0; i < executables.size(); ++i) {
         if (!(executables[i].stages & stage))
             continue;
@@ -85,8 +90,8 @@ void compileAll(Device& device, const std::vector<const Row*>& rows, DeviceCode&
     open(device);
     const Layout layout = makeLayout(device);
     for (const Row* row : rows) {
-        const auto pipeline = makePipeline(device, layout, row->stored, vertexStage(row->stored).vertex,
-                                           row->fragment, true);
+        const auto pipeline = makePipeline(device, layout, row->stored,
+                                           vertexStage(row->stored).vertex, row->fragment, true);
         result.rows.push_back(
             {row->name, readStage(device, pipeline, vk::ShaderStageFlagBits::eFragment)});
     }
@@ -110,6 +115,29 @@ DeviceCode machineCode(Device& device, const std::vector<const Row*>& rows)
         result.silence = reason(e);
     }
     return result;
+}
+
+// Whether Mesa's Radeon driver takes the family that is set in the environment. Asked in a child,
+// because the driver aborts where it does not know it; what it then prints is dropped.
+bool driverKnowsFamily()
+{
+    const pid_t child = ::fork();
+    if (child < 0)
+        return false;
+    if (child == 0) {
+        const int nowhere = ::open("/dev/null", O_WRONLY);
+        ::dup2(nowhere, STDERR_FILENO);
+        bool found = false;
+        try {
+            const Instance instance = openInstance();
+            for (const Device& device : listDevices(instance))
+                found = found || device.radv;
+        } catch (...) {
+        }
+        ::_exit(found ? 0 : 1);
+    }
+    int status = 0;
+    return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 } // namespace
@@ -142,7 +170,10 @@ DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::s
     const Environment noCache("MESA_SHADER_CACHE_DISABLE", "true");
     const Environment forced("RADV_FORCE_FAMILY", family);
     DeviceCode result;
+    result.family = family;
     result.silence = "Mesa's Radeon driver is not installed, or does not know this family";
+    if (!driverKnowsFamily())
+        return result;
     try {
         const Instance instance = openInstance();
         for (Device& device : listDevices(instance))

@@ -15,8 +15,9 @@ vk::raii::ShaderModule makeModule(const Device& device, std::span<const std::uin
 std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
 {
     using F = vk::Format;
-    std::vector<vk::VertexInputAttributeDescription> list = {
-        {0, 0, F::eR32G32B32Sfloat, 0}, {1, 0, F::eR32G32B32Sfloat, 12}, {2, 0, F::eR32G32Sfloat, 24}};
+    std::vector<vk::VertexInputAttributeDescription> list = {{0, 0, F::eR32G32B32Sfloat, 0},
+                                                             {1, 0, F::eR32G32B32Sfloat, 12},
+                                                             {2, 0, F::eR32G32Sfloat, 24}};
     if (stored == Stored::tangent)
         list.emplace_back(3, 0, F::eR32G32B32A32Sfloat, 32);
     if (stored == Stored::cotangents) {
@@ -44,8 +45,8 @@ Layout makeLayout(const Device& device)
     Layout layout;
     layout.set = vk::raii::DescriptorSetLayout(device.device,
                                                vk::DescriptorSetLayoutCreateInfo({}, bindings));
-    layout.pipeline = vk::raii::PipelineLayout(device.device,
-                                               vk::PipelineLayoutCreateInfo({}, *layout.set));
+    layout.pipeline =
+        vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
     return layout;
 }
 
@@ -55,14 +56,15 @@ vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stor
 {
     const vk::raii::ShaderModule vertexModule = makeModule(device, vertex);
     const vk::raii::ShaderModule fragmentModule = makeModule(device, fragment);
-    const std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertexModule, "main"),
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragmentModule,
-                                          "main")};
+    const std::array stages{vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex,
+                                                              *vertexModule, "main"),
+                            vk::PipelineShaderStageCreateInfo(
+                                {}, vk::ShaderStageFlagBits::eFragment, *fragmentModule, "main")};
     const vk::VertexInputBindingDescription binding(0, vertexFloats(stored) * 4);
     const auto attributes = attributesOf(stored);
     const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
-    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({},
+                                                            vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;

@@ -34,12 +34,13 @@ public:
         layout_ = makeLayout(device);
         using U = vk::ImageUsageFlagBits;
         target_ = makePicture(device, kColorFormat, kTargetSize, U::eColorAttachment);
-        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
+        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize,
+                           U::eSampled | U::eTransferDst);
         sampler_ = vk::raii::Sampler(
             device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
         const Uniforms uniforms;
-        uniforms_ = makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms,
-                               sizeof uniforms);
+        uniforms_ =
+            makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms, sizeof uniforms);
         makeSet();
         prepareImages();
     }
@@ -48,12 +49,14 @@ public:
     {
         for (const Row* row : rows)
             pipelines_.push_back(makePipeline(device_, layout_, row->stored,
-                                              vertexStage(row->stored).vertex, row->fragment, false));
+                                              vertexStage(row->stored).vertex, row->fragment,
+                                              false));
     }
 
     void useGrid(const Grid& grid)
     {
-        const vk::DescriptorImageInfo image(*sampler_, *map_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+        const vk::DescriptorImageInfo image(*sampler_, *map_.view,
+                                            vk::ImageLayout::eShaderReadOnlyOptimal);
         using T = vk::DescriptorType;
         const std::array buffers{vk::DescriptorBufferInfo(*uniforms_.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.positions.buffer, 0, VK_WHOLE_SIZE),
@@ -78,10 +81,12 @@ public:
         commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 0);
         commands_.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
         commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[pipeline]);
-        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_, nullptr);
+        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_,
+                                     nullptr);
         commands_.setViewport(0, vk::Viewport(0, 0, float(kTargetSize), float(kTargetSize), 0, 1));
         commands_.setScissor(0, area);
-        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
+        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer,
+                                    vk::DeviceSize(0));
         commands_.bindIndexBuffer(*grid.indices.buffer, 0, vk::IndexType::eUint32);
         commands_.drawIndexed(grid.indexCount, 1, 0, 0, 0);
         commands_.endRendering();
@@ -99,7 +104,8 @@ private:
         const std::array sizes{vk::DescriptorPoolSize(T::eUniformBuffer, 1),
                                vk::DescriptorPoolSize(T::eCombinedImageSampler, 1),
                                vk::DescriptorPoolSize(T::eStorageBuffer, kBuffers)};
-        descriptors_ = vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
+        descriptors_ =
+            vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
         // The plain handle: the pool gives it back.
         const vk::DescriptorSetAllocateInfo info(*descriptors_, *layout_.set);
         set_ = (*device_.device).allocateDescriptorSets(info, *device_.device.getDispatcher())[0];
@@ -113,8 +119,8 @@ private:
             for (const double c : {0.3 * std::sin(a), 0.3 * std::sin(b), 0.9, 1.0})
                 texels.push_back(static_cast<std::uint8_t>(std::lround((c * 0.5 + 0.5) * 255)));
         }
-        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc, texels.data(),
-                                          texels.size());
+        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc,
+                                          texels.data(), texels.size());
         using L = vk::ImageLayout;
         commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         transition(commands_, *target_.image, L::eUndefined, L::eColorAttachmentOptimal);

@@ -6,7 +6,8 @@ namespace cotan::cost {
 
 namespace {
 
-std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::MemoryPropertyFlags needed)
+std::uint32_t memoryType(const Device& device, std::uint32_t allowed,
+                         vk::MemoryPropertyFlags needed)
 {
     const auto memory = device.physical.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
@@ -17,7 +18,8 @@ std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::Memory
 
 } // namespace
 
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data,
+                  std::size_t bytes)
 {
     Buffer b;
     b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
@@ -44,8 +46,9 @@ Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
                                       {needs.size, memoryType(device, needs.memoryTypeBits, {})});
     p.image.bindMemory(*p.memory, 0);
     p.view = vk::raii::ImageView(
-        device.device, vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
-                                               {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}));
+        device.device,
+        vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
+                                {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}));
     return p;
 }
 
@@ -58,8 +61,8 @@ Grid makeGrid(const Device& device, int leg)
         for (std::uint32_t x = 0; x <= cells; ++x) {
             const float u = float(x) / float(cells), v = float(y) / float(cells);
             // A tilted plane inside the clip volume; the projection is the identity.
-            const float base[] = {2 * u - 1, 2 * v - 1, 0.4f + 0.2f * u, 0.1f, 0.1f, 0.99f,
-                                  4 * u,     4 * v};
+            const float base[] = {2 * u - 1, 2 * v - 1, 0.4f + 0.2f * u, 0.1f,
+                                  0.1f,      0.99f,     4 * u,           4 * v};
             positions.insert(positions.end(), base, base + 3);
             texcoords.insert(texcoords.end(), base + 6, base + 8);
             const float extra[] = {1, 0, -0.1f, 1, 1, 0};
@@ -78,8 +81,8 @@ Grid makeGrid(const Device& device, int leg)
     Grid grid;
     for (const auto& list : vertices)
         grid.vertices.push_back(makeBuffer(device, U::eVertexBuffer, list.data(), list.size() * 4));
-    grid.indices = makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(),
-                              indices.size() * 4);
+    grid.indices =
+        makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
     grid.positions = makeBuffer(device, U::eStorageBuffer, positions.data(), positions.size() * 4);
     grid.texcoords = makeBuffer(device, U::eStorageBuffer, texcoords.data(), texcoords.size() * 4);
     grid.indexCount = static_cast<std::uint32_t>(indices.size());
@@ -91,10 +94,10 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
 {
     using S = vk::PipelineStageFlagBits2;
     using A = vk::AccessFlagBits2;
-    const vk::ImageMemoryBarrier2 barrier(
-        S::eAllCommands, A::eMemoryWrite, S::eAllCommands, A::eMemoryRead | A::eMemoryWrite, from, to,
-        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
-        {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    const vk::ImageMemoryBarrier2 barrier(S::eAllCommands, A::eMemoryWrite, S::eAllCommands,
+                                          A::eMemoryRead | A::eMemoryWrite, from, to,
+                                          VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
+                                          {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
     commands.pipelineBarrier2(vk::DependencyInfo({}, nullptr, nullptr, barrier));
 }
 

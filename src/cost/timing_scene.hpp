@@ -28,7 +28,8 @@ struct Grid {
 };
 
 // Host-visible memory everywhere: the data is read once per draw. All throw vk::SystemError.
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data,
+                  std::size_t bytes);
 Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
                     vk::ImageUsageFlags usage);
 Grid makeGrid(const Device& device, int leg);

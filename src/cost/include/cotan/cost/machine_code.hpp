@@ -14,10 +14,10 @@ namespace cotan::cost {
 // One compiled stage. Names differ between drivers; what a driver does not report is empty.
 struct StageCode {
     std::optional<double> instructions;
-    std::optional<double> registers;         // per thread (vector registers where there are two kinds)
-    std::optional<double> bytes;             // of code
-    std::optional<double> inverseThroughput; // the driver's estimate, its unit
-    std::optional<double> latency;           // the driver's estimate, its unit
+    std::optional<double> registers; // per thread (vector registers where there are two kinds)
+    std::optional<double> bytes;     // of code
+    std::optional<double> inverseThroughput;         // the driver's estimate, its unit
+    std::optional<double> latency;                   // the driver's estimate, its unit
     std::vector<std::pair<std::string, double>> all; // every number, by the driver's name
 };
 
@@ -43,13 +43,14 @@ struct DeviceCode {
 // The families that are asked for when nothing else is said.
 const std::vector<std::string>& usualFamilies();
 
-// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices` (any
-// case; empty: all of them). Errors: ErrorKind::unavailable where Vulkan cannot be used at all.
+// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices`
+// (any case; empty: all of them). Errors: ErrorKind::unavailable where Vulkan cannot be used at
+// all.
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
                                                      const std::vector<std::string>& devices);
 
-// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is needed.
-// Sets the environment variable for the duration: not for programs with other threads.
+// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is
+// needed. Sets the environment variable for the duration: not for programs with other threads.
 DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family);
 
 } // namespace cotan::cost

@@ -10,9 +10,9 @@ namespace cotan::cost {
 struct Operations {
     int multiply = 0;
     int add = 0;
-    int merged = 0;  // of `add`: those that take a product, which a fused multiply-add does for free
+    int merged = 0; // of `add`: those that take a product, which a fused multiply-add does for free
     int divide = 0;
-    int root = 0;    // sqrt
+    int root = 0; // sqrt
     int inverseRoot = 0;
     int maximum = 0; // min and max
     int compare = 0; // and selects

@@ -17,8 +17,8 @@ struct TimedRow {
 struct DeviceTiming {
     std::string name;
     std::string driver;
-    bool cpu = false;      // draws on the processor: says little about a GPU
-    std::string silence;   // why there are no numbers; empty where there are
+    bool cpu = false;    // draws on the processor: says little about a GPU
+    std::string silence; // why there are no numbers; empty where there are
     std::vector<TimedRow> rows;
 };
 
