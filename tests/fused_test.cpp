@@ -3,12 +3,11 @@
 
 #include <array>
 
-#include "patches.hpp"
+#include "cotan/truth/patch.hpp"
 
 namespace cotan {
 namespace {
 
-using namespace test;
 
 using Fused = glm::vec3 (*)(glm::vec3, glm::vec3, glm::vec3, glm::vec2, glm::vec2, glm::vec3);
 using Plain = f64::cotan_frame (*)(glm::dvec3, glm::dvec3, glm::dvec3, glm::dvec2, glm::dvec2);
