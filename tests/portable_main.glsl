@@ -29,6 +29,14 @@ void main()
     sum += cotan_perturb_orthonormal(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_encode(cotan_frame_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), sum);
     sum += cotan_encode_texel(m, format);
+    vec2 slope = cotan_slope_of_texel(m);
+    vec3 g = cotan_gradient_of_slope(cotan_frame_smooth(n, p, m), slope);
+    g += cotan_gradient_of_normal(n, m) + cotan_gradient_of_volume(n, p);
+    g += cotan_gradient_of_height(n, p, m, uv.x, uv.y);
+    g += cotan_gradient_triplanar(n, cotan_triplanar_weights(n), slope, uv, slope);
+    sum += cotan_resolve_gradient(n, g);
+    sum += cotan_blend_reoriented(m, n) + cotan_blend_whiteout(m, n) + cotan_blend_udn(m, n);
+    sum += cotan_blend_slopes(m, n, 1.0, 0.5) + cotan_blend_linear(m, n);
     cotan_surface s;
     s.base_color = m;
     s.metallic = 0.5;
