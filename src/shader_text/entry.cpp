@@ -1,0 +1,145 @@
+#include "entry.hpp"
+
+#include <fmt/format.h>
+
+namespace cotan::shader_text {
+
+namespace {
+
+// The normal as the frame wants it: the total and fused forms take any length.
+std::string normalFor(Frame frame)
+{
+    const bool anyLength = info(frame).total || frame == Frame::mikktspace;
+    return anyLength ? "normal" : "normal * cotan_inversesqrt(dot(normal, normal))";
+}
+
+std::string fromVertices(Frame frame)
+{
+    const bool covectors = frame == Frame::smooth;
+    const std::string arguments = covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent"
+                                            : "cotan_vec3 tangent, cotan_real handedness";
+    const std::string what = covectors
+        ? "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n"
+        : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
+          "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
+    return fmt::format("// The perturbed normal, unit.\n"
+                       "// normal: interpolated.\n{}"
+                       "// texel: the normal map as sampled.\n"
+                       "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
+                       "    cotan_vec3 m = cotan_decode(texel);\n"
+                       "    cotan_frame frame = cotan_frame_{}(normal, {});\n"
+                       "    return cotan_apply(frame, m);\n}}\n",
+                       what, kVertexEntry, arguments, functionWord(frame),
+                       covectors ? "cotangent, cobitangent" : "tangent, handedness");
+}
+
+std::string fromDifferences(Frame frame, Form form)
+{
+    const bool edges = frame == Frame::exact;
+    const std::string what = edges
+        ? "// normal: interpolated at the shaded point.\n"
+          "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
+          "// duvdx, duvdy: uv1 - uv0 and uv2 - uv0.\n"
+        : "// normal: interpolated.\n"
+          "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
+          "// duvdx, duvdy: differences of uv along the same two.\n";
+    const std::string head = fmt::format(
+        "// The perturbed normal, unit.\n{}"
+        "// texel: the normal map as sampled.\n"
+        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
+        "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
+        "    cotan_vec3 m = cotan_decode(texel);\n",
+        what, entryOf(frame));
+    if (form == Form::fused)
+        return fmt::format("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
+                           functionWord(frame));
+    return fmt::format("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
+                       "    return cotan_apply(frame, m);\n}}\n",
+                       head, functionWord(frame), normalFor(frame));
+}
+
+// What follows for every uv set, {} being its number.
+std::string perSet(int sets, fmt::string_view pattern)
+{
+    std::string text;
+    for (int k = 0; k < sets; ++k)
+        text += fmt::format(fmt::runtime(pattern), fmt::arg("k", k));
+    return text;
+}
+
+std::string fromSeveralSets(Frame frame, int sets)
+{
+    std::string text = fmt::format(
+        "// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
+        "// added as surface gradients.\n"
+        "// normal: interpolated.\n"
+        "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
+        "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
+        "// texelK: its normal map as sampled.\n"
+        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
+        "    cotan_vec3 n = {};\n",
+        sets, kEntry, perSet(sets, ", cotan_vec2 duv{k}dx, cotan_vec2 duv{k}dy, cotan_vec3 texel{k}"),
+        normalFor(frame));
+    for (int k = 0; k < sets; ++k)
+        text += fmt::format(
+            "    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
+            "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
+            "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
+            k, functionWord(frame));
+    std::string sum = "gradient0";
+    for (int k = 1; k < sets; ++k)
+        sum += fmt::format(" + gradient{}", k);
+    return text + fmt::format("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sum);
+}
+
+std::string fromScreen(int sets)
+{
+    const bool one = sets == 1;
+    return fmt::format(
+        "\n// The same, taking the screen derivatives itself: call it in uniform control flow, before any\n"
+        "// branch or discard that differs within a 2x2 quad.\n"
+        "// position: camera-relative, interpolated, not normalised.\n"
+        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{})\n{{\n"
+        "    return {}(normal, cotan_ddx(position), cotan_ddy(position){});\n}}\n",
+        kScreenEntry, one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{k}, cotan_vec3 texel{k}"),
+        kEntry,
+        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel"
+            : perSet(sets, ", cotan_ddx(uv{k}), cotan_ddy(uv{k}), texel{k}"));
+}
+
+} // namespace
+
+std::string functionWord(Frame frame)
+{
+    std::string word(name(frame));
+    for (char& c : word)
+        c = c == '-' ? '_' : c;
+    return word;
+}
+
+std::string entryOf(Frame frame)
+{
+    switch (info(frame).source) {
+    case FrameSource::vertices: return kVertexEntry;
+    case FrameSource::triangle: return kEdgeEntry;
+    case FrameSource::differences: break;
+    }
+    return kEntry;
+}
+
+bool hasScreenEntry(const Choice& choice)
+{
+    return !choice.callerDifferences && choice.language != Language::cpp
+        && info(choice.frame).source == FrameSource::differences;
+}
+
+std::string entryText(const Choice& choice, Form form)
+{
+    if (info(choice.frame).source == FrameSource::vertices)
+        return fromVertices(choice.frame);
+    std::string text = choice.uvSets == 1 ? fromDifferences(choice.frame, form)
+                                          : fromSeveralSets(choice.frame, choice.uvSets);
+    return hasScreenEntry(choice) ? text + fromScreen(choice.uvSets) : text;
+}
+
+} // namespace cotan::shader_text

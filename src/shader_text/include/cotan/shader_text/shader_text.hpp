@@ -1,0 +1,57 @@
+// One self-contained function set in one language, made from the portable text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cotan/convention.hpp"
+#include "cotan/frame.hpp"
+#include "cotan/result.hpp"
+
+namespace cotan::shader_text {
+
+enum class Language { glsl, essl, hlsl, wgsl, msl, cpp };
+inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl,
+                                          Language::wgsl, Language::msl, Language::cpp};
+std::string_view name(Language language);
+std::optional<Language> languageFromName(std::string_view name);
+
+// How the perturbed normal is computed.
+enum class Form {
+    fused, // frame and texel in one step (fused.h): cotangent, gradient, orthonormal
+    total, // the frame as three covectors, then applied (frame.h)
+};
+
+struct Choice {
+    Language language = Language::glsl;
+    Frame frame = Frame::cotangent;
+    Convention convention;     // expansion, channels and green are used
+    std::optional<Form> form;  // nothing: fused where there is one, else total
+    int uvSets = 1;            // 1..4; more than one: gradients are added, total form
+    bool callerDifferences = false; // leave out the function that takes derivatives itself
+    bool gradients = false;    // add all of gradient.h
+    bool blends = false;       // add all of blend.h
+    bool lights = false;       // add all of light.h
+};
+
+struct ShaderText {
+    std::string text;
+    Form form = Form::total;
+    std::string entry;                  // taking differences; every language has it
+    std::vector<std::string> functions; // in the order of the text
+};
+
+// Whether a frame has a fused form.
+bool hasFusedForm(Frame frame);
+
+// Errors (usage): a form that the frame does not have, uvSets out of range or for a frame from
+// vertices. The same choice gives the same bytes.
+Result<ShaderText> makeShaderText(const Choice& choice);
+
+// For tests: functions of `extra`, portable text appended after all parts, and what they call,
+// without a header.
+std::string translate(Language language, std::string_view extra);
+
+} // namespace cotan::shader_text

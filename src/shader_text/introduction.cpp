@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include "entry.hpp"
+#include "print.hpp"
+
+namespace cotan::shader_text {
+
+namespace {
+
+std::string_view title(Language language)
+{
+    switch (language) {
+    case Language::glsl: return "GLSL 3.30 and later";
+    case Language::essl: return "GLSL ES 3.00 (WebGL 2)";
+    case Language::hlsl: return "HLSL, shader model 5 and later";
+    case Language::wgsl: return "WGSL";
+    case Language::msl: return "Metal shading language";
+    case Language::cpp: break;
+    }
+    return "C++17";
+}
+
+std::string_view channelsText(Channels c)
+{
+    switch (c) {
+    case Channels::xyz: return "three channels";
+    case Channels::orthographic: return "two channels, z = sqrt(1 - x^2 - y^2)";
+    case Channels::stereographic: return "two channels, (x, y)/(1 + z)";
+    case Channels::slope: break;
+    }
+    return "two channels, slopes";
+}
+
+std::string_view expansionText(Expansion e)
+{
+    switch (e) {
+    case Expansion::exact: return "(255c - 128)/127";
+    case Expansion::biased: return "2c - 1";
+    case Expansion::signedValues: break;
+    }
+    return "signed values as sampled";
+}
+
+std::string_view sample(Language language)
+{
+    switch (language) {
+    case Language::glsl:
+    case Language::essl: return "texture(normal_map, uv).xyz";
+    case Language::hlsl: return "normal_map.Sample(map_sampler, uv).xyz";
+    case Language::wgsl: return "textureSample(normal_map, map_sampler, uv).xyz";
+    case Language::msl: return "normal_map.sample(map_sampler, uv).xyz";
+    case Language::cpp: break;
+    }
+    return "texel";
+}
+
+std::string declared(Language language, const std::string& value)
+{
+    if (language == Language::wgsl)
+        return "let n = " + value + ";";
+    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value + ";";
+}
+
+std::string call(const Choice& choice)
+{
+    const Language l = choice.language;
+    const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
+    if (info(choice.frame).source == FrameSource::vertices)
+        return declared(l, scope + kVertexEntry
+                               + (choice.frame == Frame::smooth ? "(normal, cotangent, cobitangent, "
+                                                                : "(normal, tangent, handedness, ")
+                               + std::string(sample(l)) + ")");
+    if (choice.frame == Frame::exact)
+        return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, "
+                               + std::string(sample(l)) + ")");
+    const bool screen = hasScreenEntry(choice);
+    std::string arguments = screen ? "normal, position" : "normal, dpdx, dpdy";
+    for (int k = 0; k < choice.uvSets; ++k) {
+        const std::string set = choice.uvSets == 1 ? "" : std::to_string(k);
+        arguments += screen ? ", uv" + set : ", duv" + set + "dx, duv" + set + "dy";
+        arguments += choice.uvSets == 1 ? ", " + std::string(sample(l)) : ", texel" + set;
+    }
+    return declared(l, scope + (screen ? kScreenEntry : kEntry) + "(" + arguments + ")");
+}
+
+std::string needs(const Choice& choice)
+{
+    std::string text = "// Needs from the caller:\n"
+                       "//   normal     interpolated surface normal; any space, the same for all vectors\n";
+    if (info(choice.frame).source == FrameSource::vertices)
+        return text + "//   the vertex attributes named at the function below, interpolated\n";
+    if (choice.frame == Frame::exact)
+        return text + "//   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives\n";
+    text += "//   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;\n"
+            "//              normalising it first is wrong by 11 degrees at 45 degrees of grazing\n"
+            "//   uv         as the normal map is sampled with\n";
+    if (hasScreenEntry(choice))
+        return text
+            + fmt::format("//   derivatives of position and uv: taken here by {} and {}\n",
+                          namesOf(choice.language).ddx, namesOf(choice.language).ddy);
+    return text
+        + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
+          "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
+}
+
+std::string_view languageNote(Language language)
+{
+    switch (language) {
+    case Language::essl: return "//   The shader must say: precision highp float; precision highp int;\n";
+    case Language::wgsl:
+        return "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
+               "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
+    case Language::msl:
+        return "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
+               "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
+    case Language::cpp: return "//   Change cotan_real to double for double precision.\n";
+    default: break;
+    }
+    return "";
+}
+
+std::string limits(const Choice& choice, Form form)
+{
+    std::string text = "// Limits:\n";
+    if (form == Form::fused)
+        text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
+                "//   result is then the interpolated normal, or as the function says. Undefined for\n"
+                "//   non-finite input and normals shorter than 0.01. (Longest position difference) * (longest\n"
+                "//   uv difference) within 1e-12 .. 1e5, each within 1e-9 .. 1e6.\n";
+    else if (info(choice.frame).total)
+        text += "//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite\n"
+                "//   differences) the result is the unit interpolated normal.\n";
+    else
+        text += "//   Not total: degenerate input can give NaN, see the function.\n";
+    if (choice.frame == Frame::cotangent || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
+        text += "//   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back\n"
+                "//   faces, with no uniform and no front-face flag.\n";
+    if (info(choice.frame).source == FrameSource::differences)
+        text += "//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.\n"
+                "//   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at\n"
+                "//   edges (a sphere of 32 segments: 1.1 degrees in the mean).\n";
+    return text + std::string(languageNote(choice.language));
+}
+
+std::string credits(const Choice& choice)
+{
+    std::string text = "// After:\n"
+                       "//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006\n"
+                       "//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013\n";
+    if (choice.gradients || choice.uvSets > 1 || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
+        text += "//   [2020] M. Mikkelsen, Surface Gradient Based Bump Mapping Framework, JCGT 9(3), 2020\n";
+    if (choice.frame == Frame::mikktspace)
+        text += "//   M. Mikkelsen, mikktspace.h\n";
+    if (choice.blends)
+        text += "//   [2012] C. Barre-Brisebois, S. Hill, Blending in Detail, 2012\n";
+    return text;
+}
+
+} // namespace
+
+std::string introduction(const Choice& choice, Form form)
+{
+    const Convention& c = choice.convention;
+    return fmt::format(
+        "// Normal mapping, frame `{}` ({}), for {}.\n"
+        "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
+        "//\n"
+        "// Normal map: {}, {}, green {} increasing v.\n"
+        "//\n{}//\n// Call:\n//   {}\n// It returns the perturbed normal, unit, in the space of the arguments.\n//\n{}//\n{}\n",
+        name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
+        channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against", needs(choice),
+        call(choice), limits(choice, form), credits(choice));
+}
+
+} // namespace cotan::shader_text

@@ -1,0 +1,308 @@
+#include "parse.hpp"
+
+#include <cctype>
+#include <stdexcept>
+
+namespace cotan::shader_text {
+
+namespace {
+
+struct Token {
+    std::string text; // empty at the end
+    int line = 0;
+    std::vector<std::string> comments; // the lines right above it
+    std::string trailing;              // comment after it, on its line
+};
+
+bool wordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+// A number may hold a point, and a sign after its exponent's e.
+std::size_t endOfWord(std::string_view text, std::size_t at)
+{
+    const bool number = std::isdigit(static_cast<unsigned char>(text[at]));
+    const bool hexadecimal = number && text.substr(at, 2) == "0x";
+    std::size_t end = at;
+    while (end < text.size()) {
+        const char c = text[end];
+        const bool sign = number && !hexadecimal && (c == '-' || c == '+') && text[end - 1] == 'e';
+        if (!wordCharacter(c) && !(number && c == '.') && !sign)
+            break;
+        ++end;
+    }
+    return end;
+}
+
+std::vector<Token> tokenise(std::string_view text)
+{
+    std::vector<Token> tokens;
+    std::vector<std::string> comments;
+    int line = 1;
+    bool freshLine = true; // nothing on this line yet
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        if (c == '\n') {
+            if (freshLine)
+                comments.clear(); // a blank line parts a comment from what follows
+            freshLine = true;
+            ++line;
+            ++at;
+        } else if (std::isspace(static_cast<unsigned char>(c))) {
+            ++at;
+        } else if (text.substr(at, 2) == "//") {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            const std::string comment(text.substr(at, end - at));
+            if (freshLine)
+                comments.push_back(comment);
+            else
+                tokens.back().trailing = comment;
+            // The end of a comment's line is not a blank line.
+            at = end + 1;
+            ++line;
+            freshLine = true;
+        } else {
+            std::size_t length = 1;
+            for (const char* two : {"<=", ">=", "==", "!=", "&&", "||", "<<", ">>", "::"})
+                if (text.substr(at, 2) == two)
+                    length = 2;
+            if (wordCharacter(c))
+                length = endOfWord(text, at) - at;
+            tokens.push_back({std::string(text.substr(at, length)), line, std::move(comments), {}});
+            comments.clear();
+            freshLine = false;
+            at += length;
+        }
+    }
+    tokens.push_back({"", line, {}, {}});
+    return tokens;
+}
+
+using Constants = std::map<std::string, Expression>;
+
+// Binary operators by how loosely they bind; the loosest first.
+const std::vector<std::vector<std::string>> kOperators = {
+    {"||"}, {"&&"}, {"|"}, {"&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"<<", ">>"}, {"+", "-"}, {"*", "/"}};
+
+class Parser {
+public:
+    Parser(std::string_view part, std::string_view text, const Constants& constants)
+        : part_(part), constants_(constants), tokens_(tokenise(text))
+    {
+    }
+
+    void parse(Module& module)
+    {
+        while (!peek().text.empty()) {
+            const std::vector<std::string> comments = peek().comments;
+            if (peek().text == "using") { // C++ only: print.cpp has its own
+                while (take() != ";") {
+                }
+                continue;
+            }
+            if (peek().text == "struct") {
+                module.structs.push_back(structure());
+                module.structs.back().comments = comments;
+                continue;
+            }
+            if (peek().text == "COTAN_FUNCTION" || peek().text == "inline")
+                take();
+            module.functions.push_back(function());
+            module.functions.back().comments = comments;
+        }
+    }
+
+    Expression whole()
+    {
+        Expression e = expression();
+        if (!peek().text.empty())
+            fail("nothing more");
+        return e;
+    }
+
+private:
+    const Token& peek(std::size_t ahead = 0) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
+    std::string take()
+    {
+        if (peek().text.empty())
+            fail("more");
+        return tokens_[at_++].text;
+    }
+    [[noreturn]] void fail(const std::string& expected) const
+    {
+        throw std::runtime_error(part_ + ".h, line " + std::to_string(peek().line) + " (preprocessed): expected "
+                                 + expected + "; found '" + peek().text + "'");
+    }
+    void expect(const char* text)
+    {
+        if (peek().text != text)
+            fail(std::string("'") + text + "'");
+        ++at_;
+    }
+    bool accept(const char* text)
+    {
+        if (peek().text != text)
+            return false;
+        ++at_;
+        return true;
+    }
+
+    Struct structure()
+    {
+        Struct s;
+        expect("struct");
+        s.name = take();
+        expect("{");
+        while (!accept("}")) {
+            Variable field{take(), take(), {}};
+            field.comment = peek().trailing;
+            expect(";");
+            s.fields.push_back(field);
+        }
+        expect(";");
+        return s;
+    }
+
+    Function function()
+    {
+        Function f;
+        f.part = part_;
+        f.type = take();
+        f.name = take();
+        expect("(");
+        while (!accept(")")) {
+            f.parameters.push_back({take(), take(), {}});
+            if (peek().text != ")")
+                expect(",");
+        }
+        f.body = block();
+        return f;
+    }
+
+    std::vector<Statement> block()
+    {
+        std::vector<Statement> body;
+        expect("{");
+        while (!accept("}"))
+            body.push_back(statement());
+        return body;
+    }
+
+    Statement statement()
+    {
+        Statement s;
+        s.comments = peek().comments;
+        if (accept("return")) {
+            s.kind = Statement::Kind::giveBack;
+            s.value = expression();
+        } else if (accept("if")) {
+            s.kind = Statement::Kind::branch;
+            expect("(");
+            s.value = expression();
+            expect(")");
+            if (peek().text == "{")
+                s.body = block();
+            else
+                s.body.push_back(statement());
+            return s;
+        } else if (wordCharacter(peek(1).text[0])) {
+            s.type = take();
+            s.name = take();
+            s.hasValue = accept("=");
+            if (s.hasValue)
+                s.value = expression();
+        } else {
+            s.kind = Statement::Kind::assign;
+            s.target = postfix();
+            expect("=");
+            s.value = expression();
+        }
+        expect(";");
+        return s;
+    }
+
+    Expression expression()
+    {
+        Expression condition = binary(0);
+        if (!accept("?"))
+            return condition;
+        Expression yes = expression();
+        expect(":");
+        Expression no = expression();
+        return {Expression::Kind::select, "?", {condition, yes, no}};
+    }
+
+    Expression binary(std::size_t level)
+    {
+        if (level == kOperators.size())
+            return unary();
+        Expression left = binary(level + 1);
+        while (true) {
+            bool found = false;
+            for (const std::string& op : kOperators[level])
+                if (!found && accept(op.c_str())) {
+                    left = {Expression::Kind::binary, op, {left, binary(level + 1)}};
+                    found = true;
+                }
+            if (!found)
+                return left;
+        }
+    }
+
+    Expression unary()
+    {
+        for (const char* op : {"-", "!"})
+            if (accept(op))
+                return {Expression::Kind::unary, op, {unary()}};
+        return postfix();
+    }
+
+    Expression postfix()
+    {
+        Expression e = primary();
+        while (accept("."))
+            e = {Expression::Kind::member, take(), {e}};
+        return e;
+    }
+
+    Expression primary()
+    {
+        if (accept("(")) {
+            Expression inside = expression();
+            expect(")");
+            return {Expression::Kind::paren, "", {inside}};
+        }
+        if (peek().text.empty() || !wordCharacter(peek().text[0]))
+            fail("an expression");
+        const std::string word = take();
+        if (std::isdigit(static_cast<unsigned char>(word[0])))
+            return {Expression::Kind::number, word, {}};
+        if (const auto constant = constants_.find(word); constant != constants_.end())
+            return constant->second;
+        if (!accept("("))
+            return {Expression::Kind::name, word, {}};
+        Expression call{Expression::Kind::call, word, {}};
+        while (!accept(")")) {
+            call.children.push_back(expression());
+            if (peek().text != ")")
+                expect(",");
+        }
+        return call;
+    }
+
+    std::string part_;
+    const Constants& constants_;
+    std::vector<Token> tokens_;
+    std::size_t at_ = 0;
+};
+
+} // namespace
+
+void parsePart(Module& module, std::map<std::string, Expression>& constants, std::string_view part,
+               std::string_view text, std::string_view language)
+{
+    const Preprocessed plain = preprocess(text, language);
+    for (const auto& [name, value] : plain.constants)
+        constants[name] = Parser(part, value, constants).whole();
+    Parser(part, plain.text, constants).parse(module);
+}
+
+} // namespace cotan::shader_text

@@ -1,0 +1,195 @@
+#include "print.hpp"
+
+#include <set>
+
+namespace cotan::shader_text {
+
+namespace {
+
+using Kind = Expression::Kind;
+constexpr std::size_t kWidth = 100;
+
+// Breaks a line that is too long where the fewest brackets are open, behind a comma or before an
+// operator; what follows is indented by four more.
+std::string wrapped(std::string line, std::size_t indent)
+{
+    std::string result;
+    while (line.size() > kWidth) {
+        std::size_t best = 0;
+        int depth = 0, bestDepth = 1000;
+        for (std::size_t i = 0; i < kWidth; ++i) {
+            depth += line[i] == '(' || line[i] == '{';
+            depth -= line[i] == ')' || line[i] == '}';
+            if (line[i] != ' ' || i <= indent + 24)
+                continue;
+            const bool behindComma = line[i - 1] == ',';
+            const bool beforeOperator =
+                std::string("+-*/?:&|").find(line[i + 1]) != std::string::npos;
+            if ((behindComma || beforeOperator) && depth <= bestDepth) {
+                best = i;
+                bestDepth = depth;
+            }
+        }
+        if (best == 0)
+            break;
+        result += line.substr(0, best) + '\n';
+        line = std::string(indent + 4, ' ') + line.substr(best + 1);
+    }
+    return result + line;
+}
+
+class Printer {
+public:
+    explicit Printer(Language language) : language_(language), names_(namesOf(language)) {}
+
+    std::string structure(const Struct& s) const
+    {
+        std::string text = comments(s.comments, 0) + "struct " + s.name + (names_.wgsl ? " {\n" : "\n{\n");
+        for (const Variable& f : s.fields) {
+            const std::string field = names_.wgsl ? f.name + ": " + word(f.type) + "," : word(f.type) + " " + f.name + ";";
+            text += "    " + field + (f.comment.empty() ? "" : " " + f.comment) + '\n';
+        }
+        return text + (names_.wgsl ? "}\n" : "};\n");
+    }
+
+    std::string function(const Function& f)
+    {
+        changed_.clear();
+        collectChanged(f.body);
+        std::string parameters, copies;
+        for (const Variable& p : f.parameters) {
+            const std::string own = word(p.name);
+            // WGSL's parameters cannot be assigned to.
+            const bool copy = names_.wgsl && changed_.count(p.name) > 0;
+            const std::string outer = copy ? own + "_in" : own;
+            parameters += (parameters.empty() ? "" : ", ")
+                + (names_.wgsl ? outer + ": " + word(p.type) : word(p.type) + " " + outer);
+            if (copy)
+                copies += "    var " + own + " = " + outer + ";\n";
+        }
+        std::string head = names_.wgsl ? "fn " + f.name + "(" + parameters + ") -> " + word(f.type) + " {"
+                                       : names_.functionPrefix + word(f.type) + " " + f.name + "(" + parameters + ")";
+        head = wrapped(head, 0) + (names_.wgsl ? "\n" : "\n{\n");
+        return comments(f.comments, 0) + head + copies + body(f.body, 4) + "}\n";
+    }
+
+private:
+    std::string word(const std::string& portable) const { return wordOf(language_, portable); }
+
+    static std::string comments(const std::vector<std::string>& lines, std::size_t indent)
+    {
+        std::string text;
+        for (const std::string& line : lines)
+            text += std::string(indent, ' ') + line + '\n';
+        return text;
+    }
+
+    void collectChanged(const std::vector<Statement>& statements)
+    {
+        for (const Statement& s : statements) {
+            if (s.kind == Statement::Kind::assign)
+                visitAll(s.target, [&](const Expression& e) {
+                    if (e.kind == Kind::name)
+                        changed_.insert(e.text);
+                });
+            collectChanged(s.body);
+        }
+    }
+
+    std::string body(const std::vector<Statement>& statements, std::size_t indent) const
+    {
+        std::string text;
+        for (const Statement& s : statements)
+            text += comments(s.comments, indent) + statement(s, indent);
+        return text;
+    }
+
+    std::string statement(const Statement& s, std::size_t indent) const
+    {
+        const std::string space(indent, ' ');
+        switch (s.kind) {
+        case Statement::Kind::declare: return wrapped(space + declaration(s) + ";", indent) + '\n';
+        case Statement::Kind::assign:
+            return wrapped(space + expression(s.target) + " = " + expression(s.value) + ";", indent) + '\n';
+        case Statement::Kind::giveBack:
+            return wrapped(space + "return " + expression(s.value) + ";", indent) + '\n';
+        case Statement::Kind::branch: break;
+        }
+        return wrapped(space + "if (" + expression(s.value) + ") {", indent) + '\n' + body(s.body, indent + 4) + space
+            + "}\n";
+    }
+
+    std::string declaration(const Statement& s) const
+    {
+        const std::string name = word(s.name);
+        if (!names_.wgsl)
+            return word(s.type) + " " + name + (s.hasValue ? " = " + expression(s.value) : "");
+        if (!s.hasValue)
+            return "var " + name + ": " + word(s.type);
+        return (changed_.count(s.name) ? "var " : "let ") + name + " = " + expression(s.value);
+    }
+
+    std::string arguments(const std::vector<Expression>& list) const
+    {
+        std::string text;
+        for (const Expression& e : list)
+            text += (text.empty() ? "" : ", ") + expression(e);
+        return text;
+    }
+
+    std::string call(const Expression& e) const
+    {
+        if (e.text == "cotan_real") {
+            const Expression& inside = e.children[0];
+            if (names_.realCalls)
+                return "cotan_real(" + expression(inside) + ")";
+            return inside.kind == Kind::binary ? "(" + expression(inside) + ")" : expression(inside);
+        }
+        const bool vector = e.text.rfind("cotan_vec", 0) == 0;
+        const bool braces = vector && names_.braces;
+        return word(e.text) + (braces ? "{" : "(") + arguments(e.children) + (braces ? "}" : ")");
+    }
+
+    std::string number(const std::string& text) const
+    {
+        const bool real = text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
+        return real ? text + names_.floatSuffix : text;
+    }
+
+    std::string expression(const Expression& e) const
+    {
+        switch (e.kind) {
+        case Kind::number: return number(e.text);
+        case Kind::name: return word(e.text);
+        case Kind::member: return expression(e.children[0]) + "." + e.text;
+        case Kind::call: return call(e);
+        case Kind::unary: return e.text + expression(e.children[0]);
+        case Kind::binary: return expression(e.children[0]) + " " + e.text + " " + expression(e.children[1]);
+        case Kind::paren: return "(" + expression(e.children[0]) + ")";
+        case Kind::select: break;
+        }
+        const std::string condition = expression(e.children[0]), yes = expression(e.children[1]),
+                          no = expression(e.children[2]);
+        return names_.wgsl ? "select(" + no + ", " + yes + ", " + condition + ")"
+                           : condition + " ? " + yes + " : " + no;
+    }
+
+    Language language_;
+    const Names& names_;
+    std::set<std::string> changed_; // variables that are assigned to after their declaration
+};
+
+} // namespace
+
+std::string print(const Module& module, Language language)
+{
+    Printer printer(language);
+    std::string text(prelude(language));
+    for (const Struct& s : module.structs)
+        text += printer.structure(s) + '\n';
+    for (std::size_t i = 0; i < module.functions.size(); ++i)
+        text += (i ? "\n" : "") + printer.function(module.functions[i]);
+    return text + std::string(postlude(language));
+}
+
+} // namespace cotan::shader_text

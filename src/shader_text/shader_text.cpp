@@ -1,0 +1,104 @@
+#include "cotan/shader_text/shader_text.hpp"
+
+#include <fmt/format.h>
+
+#include "entry.hpp"
+#include "parse.hpp"
+#include "portable_parts.hpp"
+#include "print.hpp"
+#include "specialise.hpp"
+
+namespace cotan::shader_text {
+
+namespace {
+
+std::string_view branchOf(Language language) { return language == Language::cpp ? "COTAN_LANG_CPP" : "COTAN_LANG_GLSL"; }
+
+// All of the portable text, and `extra` after it.
+Module parseAll(Language language, std::string_view extra)
+{
+    Module module;
+    std::map<std::string, Expression> constants;
+    for (const PortablePart& part : portableParts())
+        parsePart(module, constants, part.name, part.text, branchOf(language));
+    parsePart(module, constants, "entry", extra, branchOf(language));
+    return module;
+}
+
+// cotan_decode for one way of storing a map.
+void bindConvention(Module& module, const Convention& c)
+{
+    for (Function& f : module.functions) {
+        if (f.name == "cotan_expand")
+            f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
+        if (f.name == "cotan_decode")
+            f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
+                          "// texel: as sampled; two-channel maps use x and y only."};
+    }
+    bindArgument(module, "cotan_decode", "format", "expansion", std::to_string(int(c.expansion)));
+    bindArgument(module, "cotan_decode", "format", "channels", std::to_string(int(c.channels)));
+    bindArgument(module, "cotan_decode", "format", "green", greenAlongV(c) ? "1.0" : "-1.0");
+    bindArgument(module, "cotan_decode", "format", "strength", "1.0");
+    dropParameter(module, "cotan_decode", "format");
+    bindArgument(module, "cotan_expand", "expansion", "", std::to_string(int(c.expansion)));
+    for (Function& f : module.functions)
+        if (f.name == "cotan_expand" || f.name == "cotan_decode")
+            simplify(f);
+}
+
+std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
+{
+    std::vector<std::string> roots;
+    for (const Function& f : module.functions)
+        if (f.part == "entry" || (choice.gradients && f.part == "gradient") || (choice.blends && f.part == "blend")
+            || (choice.lights && f.part == "light"))
+            roots.push_back(f.name);
+    return roots;
+}
+
+Result<Form> formOf(const Choice& choice)
+{
+    const bool several = choice.uvSets > 1;
+    if (choice.uvSets < 1 || choice.uvSets > 4)
+        return usageError(fmt::format("uv sets: expected 1 to 4; found {}", choice.uvSets));
+    if (several && info(choice.frame).source != FrameSource::differences)
+        return usageError(fmt::format("several uv sets: expected a frame made from differences; found '{}'",
+                                      name(choice.frame)));
+    if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
+        return usageError(several ? std::string("the fused form has one uv set; for several, the form is total")
+                                  : fmt::format("the fused form: expected cotangent, gradient or orthonormal; found '{}'",
+                                                name(choice.frame)));
+    return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
+}
+
+} // namespace
+
+bool hasFusedForm(Frame frame)
+{
+    return frame == Frame::cotangent || frame == Frame::gradient || frame == Frame::orthonormal;
+}
+
+Result<ShaderText> makeShaderText(const Choice& choice)
+{
+    const Result<Form> form = formOf(choice);
+    if (!form)
+        return form.error();
+    Module module = parseAll(choice.language, entryText(choice, *form));
+    bindConvention(module, choice.convention);
+    const Module needed = neededBy(module, rootsOf(module, choice));
+    ShaderText result;
+    result.form = *form;
+    result.entry = entryOf(choice.frame);
+    for (const Function& f : needed.functions)
+        result.functions.push_back(f.name);
+    result.text = introduction(choice, *form) + print(needed, choice.language);
+    return result;
+}
+
+std::string translate(Language language, std::string_view extra)
+{
+    const Module module = parseAll(language, extra);
+    return print(neededBy(module, rootsOf(module, {})), language);
+}
+
+} // namespace cotan::shader_text

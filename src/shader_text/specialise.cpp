@@ -1,0 +1,172 @@
+#include "specialise.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace cotan::shader_text {
+
+namespace {
+
+using Kind = Expression::Kind;
+
+bool isNumber(const Expression& e, const char* text) { return e.kind == Kind::number && e.text == text; }
+bool isBoolean(const Expression& e, bool value) { return e.kind == Kind::name && e.text == (value ? "true" : "false"); }
+
+bool isMinusOne(const Expression& e)
+{
+    return e.kind == Kind::unary && e.text == "-" && isNumber(e.children[0], "1.0");
+}
+
+// One step, children first.
+void fold(Expression& e)
+{
+    for (Expression& child : e.children)
+        fold(child);
+    if (e.kind == Kind::paren && e.children[0].kind != Kind::binary && e.children[0].kind != Kind::select) {
+        Expression inside = std::move(e.children[0]);
+        e = std::move(inside);
+    } else if (e.kind == Kind::binary && e.text == "==" && e.children[0].kind == Kind::number
+               && e.children[1].kind == Kind::number) {
+        e = {Kind::name, e.children[0].text == e.children[1].text ? "true" : "false", {}};
+    } else if (e.kind == Kind::select && (isBoolean(e.children[0], true) || isBoolean(e.children[0], false))) {
+        Expression chosen = std::move(e.children[isBoolean(e.children[0], true) ? 1 : 2]);
+        e = std::move(chosen);
+    } else if (e.kind == Kind::binary && e.text == "*" && isNumber(e.children[1], "1.0")) {
+        Expression left = std::move(e.children[0]);
+        e = std::move(left);
+    } else if (e.kind == Kind::binary && e.text == "*" && isMinusOne(e.children[1])) {
+        Expression left = std::move(e.children[0]);
+        e = {Kind::unary, "-", {std::move(left)}};
+    }
+}
+
+bool reads(const Expression& e, const std::string& variable)
+{
+    bool found = false;
+    visitAll(e, [&](const Expression& x) { found |= x.kind == Kind::name && x.text == variable; });
+    return found;
+}
+
+bool reads(const std::vector<Statement>& body, const std::string& variable)
+{
+    bool found = false;
+    visitBody(body, [&](const Expression& x) { found |= x.kind == Kind::name && x.text == variable; });
+    return found;
+}
+
+void decideBranches(std::vector<Statement>& body)
+{
+    std::vector<Statement> left;
+    for (Statement& s : body) {
+        if (s.hasValue)
+            fold(s.value);
+        decideBranches(s.body);
+        if (s.kind != Statement::Kind::branch || !(isBoolean(s.value, true) || isBoolean(s.value, false)))
+            left.push_back(std::move(s));
+        else if (isBoolean(s.value, true))
+            std::move(s.body.begin(), s.body.end(), std::back_inserter(left));
+    }
+    body = std::move(left);
+}
+
+bool isAssignmentTo(const Statement& s, const std::string& name)
+{
+    return s.kind == Statement::Kind::assign && s.target.kind == Kind::name && s.target.text == name
+        && !reads(s.value, name);
+}
+
+} // namespace
+
+void bindArgument(Module& module, const std::string& function, const std::string& name,
+                  const std::string& field, const std::string& value)
+{
+    Expression constant{Kind::number, value, {}};
+    if (value[0] == '-')
+        constant = {Kind::unary, "-", {{Kind::number, value.substr(1), {}}}};
+    std::size_t position = 0;
+    for (Function& f : module.functions)
+        if (f.name == function) {
+            visitBody(f.body, [&](Expression& e) {
+                const bool whole = field.empty() && e.kind == Kind::name && e.text == name;
+                const bool part = !field.empty() && e.kind == Kind::member && e.text == field
+                    && e.children[0].kind == Kind::name && e.children[0].text == name;
+                if (whole || part) {
+                    Expression copy = constant;
+                    e = std::move(copy);
+                }
+            });
+            if (!field.empty())
+                return;
+            while (f.parameters[position].name != name)
+                ++position;
+            f.parameters.erase(f.parameters.begin() + static_cast<std::ptrdiff_t>(position));
+        }
+    for (Function& f : module.functions)
+        visitBody(f.body, [&](Expression& e) {
+            if (e.kind == Kind::call && e.text == function)
+                e.children.erase(e.children.begin() + static_cast<std::ptrdiff_t>(position));
+        });
+}
+
+void dropParameter(Module& module, const std::string& function, const std::string& name)
+{
+    for (Function& f : module.functions)
+        if (f.name == function)
+            f.parameters.erase(std::remove_if(f.parameters.begin(), f.parameters.end(),
+                                              [&](const Variable& p) { return p.name == name; }),
+                               f.parameters.end());
+}
+
+void simplify(Function& function)
+{
+    std::vector<Statement>& body = function.body;
+    decideBranches(body);
+    for (std::size_t i = 0; i + 1 < body.size();)
+        if (body[i].kind == Statement::Kind::declare && isAssignmentTo(body[i + 1], body[i].name)) {
+            body[i].value = std::move(body[i + 1].value);
+            body[i].hasValue = true;
+            body.erase(body.begin() + static_cast<std::ptrdiff_t>(i + 1));
+        } else {
+            ++i;
+        }
+    for (std::size_t i = body.size(); i-- > 0;) {
+        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 1), body.end());
+        if (body[i].kind == Statement::Kind::declare && !reads(after, body[i].name))
+            body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+Module neededBy(const Module& module, const std::vector<std::string>& roots)
+{
+    std::set<std::string> wanted(roots.begin(), roots.end());
+    std::vector<bool> taken(module.functions.size());
+    Module needed;
+    // Uses come after definitions, so one walk backwards finds all.
+    for (std::size_t i = module.functions.size(); i-- > 0;) {
+        const Function& f = module.functions[i];
+        if (!wanted.count(f.name))
+            continue;
+        taken[i] = true;
+        wanted.insert(f.type);
+        for (const Variable& p : f.parameters)
+            wanted.insert(p.type);
+        visitBody(f.body, [&](const Expression& e) {
+            if (e.kind == Kind::call)
+                wanted.insert(e.text);
+        });
+    }
+    for (const Struct& s : module.structs) {
+        bool used = wanted.count(s.name) > 0;
+        for (std::size_t i = 0; i < taken.size() && !used; ++i)
+            for (const Statement& statement : module.functions[i].body)
+                used |= taken[i] && statement.type == s.name;
+        if (used)
+            needed.structs.push_back(s);
+    }
+    for (std::size_t i = 0; i < taken.size(); ++i)
+        if (taken[i])
+            needed.functions.push_back(module.functions[i]);
+    return needed;
+}
+
+} // namespace cotan::shader_text
