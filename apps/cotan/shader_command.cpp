@@ -18,8 +18,7 @@ struct Options {
     std::string language;
     std::string frame = "cotangent";
     std::string form;
-    std::string preset = "gltf";
-    std::string channels, green, expansion;
+    std::string preset, channels, green, expansion;
     std::vector<std::string> sets;
     std::string differences = "shader";
     int uvSets = 1;
@@ -43,9 +42,11 @@ Result<Value> valueOf(std::string_view option, const std::string& word, const Wo
 
 Result<Convention> conventionOf(const Options& o)
 {
-    Words<Convention> presets;
+    Words<Convention> presets{{"", Convention{}}};
     for (const ConventionPreset& p : conventionPresets())
         presets.push_back({p.name, p.convention});
+    if (!o.preset.empty())
+        presets.erase(presets.begin());
     Result<Convention> c = valueOf("--preset", o.preset, presets);
     if (!c)
         return c;
@@ -164,9 +165,9 @@ Command addShaderCommand(CLI::App& app)
     command
         ->add_option("--preset", o->preset,
                      "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
-                     "3dsmax, source; the next three options replace parts of it")
-        ->type_name("NAME")
-        ->capture_default_str();
+                     "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
+                     "v, exact")
+        ->type_name("NAME");
     command->add_option("--channels", o->channels, "3, 2 (z from the other two), stereographic or slope")->type_name("N");
     command->add_option("--green", o->green, "along-v or against-v: where green points")->type_name("WAY");
     command

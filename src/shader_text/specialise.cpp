@@ -134,6 +134,16 @@ void simplify(Function& function)
         if (body[i].kind == Statement::Kind::declare && !reads(after, body[i].name))
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
     }
+    // A variable that only the next declaration reads, and only as it is, is that declaration.
+    for (std::size_t i = 0; i + 1 < body.size(); ++i) {
+        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 2), body.end());
+        const Statement& next = body[i + 1];
+        if (body[i].kind == Statement::Kind::declare && next.kind == Statement::Kind::declare
+            && next.value.kind == Kind::name && next.value.text == body[i].name && !reads(after, body[i].name)) {
+            body[i + 1].value = std::move(body[i].value);
+            body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
 }
 
 Module neededBy(const Module& module, const std::vector<std::string>& roots)

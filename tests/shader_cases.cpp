@@ -1,0 +1,228 @@
+#include "shader_cases.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "cotan/truth/patch.hpp"
+
+namespace cotan::test {
+
+namespace {
+
+using shader_text::Choice;
+using shader_text::Form;
+using shader_text::Language;
+
+glm::dvec2 turned(double degrees, double length)
+{
+    const double a = degrees * std::numbers::pi / 180;
+    return {length * std::cos(a), length * std::sin(a)};
+}
+
+// Well conditioned: differences 30..150 degrees apart, n within 50 degrees of the surface's normal,
+// m within 55 of its own.
+Vectors soundVectors(Random& random, bool mirrored, bool behind, bool yDown)
+{
+    const glm::dvec3 z = random.direction();
+    const glm::dvec3 x = glm::normalize(glm::cross(z, std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 y = glm::cross(z, x);
+    const double start = random.range(0, 360), uvStart = random.range(0, 360), scale = 0.01;
+    const glm::dvec2 p0 = turned(start, random.range(0.3, 1));
+    glm::dvec2 p1 = turned(start + random.range(30, 150), random.range(0.3, 1));
+    glm::dvec2 uv1 = turned(uvStart + (mirrored ? -1 : 1) * random.range(30, 150), random.range(0.3, 1));
+    if (yDown) {
+        p1 = -p1;
+        uv1 = -uv1;
+    }
+    const double away = random.range(0, 50) * std::numbers::pi / 180;
+    const glm::dvec2 lean = turned(random.range(0, 360), std::sin(away));
+    const glm::dvec3 n = z * std::cos(away) + x * lean.x + y * lean.y;
+    Vectors v;
+    v.n = glm::vec3(n * (behind ? -1.0 : 1.0));
+    v.dpdx = glm::vec3((x * p0.x + y * p0.y) * scale);
+    v.dpdy = glm::vec3((x * p1.x + y * p1.y) * scale);
+    v.duvdx = glm::vec2(turned(uvStart, random.range(0.3, 1)) * scale);
+    v.duvdy = glm::vec2(uv1 * scale);
+    v.texel = glm::vec3(tiltedTexel(random, random.range(0, 55)) * (127.0 / 255) + 128.0 / 255);
+    return v;
+}
+
+// The normal as frames that ask for a unit one get it.
+glm::dvec3 unitOf(glm::vec3 n) { return glm::normalize(glm::dvec3(n)); }
+
+glm::dvec3 decoded(const Vectors& v, const Convention& c = {})
+{
+    return f64::cotan_decode(v.texel, toFormat<f64::cotan_normal_format>(c));
+}
+
+Case frameCase(const std::string& label, Choice choice)
+{
+    Case c;
+    c.name = label;
+    const bool total = info(choice.frame).total;
+    choice.callerDifferences = true;
+    c.text = [choice](Language l) {
+        Choice in = choice;
+        in.language = l;
+        const auto text = makeShaderText(in);
+        if (!text)
+            throw std::runtime_error(text.error().message);
+        return text->text;
+    };
+    const auto made = makeShaderText(choice);
+    const bool fused = made && made->form == Form::fused;
+    c.last = fused ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
+    const Frame frame = choice.frame;
+    const Convention convention = choice.convention;
+    if (info(frame).source != FrameSource::vertices) {
+        c.call = made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
+        c.expected = [=](const Vectors& v) {
+            const glm::dvec3 n = total ? glm::dvec3(v.n) : unitOf(v.n);
+            return f64::cotan_apply(evaluate(frame, n, glm::dvec3(v.dpdx), glm::dvec3(v.dpdy), glm::dvec2(v.duvdx), glm::dvec2(v.duvdy)), decoded(v, convention));
+        };
+        return c;
+    }
+    c.call = made->entry + (frame == Frame::smooth ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
+    c.expected = [=](const Vectors& v) {
+        const f64::cotan_frame f = frame == Frame::smooth ? f64::cotan_frame_smooth(v.n, v.dpdx, v.dpdy)
+            : frame == Frame::vertex                      ? f64::cotan_frame_vertex(v.n, v.dpdx, 1)
+                                                          : f64::cotan_frame_mikktspace(v.n, v.dpdx, 1);
+        return f64::cotan_apply(f, decoded(v));
+    };
+    return c;
+}
+
+Case uvSetsCase()
+{
+    Choice choice;
+    choice.frame = Frame::gradient;
+    choice.uvSets = 2;
+    Case c = frameCase("gradient, two uv sets", choice);
+    c.call = "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
+    c.expected = [](const Vectors& v) {
+        const auto a = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdx, v.duvdy);
+        const auto b = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdy, v.duvdx);
+        const glm::dvec2 slope = f64::cotan_slope_of_texel(decoded(v));
+        return f64::cotan_resolve_gradient(
+            a.n, f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
+    };
+    return c;
+}
+
+// Functions that are called by a line of portable text; the line is also C++, read with f64's names.
+// n, m, m2 are unit.
+#define COTAN_LINE_CASE(label, ...)                                                                     \
+    lineCase(label, #__VA_ARGS__,                                                                       \
+             [](glm::dvec3 n, glm::dvec3 m, glm::dvec3 m2, glm::dvec3 dpdx, glm::dvec3 dpdy) -> glm::dvec3 { \
+                 using namespace f64;                                                                   \
+                 (void)n, (void)m, (void)m2, (void)dpdx, (void)dpdy;                                    \
+                 return __VA_ARGS__;                                                                    \
+             })
+
+template<class Expected>
+Case lineCase(const std::string& label, const std::string& line, Expected expected)
+{
+    Case c;
+    c.name = label;
+    c.call = "cotan_case(n, dpdx, dpdy, m)";
+    c.text = [line](Language l) {
+        return shader_text::translate(
+            l, "COTAN_FUNCTION cotan_vec3 cotan_case(cotan_vec3 n_any, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec3 texel)\n"
+               "{\n"
+               "    cotan_vec3 n = n_any * cotan_inversesqrt(dot(n_any, n_any));\n"
+               "    cotan_normal_format format;\n"
+               "    format.expansion = 0;\n    format.channels = 0;\n"
+               "    format.green = cotan_real(1.0);\n    format.strength = cotan_real(1.0);\n"
+               "    cotan_vec3 m = cotan_decode(texel, format);\n"
+               "    m = m * cotan_inversesqrt(dot(m, m));\n"
+               "    cotan_vec3 m2 = cotan_vec3(m.y, -m.x, m.z);\n"
+               "    return " + line + ";\n}\n");
+    };
+    c.expected = [expected](const Vectors& v) {
+        Convention along;
+        along.v = VDirection::up;
+        const glm::dvec3 m = glm::normalize(decoded(v, along));
+        return expected(unitOf(v.n), m, glm::dvec3(m.y, -m.x, m.z), glm::dvec3(v.dpdx), glm::dvec3(v.dpdy));
+    };
+    return c;
+}
+
+void addLines(std::vector<Case>& all)
+{
+    all.push_back(COTAN_LINE_CASE("resolve, of normal", cotan_resolve_gradient(n, cotan_gradient_of_normal(n, n * cotan_real(2.0) + m))));
+    all.push_back(COTAN_LINE_CASE("of volume", cotan_resolve_gradient(n, cotan_gradient_of_volume(n, m))));
+    all.push_back(COTAN_LINE_CASE("of height", cotan_resolve_gradient(n, cotan_gradient_of_height(n, dpdx, dpdy, m.x * cotan_real(0.003), m.y * cotan_real(0.003)))));
+    all.push_back(COTAN_LINE_CASE("triplanar", cotan_resolve_gradient(n, cotan_gradient_triplanar(n, cotan_triplanar_weights(n), cotan_slope_of_texel(m), cotan_slope_of_texel(m2), cotan_slope_of_texel(m)))));
+    all.push_back(COTAN_LINE_CASE("of slope", cotan_resolve_gradient(n, cotan_gradient_of_slope(cotan_frame_smooth(n, dpdx, dpdy), cotan_slope_of_texel(m)))));
+    all.push_back(COTAN_LINE_CASE("encode", cotan_encode(cotan_frame_smooth(n, dpdx, dpdy), cotan_apply(cotan_frame_smooth(n, dpdx, dpdy), m))));
+    all.push_back(COTAN_LINE_CASE("blend reoriented", cotan_blend_reoriented(m, m2)));
+    all.push_back(COTAN_LINE_CASE("blend whiteout", cotan_blend_whiteout(m, m2)));
+    all.push_back(COTAN_LINE_CASE("blend udn", cotan_blend_udn(m, m2)));
+    all.push_back(COTAN_LINE_CASE("blend slopes", cotan_blend_slopes(m, m2, cotan_real(0.7), cotan_real(0.4))));
+    all.push_back(COTAN_LINE_CASE("blend linear", cotan_blend_linear(m, m2)));
+}
+
+} // namespace
+
+std::vector<Sample> samples()
+{
+    Random random(401);
+    std::vector<Sample> all;
+    for (int k = 0; k < 512; ++k)
+        all.push_back({soundVectors(random, k & 1, k & 2, k & 4), Kind::sound});
+    // Answers that do not hang on rounding: see fused.h for those that do.
+    for (int k = 0; k < 16; ++k) {
+        Vectors v = soundVectors(random, k & 1, k & 2, k & 4);
+        v.duvdx = v.duvdy = {0, 0};
+        all.push_back({v, Kind::degenerate});
+        v.dpdx = v.dpdy = {0, 0, 0};
+        all.push_back({v, Kind::degenerate});
+        v = soundVectors(random, k & 1, k & 2, k & 4);
+        v.duvdx.x = v.duvdy.x = 0;
+        all.push_back({v, Kind::degenerate});
+    }
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    for (float bad : {nan, inf, -inf}) {
+        Vectors v = soundVectors(random, false, false, false);
+        v.dpdx.y = bad;
+        all.push_back({v, Kind::nonFinite});
+        v = soundVectors(random, false, false, false);
+        v.duvdy.x = bad;
+        all.push_back({v, Kind::nonFinite});
+        v = soundVectors(random, false, false, false);
+        v.n.z = bad;
+        all.push_back({v, Kind::nonFinite});
+    }
+    return all;
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    for (const FrameInfo& f : frames()) {
+        Choice choice;
+        choice.frame = f.frame;
+        choice.form = Form::total;
+        all.push_back(frameCase(std::string(f.name), choice));
+        if (!shader_text::hasFusedForm(f.frame))
+            continue;
+        choice.form = Form::fused;
+        all.push_back(frameCase(std::string(f.name) + ", fused", choice));
+    }
+    for (Channels channels : {Channels::orthographic, Channels::stereographic, Channels::slope}) {
+        Choice choice;
+        choice.convention.channels = channels;
+        choice.convention.v = VDirection::up; // green along v
+        choice.convention.expansion = channels == Channels::slope ? Expansion::signedValues : Expansion::biased;
+        all.push_back(frameCase(channels == Channels::orthographic ? "two channels, 2c - 1"
+                                : channels == Channels::slope      ? "slopes, signed"
+                                                                   : "stereographic, 2c - 1",
+                                choice));
+    }
+    all.push_back(uvSetsCase());
+    addLines(all);
+    return all;
+}
+
+} // namespace cotan::test

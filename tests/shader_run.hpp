@@ -1,0 +1,59 @@
+// Files and processes of the parity test.
+#pragma once
+
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "run_tool.hpp"
+#include "shader_cases.hpp"
+
+namespace cotan::test {
+
+template<class Item>
+void writeItems(const std::filesystem::path& file, const std::vector<Item>& items)
+{
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(Item)));
+}
+
+inline void writeText(const std::filesystem::path& file, const std::string& text)
+{
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+inline std::vector<Vectors> vectorsOf(const std::vector<Sample>& samples)
+{
+    std::vector<Vectors> all;
+    for (const Sample& s : samples)
+        all.push_back(s.v);
+    return all;
+}
+
+// Runs a line of the shell; its output goes to the file `log`.
+inline bool shell(const std::string& line, const std::filesystem::path& log)
+{
+    return std::system(("(" + line + ") > '" + log.string() + "' 2>&1").c_str()) == 0;
+}
+
+// Three numbers each, case by case.
+template<class Real>
+std::vector<std::vector<glm::dvec3>> valuesOf(const std::string& bytes, std::size_t caseCount, std::size_t sampleCount)
+{
+    std::vector<std::vector<glm::dvec3>> values;
+    if (bytes.size() != caseCount * sampleCount * 3 * sizeof(Real))
+        return values;
+    const char* at = bytes.data();
+    for (std::size_t c = 0; c < caseCount; ++c) {
+        values.emplace_back();
+        for (std::size_t s = 0; s < sampleCount; ++s, at += 3 * sizeof(Real)) {
+            Real r[3];
+            std::memcpy(r, at, sizeof r);
+            values.back().push_back({double(r[0]), double(r[1]), double(r[2])});
+        }
+    }
+    return values;
+}
+
+} // namespace cotan::test

@@ -1,0 +1,135 @@
+// GLSL and HLSL as compute shaders on the first Vulkan device that opens.
+#include "devices.hpp"
+#include "shader_run.hpp"
+#include "timing_scene.hpp"
+
+namespace cotan::test {
+
+namespace {
+
+using shader_text::Language;
+
+std::string shaderOf(const Case& c, bool hlsl)
+{
+    auto in = [](int i) { return "inputs[i * 16u + " + std::to_string(i) + "u]"; };
+    auto vec = [&](const std::string& type, int i, int n) {
+        std::string text = type + "(";
+        for (int k = 0; k < n; ++k)
+            text += (k ? ", " : "") + in(i + k);
+        return text + ")";
+    };
+    const std::string v2 = hlsl ? "float2" : "vec2", v3 = hlsl ? "float3" : "vec3";
+    const std::string body = "    " + v3 + " n = " + vec(v3, 0, 3) + ";\n    " + v3 + " dpdx = " + vec(v3, 3, 3) + ";\n    "
+        + v3 + " dpdy = " + vec(v3, 6, 3) + ";\n    " + v2 + " duvdx = " + vec(v2, 9, 2) + ";\n    " + v2 + " duvdy = "
+        + vec(v2, 11, 2) + ";\n    " + v3 + " m = " + vec(v3, 13, 3) + ";\n    " + v3 + " r = " + c.call
+        + ";\n    outputs[i * 3u] = r.x;\n    outputs[i * 3u + 1u] = r.y;\n    outputs[i * 3u + 2u] = r.z;\n}\n";
+    if (hlsl)
+        return "[[vk::binding(0)]] StructuredBuffer<float> inputs;\n[[vk::binding(1)]] RWStructuredBuffer<float> outputs;\n"
+            + c.text(Language::hlsl)
+            + "[numthreads(1, 1, 1)]\nvoid main(uint3 id : SV_DispatchThreadID)\n{\n    uint i = id.x;\n" + body;
+    return "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer In { float inputs[]; };\n"
+           "layout(std430, binding = 1) buffer Out { float outputs[]; };\n"
+        + c.text(Language::glsl) + "void main()\n{\n    uint i = gl_GlobalInvocationID.x;\n" + body;
+}
+
+std::vector<std::uint32_t> compile(const Case& c, bool hlsl)
+{
+    TemporaryFolder folder;
+    const std::string f = folder.path().string();
+    writeText(folder / "a.comp", shaderOf(c, hlsl));
+    const std::string flags = hlsl ? " -D -V -e main" : " -V";
+    if (!shell(COTAN_GLSLANG_PATH + flags + " -S comp -o '" + f + "/spv' '" + f + "/a.comp'", folder / "log"))
+        throw std::runtime_error(c.name + ": " + readWhole(folder / "log"));
+    const std::string bytes = readWhole(folder / "spv");
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    return words;
+}
+
+class Computer {
+public:
+    Computer(cost::Device& device, const std::vector<Sample>& samples) : device_(device), samples_(samples)
+    {
+        using U = vk::BufferUsageFlagBits;
+        const std::vector<Vectors> in = vectorsOf(samples);
+        in_ = cost::makeBuffer(device, U::eStorageBuffer, in.data(), in.size() * sizeof(Vectors));
+        const std::vector<float> none(samples.size() * 3, 9.0f);
+        out_ = cost::makeBuffer(device, U::eStorageBuffer, none.data(), none.size() * sizeof(float));
+        const std::array bindings = {binding(0), binding(1)};
+        setLayout_ = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
+        layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *setLayout_));
+        const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, 2);
+        pool_ = vk::raii::DescriptorPool(
+            device.device,
+            vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
+        set_ = std::move(vk::raii::DescriptorSets(device.device, {*pool_, *setLayout_})[0]);
+        const vk::DescriptorBufferInfo a(*in_.buffer, 0, VK_WHOLE_SIZE), b(*out_.buffer, 0, VK_WHOLE_SIZE);
+        device.device.updateDescriptorSets({vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, a),
+                                            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, b)},
+                                           {});
+        commandPool_ = vk::raii::CommandPool(device.device, {{}, device.queueFamily});
+    }
+
+    std::vector<glm::dvec3> run(const std::vector<std::uint32_t>& spirv)
+    {
+        const vk::raii::ShaderModule module(device_.device, vk::ShaderModuleCreateInfo({}, spirv));
+        const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
+        const vk::raii::Pipeline pipeline(device_.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
+        const vk::raii::CommandBuffer commands = std::move(vk::raii::CommandBuffers(
+            device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+        commands.begin(vk::CommandBufferBeginInfo());
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *set_, {});
+        commands.dispatch(static_cast<std::uint32_t>(samples_.size()), 1, 1);
+        const vk::MemoryBarrier seen(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, seen, {}, {});
+        commands.end();
+        const vk::raii::Queue queue = device_.device.getQueue(device_.queueFamily, 0);
+        queue.submit(vk::SubmitInfo({}, {}, *commands));
+        queue.waitIdle();
+        const std::size_t bytes = samples_.size() * 3 * sizeof(float);
+        const std::string text(static_cast<const char*>(out_.memory.mapMemory(0, bytes)), bytes);
+        out_.memory.unmapMemory();
+        return valuesOf<float>(text, 1, samples_.size())[0];
+    }
+
+private:
+    static vk::DescriptorSetLayoutBinding binding(std::uint32_t k)
+    {
+        return {k, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute};
+    }
+
+    cost::Device& device_;
+    const std::vector<Sample>& samples_;
+    cost::Buffer in_, out_;
+    vk::raii::DescriptorSetLayout setLayout_{nullptr};
+    vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::DescriptorPool pool_{nullptr};
+    vk::raii::DescriptorSet set_{nullptr};
+    vk::raii::CommandPool commandPool_{nullptr};
+};
+
+} // namespace
+
+Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, bool hlsl)
+{
+    Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
+    try {
+        const cost::Instance instance = cost::openInstance();
+        for (cost::Device& device : cost::listDevices(instance)) {
+            if (!device.missing.empty())
+                continue;
+            cost::open(device);
+            results.skipped.clear();
+            Computer computer(device, samples);
+            for (const Case& c : cases)
+                results.values.push_back(computer.run(compile(c, hlsl)));
+            return results;
+        }
+    } catch (const vk::SystemError& e) {
+        results.skipped = cost::reason(e);
+    }
+    return results;
+}
+
+} // namespace cotan::test
