@@ -72,7 +72,8 @@ Case frameCase(const std::string& label, Choice choice)
     };
     const auto made = makeShaderText(choice);
     const bool fused = made && made->form == Form::fused;
-    c.last = fused ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
+    // `mikktspace` hands a normal that is not finite on as it is.
+    c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
     if (info(frame).source != FrameSource::vertices) {

@@ -127,6 +127,8 @@ std::string limits(const Choice& choice, Form form)
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
                 "//   non-finite input and normals shorter than 0.01. (Longest position difference) * (longest\n"
                 "//   uv difference) within 1e-12 .. 1e5, each within 1e-9 .. 1e6.\n";
+    else if (choice.frame == Frame::mikktspace)
+        text += "//   Zero vectors give the interpolated normal as it is, and so does one that is not finite.\n";
     else if (info(choice.frame).total)
         text += "//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite\n"
                 "//   differences) the result is the unit interpolated normal.\n";
