@@ -8,6 +8,7 @@ namespace cotan::app {
 Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
+Command addBakeCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);

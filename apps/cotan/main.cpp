@@ -31,6 +31,7 @@ int runCommandLine(int argc, char** argv)
         addCompareCommand,
         addFiguresCommand,
         addAccuracyCommand,
+        addBakeCommand,
 #ifdef COTAN_WITH_VULKAN
         addCostCommand,
 #endif

@@ -19,6 +19,12 @@ glm::vec2 transformed(const Texture& map, glm::vec2 uv)
     return {map.uRow.x * uv.x + map.uRow.y * uv.y + map.uRow.z, map.vRow.x * uv.x + map.vRow.y * uv.y + map.vRow.z};
 }
 
+glm::vec3 normalizedOrZero(glm::vec3 v)
+{
+    const float length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
 // Appends one mesh as an instance places it.
 void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld,
             std::uint32_t instance, bool storedTangents)
@@ -28,12 +34,12 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
     const float determinant = glm::determinant(linear);
     const glm::mat3 cofactors = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                           glm::cross(linear[0], linear[1])) * (determinant < 0 ? -1.0f : 1.0f);
+    // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
+    const bool rigid = cofactors == linear;
     const auto& texcoords = mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)];
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
-        const glm::vec3 n = cofactors * mesh.normals[v];
-        const float length = glm::length(n);
-        surface.normals.push_back(length > 0 ? n / length : n);
+        surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(cofactors * mesh.normals[v]));
         surface.texcoords.push_back(transformed(map, texcoords[v]));
     }
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -44,10 +50,8 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
             surface.indices.push_back(base + c);
             if (storedTangents) {
                 const glm::vec4 t = mesh.tangents[c];
-                const glm::vec3 turned = linear * glm::vec3(t);
-                const float length = glm::length(turned);
-                const float w = determinant < 0 ? -t.w : t.w;
-                surface.tangents.push_back(length > 0 ? glm::vec4(turned / length, w) : glm::vec4(0, 0, 0, w));
+                const glm::vec3 turned = rigid ? linear * glm::vec3(t) : normalizedOrZero(linear * glm::vec3(t));
+                surface.tangents.push_back(glm::vec4(turned, determinant < 0 ? -t.w : t.w));
             }
         }
         surface.triangleInstance.push_back(instance);
