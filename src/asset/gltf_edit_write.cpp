@@ -256,20 +256,19 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         const std::string text = layout.root.dump(2) + "\n";
         const auto bytes = std::as_bytes(std::span(text));
         outputs[0].bytes.assign(bytes.begin(), bytes.end());
-        copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
     }
+    for (const Output& output : outputs)
+        written.bytesAfter += output.bytes.size();
+    if (!binary)
+        copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
     if (Status done = writeTogether(outputs); !done)
         throw done.error();
     std::vector<fs::path> images;
     for (const auto& [image, path] : imageFiles(*document.source, layout.root))
         images.push_back(path);
-    written.bytesAfter = totalSize(images);
-    for (const Output& output : outputs) {
+    written.bytesAfter += totalSize(images);
+    for (const Output& output : outputs)
         written.files.push_back(output.file);
-        const bool counted = !images.empty() && output.file.extension() != ".gltf"
-            && output.file.extension() != ".bin";
-        written.bytesAfter += counted ? 0 : output.bytes.size();
-    }
     written.notes = std::move(document.notes);
     return written;
 }
