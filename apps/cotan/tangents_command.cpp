@@ -41,7 +41,7 @@ void makeUnit(std::vector<glm::vec3>& normals)
 {
     for (glm::vec3& n : normals) {
         const double length = glm::length(glm::dvec3(n));
-        if (length > 0 && std::abs(length - 1) > 1e-5)
+        if (length > 0 && std::abs(length - 1) > 2e-6)
             n = glm::vec3(glm::dvec3(n) / length);
     }
 }
@@ -81,7 +81,7 @@ Result<std::vector<Entry>> readEntries(const GltfDocument& document)
 
 std::vector<glm::vec4> generate(const Options& o, const Entry& entry)
 {
-    return o.frame == "vertex" ? vertexTangents(entry.view()) : mikktspaceTangents(entry.view());
+    return o.frame == "vertex" ? vertexTangents(entry.view()) : mikktspaceTangents(entry.view(), o.common.threads);
 }
 
 nlohmann::ordered_json describe(const Entry& entry)

@@ -228,10 +228,9 @@ void splitTargets(GltfDocument& document, OrderedJson& primitive,
 
 void noteExtensions(GltfDocument& document, const OrderedJson& primitive, const std::string& field)
 {
-    if (primitive.contains("extensions") && !primitive["extensions"].empty())
+    for (const std::string& name : unknownExtensions(primitive))
         document.notes.push_back(fmt::format(
-            "{}: vertices were copied; its extension {} is kept as it is", field,
-            oneLine(primitive["extensions"].begin().key())));
+            "{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
 }
 
 // Returns how many vertices were added.
