@@ -36,15 +36,18 @@ TEST(GltfTangents, addNothingElseWhereCornersAgree)
 
 TEST(GltfTangents, copyOnlyTheVertexWhoseCornersDiffer)
 {
+    Gltf g = square();
+    primitive(g)["mode"] = 4; // said though it is the default: stays
     const TemporaryFolder folder;
     const ReadBack out =
-        withTangents(folder, square().text(), {{0, 0, cornersOf({1, 1, 1, 1, -1, 1})}}, 1);
+        withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, -1, 1})}}, 1);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_EQ(shortsOf(out, p["indices"]), (std::vector<std::uint16_t>{0, 1, 2, 0, 4, 3}));
     std::vector<float> positions = kSquare;
     positions.insert(positions.end(), {1, 1, 0}); // vertex 2 again
     EXPECT_EQ(floatsOf(out, p["attributes"]["POSITION"], 3), positions);
     EXPECT_EQ(out.root["accessors"].size(), 5u) << "the old ones are gone";
+    EXPECT_EQ(p["mode"], 4);
 }
 
 // Bytes and shorts with padding, joints, weights, an attribute that nobody knows, a morph target and

@@ -50,7 +50,10 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Tangents,
-                         testing::Values(Kind{"mikktspace", cotan::mikktspaceTangents},
+                         testing::Values(Kind{"mikktspace",
+                                              [](const cotan::MeshView& mesh) {
+                                                  return cotan::mikktspaceTangents(mesh);
+                                              }},
                                          Kind{"vertex", cotan::vertexTangents}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 

@@ -56,7 +56,8 @@ std::string reportSmooth(const MeshView& mesh, nlohmann::ordered_json& row)
     row["vertices"] = c.u.size();
     row["vertices_added"] = split.sources.size() - mesh.positions.size();
     row["without_frame"] = without;
-    row["shear_degrees"] = toJson(s);
+    row["shear"] = toJson(s);
+    row["shear"].erase("pixels");
     row["stretch"] = {{"median", median}, {"max", most}};
     return fmt::format("{} vertices ({} added where mirrored charts meet), {} without a frame; "
                        "shear {}; stretch median {:.3g}, max {:.3g}",

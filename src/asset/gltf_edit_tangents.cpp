@@ -261,7 +261,8 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
         first += length;
         if (!sameOrder(document, primitive, own)) {
             setTriangles(document, primitive, own, count);
-            primitive.erase("mode"); // a list, whatever it was
+            if (primitive.value("mode", 4) != 4)
+                primitive.erase("mode"); // a list now
         }
         primitive["attributes"]["TANGENT"] = tangents;
         if (copied) {

@@ -132,12 +132,14 @@ std::string toText(const TangentDifference& d, const std::string& reference)
 
 nlohmann::ordered_json toJson(const TangentDifference& d)
 {
+    nlohmann::ordered_json directions = toJson(statisticsOf(d.degrees));
+    directions.erase("pixels"); // corners here
     return {{"verdict", name(verdictOf(d))},
             {"corners", d.corners},
             {"degenerate", d.degenerate},
             {"w_different", invertedShare(d)},
             {"turned", turnedShare(d)},
-            {"degrees", toJson(statisticsOf(d.degrees))}};
+            {"directions", directions}};
 }
 
 } // namespace cotan
