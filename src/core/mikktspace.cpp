@@ -3,6 +3,7 @@
 // one orientation that hang together around a vertex; an angle-weighted average per group.
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 
 #include "tangents_mesh.hpp"
 
@@ -113,30 +114,34 @@ constexpr std::size_t previousCorner(std::size_t corner)
 // (larger vertex, corner at which the edge starts).
 void findNeighbours(Triangles& t, std::size_t threads)
 {
-    const std::size_t corners = t.vertices.size();
     std::vector<std::uint32_t> start(t.mesh.positions.size() + 1);
-    const auto smaller = [&](std::size_t c) {
-        return std::min(t.vertices[c], t.vertices[nextCorner(c)]);
+    const auto forEdges = [&](const auto& each) { // each(smaller vertex, larger vertex, corner)
+        for (std::uint32_t f = 0; f < t.count(); ++f) {
+            if ((t.flags[f] & kDegenerate) != 0)
+                continue;
+            const std::uint32_t c = 3 * f, v0 = t.vertices[c], v1 = t.vertices[c + 1],
+                                v2 = t.vertices[c + 2];
+            each(std::min(v0, v1), std::max(v0, v1), c);
+            each(std::min(v1, v2), std::max(v1, v2), c + 1);
+            each(std::min(v2, v0), std::max(v2, v0), c + 2);
+        }
     };
-    const auto counts = [&](std::size_t c) { return (t.flags[c / 3] & kDegenerate) == 0; };
-    for (std::size_t c = 0; c < corners; ++c)
-        if (counts(c))
-            ++start[smaller(c) + 1];
+    forEdges([&](std::uint32_t smaller, std::uint32_t, std::uint32_t) { ++start[smaller + 1]; });
     for (std::size_t i = 1; i < start.size(); ++i)
         start[i] += start[i - 1];
-    std::vector<std::uint64_t> edges(start.back());
-    for (std::size_t c = corners; c-- > 0;) // backwards: start[i + 1] moves down to its bucket
-        if (counts(c)) {
-            const std::uint64_t larger = std::max(t.vertices[c], t.vertices[nextCorner(c)]);
-            edges[--start[smaller(c) + 1]] = larger << 32 | c;
-        }
-    t.neighbours.assign(corners, kNone);
+    const std::size_t count = start.back();
+    const auto edges = std::make_unique_for_overwrite<std::uint64_t[]>(count);
+    // start[i + 1] ends bucket i and moves down to its begin.
+    forEdges([&](std::uint32_t smaller, std::uint64_t larger, std::uint32_t corner) {
+        edges[--start[smaller + 1]] = larger << 32 | corner;
+    });
+    t.neighbours.assign(t.vertices.size(), kNone);
     // An edge is in one bucket, so threads write to different neighbours.
     runParts(t.mesh.positions.size(), threads, [&](std::size_t firstVertex, std::size_t last) {
         for (std::size_t i = firstVertex + 1; i <= last; ++i) {
             const std::size_t begin = start[i];
-            const std::size_t end = i + 1 < start.size() ? start[i + 1] : edges.size();
-            const std::span<std::uint64_t> bucket(edges.data() + begin, end - begin);
+            const std::size_t end = i + 1 < start.size() ? start[i + 1] : count;
+            const std::span<std::uint64_t> bucket(edges.get() + begin, end - begin);
             std::sort(bucket.begin(), bucket.end());
             pairEdges(t, bucket);
         }
@@ -224,7 +229,7 @@ struct Scratch {
 
 glm::vec3 projected(glm::vec3 v, glm::vec3 n) { return v - n * glm::dot(n, v); }
 
-float weightOf(const Triangles& t, std::size_t c, glm::vec3 n)
+inline float weightOf(const Triangles& t, std::size_t c, glm::vec3 n)
 {
     if ((t.flags[c / 3] & kJoinsAny) != 0)
         return 0;

@@ -101,6 +101,19 @@ inline glm::vec3 projectedUnit(glm::vec3 v, glm::vec3 n)
     return normalizeOrZero(v - n * glm::dot(n, v));
 }
 
+// Arc cosine of x, taken into [-1,1]; off by 5e-7 radians at most. Several times as fast here as the
+// library's, which is a call. Source: Abramowitz and Stegun, Handbook of Mathematical Functions,
+// 4.4.46.
+inline float fastArcCosine(float x)
+{
+    const float a = std::min(std::abs(x), 1.0f);
+    const float low = 1.5707963050f + a * (-0.2145988016f + a * (0.0889789874f - a * 0.0501743046f));
+    const float high = 0.0308918810f + a * (-0.0170881256f + a * (0.0066700901f - a * 0.0012624911f));
+    const float squared = a * a;
+    const float angle = std::sqrt(1.0f - a) * (low + squared * squared * high);
+    return x < 0 ? 3.14159265f - angle : angle;
+}
+
 // The angle of a triangle at `corner`, between the projections of its sides along n; radians. A
 // right one where a side vanishes.
 inline float projectedAngle(glm::vec3 corner, glm::vec3 previous, glm::vec3 next, glm::vec3 n)
@@ -115,7 +128,7 @@ inline float projectedAngle(glm::vec3 corner, glm::vec3 previous, glm::vec3 next
         const glm::dvec3 p(a), q(b);
         cosine = static_cast<float>(glm::dot(p, q) / std::sqrt(glm::dot(p, p) * glm::dot(q, q)));
     }
-    return std::acos(std::clamp(cosine, -1.0f, 1.0f));
+    return fastArcCosine(cosine);
 }
 
 } // namespace cotan::tangents
