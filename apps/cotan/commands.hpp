@@ -13,5 +13,6 @@ Command addFiguresCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);
 #endif
+Command addTangentsCommand(CLI::App& app);
 
 } // namespace cotan::app

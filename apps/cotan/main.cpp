@@ -32,6 +32,7 @@ int runCommandLine(int argc, char** argv)
         addFiguresCommand,
         addAccuracyCommand,
         addBakeCommand,
+        addTangentsCommand,
 #ifdef COTAN_WITH_VULKAN
         addCostCommand,
 #endif
