@@ -8,5 +8,6 @@ namespace cotan::app {
 Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
+Command addLintCommand(CLI::App& app);
 
 } // namespace cotan::app
