@@ -78,8 +78,8 @@ void addSteps(const MappedSurface& s, Frame frame, const Side& a, const Side& b,
               std::vector<std::pair<double, double>>& steps)
 {
     constexpr int kDirections = 8;
-    const f64::cotan_frame fa = frameAt(s, frame, TangentSource::generated, a.triangle(), middle(a));
-    const f64::cotan_frame fb = frameAt(s, frame, TangentSource::generated, b.triangle(), middle(b));
+    const f64::cotan_frame fa = frameAt(s, frame, TangentOrigin::generated, a.triangle(), middle(a));
+    const f64::cotan_frame fb = frameAt(s, frame, TangentOrigin::generated, b.triangle(), middle(b));
     const double tilt = glm::radians(kTestTilt);
     const double weight = (areaOf(s, a.triangle()) + areaOf(s, b.triangle())) / (3.0 * kDirections);
     for (int k = 0; k < kDirections; ++k) {

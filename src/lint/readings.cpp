@@ -48,21 +48,21 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
     struct Reader {
         std::string name;
         Frame frame;
-        TangentSource tangents;
+        TangentOrigin tangents;
         std::vector<std::pair<double, double>> errors;
     };
     std::vector<Reader> readers;
     for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact})
-        readers.push_back({std::string(name(f)), f, TangentSource::generated, {}});
+        readers.push_back({std::string(name(f)), f, TangentOrigin::generated, {}});
     if (!s.stored.empty())
-        readers.push_back({"stored", Frame::mikktspace, TangentSource::stored, {}});
+        readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
     const f64::cotan_normal_format format = formatOf(material);
     for (const Point& p : pointsOver(s)) {
         const glm::dvec3 m =
             decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
         const glm::dvec3 truth = f64::cotan_apply(
-            frameAt(s, Frame::mikktspace, TangentSource::generated, p.triangle, p.barycentric), m);
+            frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric), m);
         for (Reader& r : readers)
             r.errors.emplace_back(
                 degreesBetween(f64::cotan_apply(frameAt(s, r.frame, r.tangents, p.triangle, p.barycentric), m), truth),

@@ -75,14 +75,14 @@ void addCotangents(MappedSurface& surface, const MeshView& mesh, const Transform
     }
 }
 
-const std::vector<glm::dvec4>& tangentsOf(const MappedSurface& s, Frame frame, TangentSource source)
+const std::vector<glm::dvec4>& tangentsOf(const MappedSurface& s, Frame frame, TangentOrigin source)
 {
-    if (source == TangentSource::stored && !s.stored.empty())
+    if (source == TangentOrigin::stored && !s.stored.empty())
         return s.stored;
     return frame == Frame::vertex ? s.vertex : s.mikktspace;
 }
 
-f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentSource source, std::size_t triangle,
+f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
                                  glm::dvec3 barycentric, glm::dvec3 n)
 {
     if (frame == Frame::smooth) {
@@ -129,7 +129,7 @@ bool viewIndependent(Frame frame)
     return frame != Frame::nonperspective && frame != Frame::paperOrthogonal && frame != Frame::cotangent2013;
 }
 
-f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentSource tangents, std::size_t triangle,
+f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric)
 {
     const std::size_t a = 3 * triangle;

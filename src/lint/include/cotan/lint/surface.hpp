@@ -15,7 +15,7 @@
 namespace cotan {
 
 // Which tangents the frames `mikktspace` and `vertex` read.
-enum class TangentSource {
+enum class TangentOrigin {
     stored,    // those of the file; generated where it has none
     generated, // always derived from positions, normals and uv
 };
@@ -47,7 +47,7 @@ bool viewIndependent(Frame frame);
 // The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are
 // made of differences take the triangle's edges, which gives the same as a pixel's differences.
 // Degenerate input: as for the functions cotan_frame_NAME; no uv, or no tangents, give t = b = 0.
-f64::cotan_frame frameAt(const MappedSurface& surface, Frame frame, TangentSource tangents, std::size_t triangle,
+f64::cotan_frame frameAt(const MappedSurface& surface, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric);
 
 // A value per corner at a point of a triangle.
