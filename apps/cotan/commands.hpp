@@ -9,5 +9,6 @@ Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
 Command addLintCommand(CLI::App& app);
+Command addTangentsCommand(CLI::App& app);
 
 } // namespace cotan::app

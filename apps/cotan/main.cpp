@@ -26,7 +26,7 @@ int runCommandLine(int argc, char** argv)
     app.require_subcommand(1);
     app.footer(kFooter);
     std::vector<Command> commands;
-    for (auto add : {addRenderCommand, addCompareCommand, addAccuracyCommand, addLintCommand}) {
+    for (auto add : {addRenderCommand, addCompareCommand, addAccuracyCommand, addTangentsCommand, addLintCommand}) {
         commands.push_back(add(app));
         commands.back().app->footer(kFooter);
     }
