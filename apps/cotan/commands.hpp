@@ -9,6 +9,11 @@ Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
 Command addLintCommand(CLI::App& app);
+Command addConvertCommand(CLI::App& app);
 Command addTangentsCommand(CLI::App& app);
+Command addFiguresCommand(CLI::App& app);
+#ifdef COTAN_WITH_VULKAN
+Command addCostCommand(CLI::App& app);
+#endif
 
 } // namespace cotan::app

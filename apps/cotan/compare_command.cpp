@@ -71,6 +71,9 @@ Status run(const Options& o)
     const auto pair = parsePair(o.frames);
     if (!pair)
         return pair.error();
+    for (Frame frame : *pair)
+        if (Status fits = checkLighting(o.picture, frame); !fits)
+            return fits;
     auto picture = openPicture(o.picture, o.common, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();

@@ -26,7 +26,19 @@ int runCommandLine(int argc, char** argv)
     app.require_subcommand(1);
     app.footer(kFooter);
     std::vector<Command> commands;
-    for (auto add : {addRenderCommand, addCompareCommand, addAccuracyCommand, addTangentsCommand, addLintCommand}) {
+    constexpr Command (*kCommands[])(CLI::App&) = {
+        addRenderCommand,
+        addCompareCommand,
+        addFiguresCommand,
+        addAccuracyCommand,
+        addTangentsCommand,
+        addLintCommand,
+        addConvertCommand,
+#ifdef COTAN_WITH_VULKAN
+        addCostCommand,
+#endif
+    };
+    for (auto add : kCommands) {
         commands.push_back(add(app));
         commands.back().app->footer(kFooter);
     }

@@ -40,6 +40,9 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     view.camera = *parsed;
     view.lights = scene.lights.empty() ? defaultLights() : scene.lights;
     view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
+    view.lighting = options.lighting == "world" ? Lighting::world
+        : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
+                                                : Lighting::tangentPixel;
     view.rowsUpward = options.rows == "up";
     view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
     view.samples = options.samples;
@@ -64,6 +67,10 @@ void addPictureOptions(CLI::App& command, PictureOptions& o)
         ->type_name("DEVICE")->capture_default_str();
     command.add_option("--shading", o.shading, "pbr or blinn-phong")
         ->check(CLI::IsMember({"pbr", "blinn-phong"}))->type_name("NAME")->capture_default_str();
+    command.add_option("--lighting", o.lighting,
+                       "world, or, on the reference device and for comparison, tangent-vertex or tangent-pixel: light "
+                       "and view vectors are taken to tangent space")
+        ->check(CLI::IsMember({"world", "tangent-vertex", "tangent-pixel"}))->type_name("NAME")->capture_default_str();
     command.add_option("--tangents", o.tangents, "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
     command.add_option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4")
@@ -108,7 +115,8 @@ Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
                                              const CommonOptions& common, const Picture& picture)
 {
     std::string note;
-    auto painter = openPainter(options.device, common.threads, note);
+    const bool reference = options.device == "auto" && options.lighting != "world";
+    auto painter = openPainter(reference ? "reference" : options.device, common.threads, note);
     if (!painter)
         return painter;
     if (!note.empty())
@@ -116,6 +124,14 @@ Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
     return painter;
+}
+
+Status checkLighting(const PictureOptions& options, Frame frame)
+{
+    if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
+        return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                                      "mikktspace; found '{}'", name(frame)));
+    return Done{};
 }
 
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)

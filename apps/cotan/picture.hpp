@@ -16,6 +16,7 @@ struct PictureOptions {
     std::string camera;           // empty: the built-in scene's own, fit for a model
     std::string device = "auto";
     std::string shading = "pbr";
+    std::string lighting = "world";
     std::string tangents = "stored";
     std::string rows = "down";
     std::string derivatives = "fine";
@@ -40,7 +41,11 @@ struct Picture {
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames);
 
+// Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
+Status checkLighting(const PictureOptions& options, Frame frame);
+
 // The device that the options name, with the picture's scene loaded; a fallback is warned about.
+// Lighting in tangent space is drawn by the reference renderer unless another device is named.
 // The picture must outlive it.
 Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
                                              const CommonOptions& common, const Picture& picture);

@@ -79,6 +79,8 @@ Status run(const Options& o)
     const auto frame = parseFrame(o.frame);
     if (!frame)
         return frame.error();
+    if (Status fits = checkLighting(o.picture, *frame); !fits)
+        return fits;
     auto picture = openPicture(o.picture, o.common, {*frame, Frame::exact});
     if (!picture)
         return picture.error();

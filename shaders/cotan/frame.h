@@ -218,8 +218,8 @@ COTAN_FUNCTION cotan_vec3 cotan_adjugate_times(
     cotan_vec3 a = cross(c1, c2);
     cotan_vec3 b = cross(c2, c0);
     cotan_vec3 c = cross(c0, c1);
-    cotan_vec3 v = cotan_vec3(column.x, column.y, cotan_real(0.0));
-    return cotan_vec3(dot(a, v), dot(b, v), dot(c, v));
+    return cotan_vec3(a.x * column.x + a.y * column.y, b.x * column.x + b.y * column.y,
+        c.x * column.x + c.y * column.y);
 }
 
 // `paper-full`: the general solution of [2006], a full 3x3 inverse; t and b lie in the plane of
@@ -229,12 +229,12 @@ COTAN_FUNCTION cotan_frame cotan_frame_paper_full(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
     cotan_vec3 face = cross(dpdx, dpdy);
-    cotan_real determinant = dot(cross(dpdx, dpdy), face);
+    cotan_real determinant = dot(face, face);
     cotan_vec3 t =
         cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.x, duvdy.x)) / determinant;
     cotan_vec3 b =
         cotan_adjugate_times(dpdx, dpdy, face, cotan_vec2(duvdx.y, duvdy.y)) / determinant;
-    cotan_real longest = max(sqrt(dot(t, t)), sqrt(dot(b, b)));
+    cotan_real longest = sqrt(max(dot(t, t), dot(b, b)));
     cotan_frame f;
     f.t = t / longest;
     f.b = b / longest;

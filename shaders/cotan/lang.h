@@ -1,9 +1,10 @@
-// Cotan portable text, part 1 of 6: the language.
+// Cotan portable text: the language.
 //
 // The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The includer says which by
 // defining exactly one of the macros below; nothing is guessed from what a compiler predefines.
 // No file of the portable text includes another, so that it also works where shader sources are
-// simply joined. Order: lang.h first, then normal.h, frame.h, light.h as needed.
+// simply joined. Order: lang.h first, then normal.h, frame.h (or fused.h alone), gradient.h, blend.h,
+// light.h as needed.
 //
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later
@@ -56,7 +57,10 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using std::abs;
+using std::copysign;
 using std::exp2;
+using std::ilogb;
+using std::ldexp;
 using std::pow;
 using std::sqrt;
 inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
@@ -79,7 +83,7 @@ inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
 {
     m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
-    return std::ldexp(cotan_real(1), -std::ilogb(m));
+    return ldexp(cotan_real(1), -ilogb(m));
 }
 #else
 COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
@@ -87,6 +91,16 @@ COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
     m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
     cotan_uint exponent = cotan_float_bits(m) & 0x7f800000u;
     return cotan_bits_float((254u << 23) - exponent);
+}
+#endif
+
+// x with the sign bit of s. x: not negative. s: any; -0 counts as negative.
+#if defined(COTAN_LANG_CPP)
+inline cotan_real cotan_copy_sign(cotan_real x, cotan_real s) { return copysign(x, s); }
+#else
+COTAN_FUNCTION cotan_real cotan_copy_sign(cotan_real x, cotan_real s)
+{
+    return cotan_bits_float((cotan_float_bits(s) & 0x80000000u) | cotan_float_bits(x));
 }
 #endif
 

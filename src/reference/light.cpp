@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "tangent_space.hpp"
+
 namespace cotan::reference {
 
 namespace {
@@ -62,14 +64,17 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
 }
 
 glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
-                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow)
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
+                     const TangentSpace* tangent)
 {
     glm::vec3 radiance = surface.emissive;
     for (const PreparedLight& light : lights) {
         Arrival arrival = arrivalOf(light, point, shadow);
-        if (arrival.strength > 0)
-            radiance += light.radiance * arrival.strength
-                * reflected(surface, arrival.toLight, view.shading);
+        if (!(arrival.strength > 0))
+            continue;
+        radiance += light.radiance * arrival.strength
+            * (tangent ? reflected(tangent->surface, carried(*tangent, light, arrival.toLight), view.shading)
+                       : reflected(surface, arrival.toLight, view.shading));
     }
     if (view.environment)
         radiance += f32::cotan_reflect_environment(surface);

@@ -26,6 +26,8 @@ struct PreparedLight {
 // The view's lights; the first directional one casts the shadow, if the view has shadows.
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
+struct TangentSpace;
+
 // A shaded point, beyond what the portable text's surface holds.
 struct LitPoint {
     glm::vec3 position{0}; // relative to the eye
@@ -33,7 +35,9 @@ struct LitPoint {
 };
 
 // Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
+// tangent: where not null, lights are taken there and meet its surface in place of `surface`.
 glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
-                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow);
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
+                     const TangentSpace* tangent = nullptr);
 
 } // namespace cotan::reference

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "tangent_space.hpp"
+
 namespace cotan::reference {
 
 namespace {
@@ -69,7 +71,9 @@ glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
     LitPoint point{quad.position[std::size_t(lane)],
                    in.triangle->front ? normal.interpolated : -normal.interpolated};
-    return radianceOf(surface, point, all.view, all.lights, all.shadow);
+    const auto tangent = tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)],
+                                        all.projection.orthographic);
+    return radianceOf(surface, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad,

@@ -213,20 +213,28 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     else
         frame = evaluate(frameName, n, dpdx, dpdy, uv.dx, uv.dy);
 
-    SurfaceNormal result{n, n, finiteOrZero(frame.t), finiteOrZero(frame.b), uv.uv};
-    bool mapped =
+    SurfaceNormal result;
+    result.interpolated = result.finished = n;
+    result.t = finiteOrZero(frame.t);
+    result.b = finiteOrZero(frame.b);
+    result.uv = uv.uv;
+    result.frame = frame;
+    result.mapped =
         in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
-    if (mapped) {
+    if (result.mapped) {
         glm::vec4 texel =
             sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
         glm::vec3 m = f32::cotan_decode(glm::vec3(texel), decodingOf(material));
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
+        result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
     }
     // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
     // is a dent, so it is the finished normal that turns. t and b stay.
-    if (!in.triangle->front)
+    if (!in.triangle->front) {
         result.finished = -result.finished;
+        result.texel = -result.texel;
+    }
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/portable.hpp"
 #include "cotan/scene/view.hpp"
 #include "geometry.hpp"
 #include "raster.hpp"
@@ -54,6 +55,9 @@ struct SurfaceNormal {
     glm::vec3 t{0};
     glm::vec3 b{0};
     glm::vec2 uv{0};           // of the normal map
+    bool mapped = false;       // there is a normal map, and what follows is set
+    f32::cotan_frame frame{};  // that `finished` was made with
+    glm::vec3 texel{0, 0, 1};  // decoded, unit, in the frame; turned towards the camera's side
 };
 
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);

@@ -84,6 +84,9 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
 
 Status checkView(const Device& device, const View& view)
 {
+    if (view.lighting != Lighting::world)
+        return unavailableError("lighting in tangent space: only the reference renderer does it "
+                                "(--device reference)");
     const std::uint32_t largest =
         std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
                   device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],

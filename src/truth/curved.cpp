@@ -22,7 +22,7 @@ PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
     return PixelCamera::lookAt(target + direction * 4.0, target + random.direction() * 0.5, {0.1, 0.2, 1}, 1800);
 }
 
-// Frames against the truth that each claims, and what no frame can be better or should be worse than.
+// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse than.
 struct CurvedRows {
     FrameRows frames;
     AngleCollector none, normal, gradients, blinn;
@@ -31,9 +31,12 @@ struct CurvedRows {
     CurvedRows(const AccuracySelection& selection, Measurement names_) : names(std::move(names_))
     {
         for (const FrameInfo& f : cotan::frames()) {
+            const bool metric = f.frame == Frame::gradient;
             Measurement row = names;
-            row.truth = f.frame == Frame::gradient ? "E" : "S";
-            frames.add(selection, f.frame, std::move(row));
+            row.truth = metric ? "E" : "S";
+            frames.add(selection, f.frame, row);
+            row.truth = metric ? "S" : "E"; // what the other truth makes of it
+            frames.addOne(selection, f.frame, false, row);
         }
     }
 
@@ -48,7 +51,7 @@ struct CurvedRows {
         for (FrameRows::Row& row : frames.rows) {
             const bool isMetric = row.frame == Frame::gradient;
             const glm::dvec3 shaded = shade(row.frame, row.single, x, screen, isMetric ? metric : texel);
-            row.angles.add(degreesBetween(shaded, isMetric ? e : s));
+            row.angles.add(degreesBetween(shaded, row.names.truth == "E" ? e : s));
         }
         normal.add(degreesBetween(n, p.normal));
         none.add(degreesBetween(n, s));

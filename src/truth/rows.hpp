@@ -22,15 +22,20 @@ struct FrameRows {
     std::vector<Row> rows;
 
     // Adds both rows of a frame if it was selected. `names` without frame and arithmetic.
-    void add(const AccuracySelection& selection, Frame frame, Measurement names)
+    void add(const AccuracySelection& selection, Frame frame, const Measurement& names)
+    {
+        for (bool single : {false, true})
+            addOne(selection, frame, single, names);
+    }
+
+    // Adds one of them.
+    void addOne(const AccuracySelection& selection, Frame frame, bool single, Measurement names)
     {
         if (!selection.wants(frame))
             return;
         names.frame = name(frame);
-        for (bool single : {false, true}) {
-            names.arithmetic = single ? "float" : "double";
-            rows.push_back({frame, single, names, {}});
-        }
+        names.arithmetic = single ? "float" : "double";
+        rows.push_back({frame, single, std::move(names), {}});
     }
 
     void finish(std::vector<Measurement>& into)

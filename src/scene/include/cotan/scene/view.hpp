@@ -20,6 +20,16 @@ enum class Output {
 
 enum class Shading { pbr, blinnPhong };
 
+// Where lights meet a normal-mapped surface. The two others are there to be compared with the first:
+// they take vectors into tangent space, light the map's normal as it is read, and so ask for an
+// orthonormal frame. The environment is always read in the world. Reference renderer only.
+enum class Lighting {
+    world,         // the normal is taken to the world
+    tangentVertex, // light and view vectors are taken to tangent space by the transpose of t, b, n at
+                   // each vertex and interpolated; frames that bring tangents only, others as world
+    tangentPixel,  // the same in each pixel, by the inverse of the frame
+};
+
 // Which differences a 2x2 quad gives: of the pixel's own row and column, or one pair for all four.
 enum class Derivatives { fine, coarse };
 
@@ -30,6 +40,7 @@ struct View {
     int frame = 0;               // cotan::Frame as an integer
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
+    Lighting lighting = Lighting::world;
     std::vector<Light> lights;   // the first directional one casts shadows
     bool shadows = true;
     bool normalMaps = true;      // false: n as interpolated

@@ -1,0 +1,83 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// The fragment shader that `cotan cost` prices: differences, one texel, one row of rows.h (named by
+// COST_ROW), a colour. Interpolated inputs that the row does not use are not declared.
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "cotan/normal.h"
+#include "cotan/frame.h"
+#include "cotan/fused.h"
+#include "cost/rows.h"
+
+layout(location = 0) in vec3 position; // camera-relative
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+#ifdef COST_TANGENT
+layout(location = 3) in vec4 tangent;
+#endif
+#ifdef COST_COTANGENTS
+layout(location = 3) in vec3 cotangentU;
+layout(location = 4) in vec3 cotangentV;
+#endif
+#ifdef COST_EDGES
+layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Texcoords { float texcoords[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Indices { uint indices[]; };
+vec3 positionOf(uint v)
+{
+    return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
+}
+vec2 texcoordOf(uint v) { return vec2(texcoords[2u * v], texcoords[2u * v + 1u]); }
+#endif
+
+layout(set = 0, binding = 1) uniform sampler2D normalMap;
+layout(location = 0) out vec4 color;
+
+#ifdef COST_VARYINGS
+// For pricing the vertex stage: everything that is handed on is used, position included.
+void main()
+{
+    color = vec4(position + normal, 1.0) + uv.xyxy;
+#ifdef COST_TANGENT
+    color += tangent;
+#endif
+#ifdef COST_COTANGENTS
+    color += vec4(cotangentU * cotangentV, 0.0);
+#endif
+}
+#else
+void main()
+{
+    cost_inputs i;
+    i.n = normal;
+#ifdef COST_EDGES
+    uint first = 3u * uint(gl_PrimitiveID);
+    uint v0 = indices[first];
+    uint v1 = indices[first + 1u];
+    uint v2 = indices[first + 2u];
+    i.dpdx = positionOf(v1) - positionOf(v0);
+    i.dpdy = positionOf(v2) - positionOf(v0);
+    i.duvdx = texcoordOf(v1) - texcoordOf(v0);
+    i.duvdy = texcoordOf(v2) - texcoordOf(v0);
+#else
+    i.dpdx = dFdx(position);
+    i.dpdy = dFdy(position);
+    i.duvdx = dFdx(uv);
+    i.duvdy = dFdy(uv);
+#endif
+#ifdef COST_TANGENT
+    i.tangent = tangent;
+#endif
+#ifdef COST_COTANGENTS
+    i.cotangent_u = cotangentU;
+    i.cotangent_v = cotangentV;
+#endif
+    // The shortest decoding; how a map is stored is not the frame's price.
+    i.m = texture(normalMap, uv).xyz * 2.0 - 1.0;
+#ifdef COST_FACING
+    if (!gl_FrontFacing)
+        i.m = vec3(-i.m.xy, i.m.z);
+#endif
+    color = vec4(COST_ROW(i) * 0.5 + 0.5, 1.0);
+}
+#endif

@@ -1,0 +1,111 @@
+// Cotan portable text: frame and texel in one step, for shaders that count instructions. Needs
+// lang.h only.
+//
+//   cotan_perturb_NAME(n, dpdx, dpdy, duvdx, duvdy, m)  =  cotan_apply(cotan_frame_NAME(...), m)
+//
+// to rounding, for sound input; frame.h is the definition and says what the arguments are. n is the
+// interpolated normal and need not be unit: its length cancels, which is cheaper than normalising
+// it. m is the decoded texel. The result is unit.
+//
+// All carry the sign of n . (dpdx x dpdy) and need no front-face flag. None of them gives a NaN for
+// constant uv, zero differences, a footprint without area or an empty texel (m = 0). They are not
+// total like the frames they stand for; not covered are
+// - non-finite input, and n shorter than 0.01: the result is then undefined (it may be NaN);
+// - extreme scales: (longest position difference) * (longest uv difference) must lie between 1e-12
+//   and 1e5, and each between 1e-9 and 1e6; below, the bumps fade or leave, above, sums overflow.
+//   With metres and a map repeated every millimetre to every kilometre, footprints of a
+//   micrometre to a hundred metres are inside.
+// Where a frame has no t and b (constant uv), the result is n. Where uv vary along one line only, or
+// the footprint has no area, each function says what it gives.
+
+#ifndef COTAN_FUSED_H
+#define COTAN_FUSED_H
+
+// Added to m.z: too small to change a normal, and it leaves n where everything else has vanished.
+#define COTAN_FUSED_REST cotan_real(1e-16)
+
+// `cotangent`, fused. uv along one line, or a footprint without area: as the frame (t parallel to
+// b), but for the sign, which is then rounding.
+// How: with t' and b' from the n as it is, t = t'/|n|; multiplied by |n|, the sum is
+// t' m.x |n|/L + b' m.y |n|/L + n m.z, where L is the longer of t' and b'.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
+{
+    cotan_vec3 dpdy_perp = cross(dpdy, n);
+    cotan_vec3 dpdx_perp = cross(n, dpdx);
+    cotan_vec3 t = dpdy_perp * duvdx.x + dpdx_perp * duvdy.x;
+    cotan_vec3 b = dpdy_perp * duvdx.y + dpdx_perp * duvdy.y;
+    cotan_real n2 = dot(n, n);
+    cotan_real longest2 = max(max(dot(t, t), dot(b, b)), cotan_real(1e-30));
+    cotan_real scale = n2 * cotan_inversesqrt(n2 * longest2);
+    scale = cotan_copy_sign(scale, dot(dpdx, dpdy_perp));
+    cotan_vec3 v = t * (m.x * scale) + b * (m.y * scale) + n * (m.z + COTAN_FUSED_REST);
+    return v * cotan_inversesqrt(dot(v, v));
+}
+
+// `cotangent` with an area-normalised scale, cheaper: t and b are divided by sqrt(|t x b|), the
+// geometric mean of their lengths where they are perpendicular, instead of by the longer. There is
+// no frame of this name in frame.h. What it changes, exactly: all slopes are those of `cotangent`
+// times
+//     k = sqrt(L^2 / |t x b|)  >=  1,    L the longer of |t| and |b|
+// with direction, skew and relative lengths kept. So on conformal uv (square texels, any rotation
+// or mirroring) k = 1 and nothing changes; on uv stretched a:1, k = sqrt(a) (2:1: slopes are 1.41
+// times as steep); sheared by an angle s, k = 1/cos(s) (45 degrees: 1.41). Like `cotangent` it does
+// not depend on the size of the object or of the pixel. A map must be made for the scale it is read
+// with. Where uv vary along one line only, or the footprint has no area, k grows without bound: the
+// result then tends towards a normal in the surface.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
+{
+    cotan_vec3 dpdy_perp = cross(dpdy, n);
+    cotan_vec3 dpdx_perp = cross(n, dpdx);
+    cotan_real m_x = duvdx.x * m.x + duvdx.y * m.y;
+    cotan_real m_y = duvdy.x * m.x + duvdy.y * m.y;
+    cotan_real determinant = dot(dpdx, dpdy_perp);
+    cotan_real uv_area = duvdx.x * duvdy.y - duvdx.y * duvdy.x;
+    // t' x b' = n * determinant * uv_area, for t' and b' from the n as it is.
+    cotan_real area = abs(determinant * uv_area) * cotan_inversesqrt(dot(n, n));
+    cotan_real scale = cotan_inversesqrt(max(area, cotan_real(1e-26)));
+    scale = cotan_copy_sign(scale, determinant);
+    cotan_vec3 v = dpdy_perp * (m_x * scale) + dpdx_perp * (m_y * scale)
+        + n * (m.z + COTAN_FUSED_REST);
+    return v * cotan_inversesqrt(dot(v, v));
+}
+
+// `gradient`, fused; the division by the determinant is left to the final normalisation. A footprint
+// without area: a normal in the surface, the limit of its slope, where the frame gives n.
+// Besides the limits above: the footprint's area |dpdx x dpdy| at least 1e-10, with the units of
+// length that the positions are in; below it, bumps fade.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_gradient(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
+{
+    cotan_vec3 dpdy_perp = cross(dpdy, n);
+    cotan_vec3 dpdx_perp = cross(n, dpdx);
+    cotan_real determinant = dot(dpdx, dpdy_perp);
+    cotan_real scale = cotan_copy_sign(sqrt(dot(n, n)), determinant);
+    cotan_real m_x = duvdx.x * m.x + duvdx.y * m.y;
+    cotan_real m_y = duvdy.x * m.x + duvdy.y * m.y;
+    cotan_vec3 v = dpdy_perp * (m_x * scale) + dpdx_perp * (m_y * scale)
+        + n * (m.z * abs(determinant) + COTAN_FUSED_REST);
+    return v * cotan_inversesqrt(dot(v, v));
+}
+
+// `orthonormal`, fused. uv without area: n leaned by nothing, as the frame. A footprint without
+// area: as the frame, but for the sign of b, which is then rounding.
+// How: b' = n x (dP/du), t' = b' x n; |t'| = |n| |b'|.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_orthonormal(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
+{
+    cotan_vec3 b = cross(n, dpdx * duvdy.y - dpdy * duvdx.y);
+    cotan_vec3 t = cross(b, n);
+    cotan_real uv_area = duvdx.x * duvdy.y - duvdx.y * duvdy.x;
+    cotan_real side = dot(n, cross(dpdx, dpdy));
+    cotan_real scale = cotan_inversesqrt(max(dot(b, b), cotan_real(1e-30)));
+    scale = abs(uv_area) > cotan_real(0.0) ? scale : cotan_real(0.0);
+    cotan_real m_x = m.x * cotan_copy_sign(scale, uv_area);
+    cotan_real m_y = m.y * sqrt(dot(n, n)) * cotan_copy_sign(scale, side);
+    cotan_vec3 v = t * m_x + b * m_y + n * (m.z + COTAN_FUSED_REST);
+    return v * cotan_inversesqrt(dot(v, v));
+}
+
+#endif

@@ -1,0 +1,109 @@
+#include "devices.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+namespace cotan::cost {
+
+namespace {
+
+std::string lower(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool hasExtension(const vk::raii::PhysicalDevice& physical, const char* name)
+{
+    for (const vk::ExtensionProperties& e : physical.enumerateDeviceExtensionProperties())
+        if (std::strcmp(e.extensionName, name) == 0)
+            return true;
+    return false;
+}
+
+Device describe(vk::raii::PhysicalDevice physical)
+{
+    const auto properties =
+        physical
+            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
+    Device d;
+    d.name = core.deviceName.data();
+    d.driver = std::string(driver.driverName.data()) + ", " + std::string(driver.driverInfo.data());
+    d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
+    d.radv = driver.driverID == vk::DriverId::eMesaRadv;
+    d.reports = hasExtension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    d.missing = core.apiVersion < VK_API_VERSION_1_3 ? "needs Vulkan 1.3" : "has no graphics queue";
+    const auto families = physical.getQueueFamilyProperties();
+    for (std::size_t i = 0; i < families.size() && core.apiVersion >= VK_API_VERSION_1_3; ++i)
+        if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) {
+            d.queueFamily = static_cast<std::uint32_t>(i);
+            d.missing.clear();
+            if (families[i].timestampValidBits > 0)
+                d.nanoseconds = double(core.limits.timestampPeriod);
+            break;
+        }
+    d.physical = std::move(physical);
+    return d;
+}
+
+} // namespace
+
+Instance openInstance()
+{
+    Instance i;
+    const vk::ApplicationInfo application("cotan cost", 1, "cotan", 1, VK_API_VERSION_1_3);
+    i.instance = vk::raii::Instance(i.context, vk::InstanceCreateInfo({}, &application));
+    return i;
+}
+
+std::vector<Device> listDevices(const Instance& instance)
+{
+    std::vector<Device> devices;
+    for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance.instance))
+        devices.push_back(describe(std::move(physical)));
+    return devices;
+}
+
+void open(Device& d)
+{
+    const auto has = d.physical.getFeatures();
+    vk::PhysicalDeviceVulkan13Features use13;
+    use13.dynamicRendering = VK_TRUE;
+    use13.synchronization2 = VK_TRUE;
+    vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
+    if (d.reports)
+        use13.pNext = &report;
+    vk::PhysicalDeviceFeatures2 use;
+    use.features.geometryShader = has.geometryShader; // what reading gl_PrimitiveID asks for
+    use.pNext = &use13;
+    std::vector<const char*> extensions;
+    if (d.reports)
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
+    d.device =
+        vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
+}
+
+bool wanted(const std::string& name, const std::vector<std::string>& names)
+{
+    return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
+               return lower(name).find(lower(n)) != std::string::npos;
+           });
+}
+
+std::string reason(const std::exception& e)
+{
+    const auto* failed = dynamic_cast<const vk::SystemError*>(&e);
+    if (failed && failed->code() == vk::Result::eErrorIncompatibleDriver)
+        return "no driver is installed (the loader found no usable ICD)";
+    std::string text = e.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+} // namespace cotan::cost

@@ -1,0 +1,56 @@
+// What drivers say about the machine code they make (VK_KHR_pipeline_executable_properties).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cotan/cost/rows.hpp"
+#include "cotan/result.hpp"
+
+namespace cotan::cost {
+
+// One compiled stage. Names differ between drivers; what a driver does not report is empty.
+struct StageCode {
+    std::optional<double> instructions;
+    std::optional<double> registers; // per thread (vector registers where there are two kinds)
+    std::optional<double> bytes;     // of code
+    std::optional<double> inverseThroughput;         // the driver's estimate, its unit
+    std::optional<double> latency;                   // the driver's estimate, its unit
+    std::vector<std::pair<std::string, double>> all; // every number, by the driver's name
+};
+
+struct RowCode {
+    std::string_view row;
+    StageCode fragment;
+};
+
+struct VertexCode {
+    Stored stored = Stored::nothing;
+    StageCode vertex;
+};
+
+struct DeviceCode {
+    std::string name;
+    std::string driver;  // name and version
+    std::string family;  // where Mesa's Radeon driver compiled for a card that is not here
+    std::string silence; // why there are no numbers; empty where there are
+    std::vector<RowCode> rows;
+    std::vector<VertexCode> vertices; // each with a fragment stage that uses all it hands on
+};
+
+// The families that are asked for when nothing else is said.
+const std::vector<std::string>& usualFamilies();
+
+// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices`
+// (any case; empty: all of them). Errors: ErrorKind::unavailable where Vulkan cannot be used at
+// all.
+Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
+                                                     const std::vector<std::string>& devices);
+
+// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is
+// needed. Sets the environment variable for the duration: not for programs with other threads.
+DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family);
+
+} // namespace cotan::cost

@@ -1,0 +1,50 @@
+// What is priced: one row per way to perturb a normal.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace cotan::cost {
+
+// What is stored at the vertices beside position, normal and uv.
+enum class Stored {
+    nothing,
+    tangent,    // one float4, 16 bytes
+    cotangents, // two float3, 24 bytes, derived when the mesh is loaded
+};
+
+enum class Group { floor, stored, fused, plain, total, papers };
+
+struct Row {
+    std::string_view name; // as on the command line; "floor" is the first
+    Group group;
+    Stored stored;
+    int instructionsOf2006 = 0; // as published in the 2006 chapter; 0: not among its four
+    int bytesPerPixel = 0;      // buffer reads of the fragment stage, without the normal map
+    std::string_view what;      // one line
+    std::span<const std::uint32_t> fragment; // SPIR-V
+};
+
+const std::vector<Row>& rows();
+
+// Nothing where there is no row of that name.
+const Row* rowFromName(std::string_view name);
+
+struct VertexStage {
+    Stored stored;
+    std::string_view name;
+    int bytes; // of the attributes beside position, normal and uv, per vertex
+    std::span<const std::uint32_t> vertex;   // SPIR-V
+    std::span<const std::uint32_t> consumer; // a fragment stage that uses all it hands on
+};
+
+// In the order of Stored.
+const std::vector<VertexStage>& vertexStages();
+const VertexStage& vertexStage(Stored stored);
+
+// Name and version of what made the SPIR-V.
+std::string_view spirvCompiler();
+
+} // namespace cotan::cost

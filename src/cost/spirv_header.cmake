@@ -1,0 +1,6 @@
+# Turns a SPIR-V file into a header: SPIRV (in), HEADER (out), SYMBOL.
+file(READ ${SPIRV} bytes HEX)
+string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1u," words "${bytes}")
+string(REGEX REPLACE "((0x........u,)(0x........u,)(0x........u,)(0x........u,)(0x........u,)(0x........u,))"
+  "\\1\n" words "${words}")
+file(WRITE ${HEADER} "inline constexpr std::uint32_t ${SYMBOL}[] = {\n${words}};\n")

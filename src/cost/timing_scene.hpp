@@ -1,0 +1,41 @@
+// What is drawn to be timed: a square of triangles, a normal map, a target.
+#pragma once
+
+#include "pipeline.hpp"
+
+namespace cotan::cost {
+
+inline constexpr std::uint32_t kTargetSize = 1024; // pixels, both ways
+
+struct Buffer {
+    vk::raii::Buffer buffer{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+};
+
+struct Picture {
+    vk::raii::Image image{nullptr};
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::raii::ImageView view{nullptr};
+};
+
+// The square as a grid of right-angled triangles.
+struct Grid {
+    std::vector<Buffer> vertices; // in the order of Stored
+    Buffer indices;
+    Buffer positions; // of the exact frame, as are the next
+    Buffer texcoords;
+    std::uint32_t indexCount = 0;
+};
+
+// Host-visible memory everywhere: the data is read once per draw. All throw vk::SystemError.
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data,
+                  std::size_t bytes);
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
+                    vk::ImageUsageFlags usage);
+Grid makeGrid(const Device& device, int leg);
+
+// A commands buffer's image barrier, all stages.
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from,
+                vk::ImageLayout to);
+
+} // namespace cotan::cost

@@ -1,0 +1,54 @@
+// A page of pictures: one HTML file that needs no other and no network.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cotan {
+
+struct PagePanel {
+    std::string file;    // name of the PNG beside the page
+    std::string label;   // a few words, also for those who cannot see the picture
+    std::string caption; // one or two sentences; may be empty
+    std::string png;     // the bytes of the PNG
+    int width = 0;       // pixels
+    int height = 0;      // pixels
+};
+
+struct PageTable {
+    std::string caption;
+    std::vector<std::string> head;
+    std::vector<std::vector<std::string>> rows; // each as long as head
+};
+
+struct PageFigure {
+    std::string name;              // unique in the page
+    std::string title;
+    std::vector<std::string> text; // paragraphs
+    std::string command;           // the command line that makes it
+    std::vector<PagePanel> panels;
+    std::vector<std::pair<std::size_t, std::size_t>> sliders; // panels of one size: before, after
+    std::vector<PageTable> tables;
+};
+
+struct Page {
+    std::string title;
+    std::vector<std::string> text;
+    std::vector<PageFigure> figures;
+    std::string footer;
+};
+
+// Text that HTML shows as it is, inside elements and quoted attributes.
+std::string escapeHtml(std::string_view text);
+
+// RFC 4648 base64, with padding.
+std::string toBase64(std::string_view bytes);
+
+// The page. Every picture is inside it once, as a data URI; before and after are compared with a
+// slider, which a few lines of script make from two of the pictures: without script they stand side by side.
+std::string toHtml(const Page& page);
+
+} // namespace cotan

@@ -1,0 +1,7 @@
+cotan_test(figures_test
+  SOURCES figures_test.cpp
+  LIBRARIES cotan_asset cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+target_compile_definitions(figures_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+add_dependencies(figures_test cotan)
+
+cotan_test(lighting_test SOURCES lighting_test.cpp LIBRARIES cotan_reference cotan_core cotan_app)
