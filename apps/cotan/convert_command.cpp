@@ -72,7 +72,7 @@ Result<FramePair> checkUsage(const Options& o)
 void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
 {
     const double texels = double(r.image.pixelCount());
-    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} primitives, texels turn by {} degrees", job.name, r.image.width,
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surfaces, texels turn by {} degrees", job.name, r.image.width,
                               r.image.height, 100 * double(r.covered) / texels, job.uses.size(), triple(r.moved)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
@@ -105,11 +105,11 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
     if (!map)
         return map.error();
     if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
-        return inputError(fmt::format("{}: {}: the uv repeat the map {:.3g} times in all, expected at most {:.0g}", o.model, job.name,
+        return inputError(fmt::format("{}: {}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", o.model, job.name,
                                       copies, kMostCopies));
     const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
     Progress progress(o.common, std::size_t(map->height), "rows of " + job.name);
-    const Reencoded r = reencode(*map, job.uses, frames, bits, [&] { progress.step(); });
+    const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
     auto png = encodePng(r.image);
     if (!png)
         return png.error();

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "cotan/bake/uv_raster.hpp"
 #include "cotan/convert/solve_texel.hpp"
@@ -107,9 +108,7 @@ public:
 
     Reencoded run(const std::function<void()>& rowDone)
     {
-        auto overRows = [&](auto work) {
-            oneapi::tbb::parallel_for(0, map_.height, [&](int y) { work(y); });
-        };
+        auto overRows = [&](const auto& work) { oneapi::tbb::parallel_for(0, map_.height, work); };
         overRows([&](int y) {
             solveRow(y);
             if (rowDone)
@@ -252,8 +251,9 @@ private:
         if (conflict > kDisagree) {
             ++c.disagreeing;
             c.disagreement.add(conflict);
+        } else {
+            c.error.add(worst(demands, stored));
         }
-        c.error.add(worst(demands, stored));
         c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
     }
 
@@ -318,9 +318,12 @@ private:
 } // namespace
 
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   const std::function<void()>& rowDone)
+                   int threads, const std::function<void()>& rowDone)
 {
-    return Reencoder(map, uses, frames, bits).run(rowDone);
+    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
+    Reencoded result;
+    arena.execute([&] { result = Reencoder(map, uses, frames, bits).run(rowDone); });
+    return result;
 }
 
 double copiesOf(std::span<const MapUse> uses)

@@ -36,15 +36,15 @@ struct Reencoded {
     std::size_t belowHorizon = 0; // texels with z <= 0
     Spread moved;               // degrees between old and new decoded texel, covered ones
     Spread disagreement;        // degrees of the worst place, before rounding, of the disagreeing
-    Spread error;               // degrees of the worst place after rounding, of all covered ones
+    Spread error;               // degrees of the worst place after rounding, of the covered that agree
 };
 
-// map: usable. bits: 8 or 16 a component of the result. rowDone is called for every row from any thread.
+// map: with all its data. bits: 8 or 16 a component of the result. threads: 0 for all cores. rowDone is called for every row from any thread.
 // Alpha is kept; texels that stand for nothing (decoded z <= 0 where no triangle is, or a map that no
 // use covers) are kept as they are. Mip levels are not part of an image here: viewers make them from
 // the result. The same result whatever the number of threads.
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   const std::function<void()>& rowDone = {});
+                   int threads = 0, const std::function<void()>& rowDone = {});
 
 // How many copies of the image the triangles' boxes cover in all: what the work is proportional to.
 double copiesOf(std::span<const MapUse> uses);
