@@ -77,6 +77,8 @@ TEST(Convert, onAPatchStretchedTwoToOneCotangentNeedsTwiceTheSlopeAlongU)
         for (int x = 0; x < 32; ++x)
             EXPECT_LT(degrees(texelOf(r.image, x, y), expected), 0.01); // 16 bits and float positions
     EXPECT_NEAR(r.moved.mean, degrees(old, expected), 0.01);
+    // Left alone, cotangent would have halved the slope along u.
+    EXPECT_NEAR(r.unconverted.mean, degrees(old, glm::normalize(glm::dvec3(old.x / 2, old.y, old.z))), 0.01);
     EXPECT_LT(r.error.maximum, 0.01);
     EXPECT_LT(reencode(map, uses, kToCotangent, 8).error.maximum, k8Bits);
 }

@@ -4,6 +4,7 @@
 
 #include "convert_gltf.hpp"
 #include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
 #include "cotan/lint/texel.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
@@ -72,14 +73,15 @@ Result<FramePair> checkUsage(const Options& o)
 void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
 {
     const double texels = double(r.image.pixelCount());
-    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surfaces, texels turn by {} degrees", job.name, r.image.width,
-                              r.image.height, 100 * double(r.covered) / texels, job.uses.size(), triple(r.moved)));
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surface{}; read with {} as it is, off by {} degrees", job.name, r.image.width,
+                              r.image.height, 100 * double(r.covered) / texels, job.uses.size(), job.uses.size() == 1 ? "" : "s", o.to,
+                              triple(r.unconverted)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
                                   r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
                                   kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", triple(r.disagreement)) : ""));
-    say(o.common, fmt::format("  after rounding to {} bits off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
-                              r.image.type == PixelType::unorm16 ? 16 : 8, triple(r.error), r.padded, after, before));
+    say(o.common, fmt::format("  converted and rounded to {} bits{} off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
+                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", triple(r.error), r.padded, after, before));
     if (r.belowHorizon > 0)
         say(o.common, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
 }
@@ -90,7 +92,7 @@ nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size
             {"bits", r.image.type == PixelType::unorm16 ? 16 : 8}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
             {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
             {"disagreement_degrees", json(r.disagreement)}, {"moved_degrees", json(r.moved)},
-            {"degrees_after_rounding", json(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
+            {"degrees_unconverted", json(r.unconverted)}, {"degrees_after_rounding", json(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
             {"bytes_before", before}, {"bytes_after", after}};
 }
 
@@ -168,6 +170,12 @@ Status run(const Options& o)
     if (!frames)
         return frames.error();
     Stopwatch watch;
+    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
+    const auto scene = loadGltf(o.model);
+    if (!scene)
+        return scene.error();
+    for (const std::string& line : scene->warnings)
+        warn(o.common, line);
     auto document = openGltfDocument(o.model);
     if (!document)
         return document.error();

@@ -28,7 +28,7 @@ glm::dmat3 matrixOf(const f64::cotan_frame& f, const f64::cotan_normal_format& f
 
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
-    convert::Tally moved, disagreement, error;
+    convert::Tally moved, unconverted, disagreement, error;
 };
 
 class Reencoder {
@@ -62,6 +62,7 @@ public:
         RowCounts all;
         for (const RowCounts& r : rows_) { // in order: sums are the same however many threads there are
             all.moved.add(r.moved);
+            all.unconverted.add(r.unconverted);
             all.disagreement.add(r.disagreement);
             all.error.add(r.error);
             result_.covered += r.covered;
@@ -71,6 +72,7 @@ public:
             result_.belowHorizon += r.belowHorizon;
         }
         result_.moved = all.moved.spread();
+        result_.unconverted = all.unconverted.spread();
         result_.disagreement = all.disagreement.spread();
         result_.error = all.error.spread();
         return std::move(result_);
@@ -195,6 +197,7 @@ private:
         } else {
             c.error.add(worst(demands, stored));
         }
+        c.unconverted.add(worst(demands, old));
         c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
     }
 

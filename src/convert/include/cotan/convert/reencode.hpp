@@ -35,6 +35,7 @@ struct Reencoded {
     std::size_t disagreeing = 0; // ... and off by over kDisagree in one of them, before rounding
     std::size_t belowHorizon = 0; // texels with z <= 0
     Spread moved;               // degrees between old and new decoded texel, covered ones
+    Spread unconverted;         // degrees of the worst place if the old map were read with the new frame
     Spread disagreement;        // degrees of the worst place, before rounding, of the disagreeing
     Spread error;               // degrees of the worst place after rounding, of the covered that agree
 };
