@@ -244,6 +244,7 @@ TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
         {{"far/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
         {{"broken/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
         {{"quad.gltf", "--to", "cotangent", "-o", "no/such/folder/out.glb"}, 4},
+        {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "waves.png"}, 4},
     };
     for (const auto& c : cases) {
         std::vector<std::string> words = c.words;

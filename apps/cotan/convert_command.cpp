@@ -186,6 +186,9 @@ Status run(const Options& o)
     nlohmann::ordered_json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
                                      {"tangents_read", o.tangents}, {"output", o.common.output.string()},
                                      {"maps", nlohmann::ordered_json::array()}};
+    if (!o.verify.empty()) // before anything is written
+        if (Status made = makeFolder(o.verify); !made)
+            return made;
     if (jobs->empty())
         notes.push_back("no primitive has a normal map and uv: nothing to convert");
     else
