@@ -9,10 +9,12 @@ Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
 Command addBakeCommand(CLI::App& app);
+Command addTangentsCommand(CLI::App& app);
+Command addLintCommand(CLI::App& app);
+Command addConvertCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);
 #endif
-Command addTangentsCommand(CLI::App& app);
 
 } // namespace cotan::app

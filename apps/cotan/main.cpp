@@ -33,6 +33,8 @@ int runCommandLine(int argc, char** argv)
         addAccuracyCommand,
         addBakeCommand,
         addTangentsCommand,
+        addLintCommand,
+        addConvertCommand,
 #ifdef COTAN_WITH_VULKAN
         addCostCommand,
 #endif
