@@ -29,9 +29,7 @@ TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
         first += mesh.indices.size();
     }
     EXPECT_EQ(first, expected.size());
-    // Loading makes normals unit. In BoomBox that makes a few vertices equal whose normals differ
-    // in the last bit, and so joins groups that are apart in the file: four corners.
-    EXPECT_LE(apart, model.stem() == "BoomBox" ? 4u : 0u);
+    EXPECT_EQ(apart, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(

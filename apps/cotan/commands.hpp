@@ -8,6 +8,10 @@ namespace cotan::app {
 Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
+Command addBakeCommand(CLI::App& app);
+Command addTangentsCommand(CLI::App& app);
+Command addLintCommand(CLI::App& app);
+Command addConvertCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
 Command addShaderCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN

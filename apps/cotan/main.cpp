@@ -31,6 +31,10 @@ int runCommandLine(int argc, char** argv)
         addCompareCommand,
         addFiguresCommand,
         addAccuracyCommand,
+        addBakeCommand,
+        addTangentsCommand,
+        addLintCommand,
+        addConvertCommand,
         addShaderCommand,
 #ifdef COTAN_WITH_VULKAN
         addCostCommand,

@@ -38,7 +38,8 @@ struct MeshView {
 // the tangent is some unit vector perpendicular to the normal, w = +1.
 // Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
 // mikktspace.h with its default angular threshold of 180 degrees.
-std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh);
+// threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
+std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 
 // The classic procedure: dP/du of every triangle from its edges, normalised, summed per vertex
 // without weights, made perpendicular to the normal. Mirrored and unmirrored charts are kept apart.

@@ -2,7 +2,6 @@
 //
 // tinygltf parses the structure; it does not get to see buffers, images or the file system. What
 // it would believe without looking (types, indices, lengths) is checked before and after it.
-#include <limits>
 #include <map>
 #include <new>
 
@@ -14,31 +13,6 @@
 namespace cotan {
 
 namespace {
-
-// The structure as tinygltf understands it. Buffers and images are kept from it and are all that
-// is left in `json` afterwards; animations are not used.
-tinygltf::Model parseStructure(nlohmann::json& json)
-{
-    nlohmann::json structure = std::move(json);
-    json = nlohmann::json::object();
-    for (const char* const ours : {"buffers", "images"})
-        if (structure.contains(ours))
-            json[ours] = std::move(structure[ours]);
-    for (const char* const unused : {"buffers", "images", "animations", "extras"})
-        structure.erase(unused);
-    const std::string text = structure.dump();
-    structure = nullptr;
-    if (text.size() > std::numeric_limits<unsigned>::max())
-        failGltf("JSON: the structure has {} bytes, the limit is 4 GiB", text.size());
-    tinygltf::Model model;
-    tinygltf::TinyGLTF parser;
-    std::string problem;
-    std::string warning;
-    if (!parser.LoadASCIIFromString(&model, &problem, &warning, text.data(),
-                                    static_cast<unsigned>(text.size()), ""))
-        failGltf("{}", problem.empty() ? "not a valid glTF structure" : problem);
-    return model;
-}
 
 // A mesh of the file as one node needs it: primitives depend on the node where there are morph
 // weights or a skin.
@@ -194,7 +168,7 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
     model.file = openGltf(path, limits, model.warnings);
     checkGltfShape(model.file.json, limits, model.warnings);
     loadGltfBuffers(model.file, limits);
-    model.tiny = parseStructure(model.file.json);
+    model.tiny = parseGltfStructure(model.file.json);
     checkGltfAccessors(model);
 
     Scene scene;

@@ -88,12 +88,12 @@ void checkDepth(std::string_view text)
     }
 }
 
-json parseText(std::span<const std::byte> bytes)
+template<class Json> Json parseText(std::span<const std::byte> bytes)
 {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     checkDepth(text);
     try {
-        return json::parse(text);
+        return Json::parse(text);
     } catch (const json::exception& problem) {
         failGltf("JSON: {}", problem.what());
     }
@@ -197,7 +197,8 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
 
 } // namespace
 
-GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
+GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings,
+                  bool keepOrder)
 {
     GltfFile file;
     Result<std::vector<std::byte>> bytes = readFileBytes(path, limits.fileBytes);
@@ -212,7 +213,9 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
         splitChunks(file, warnings);
     else
         file.text = file.bytes;
-    file.json = parseText(file.text);
+    file.json = parseText<json>(file.text);
+    if (keepOrder)
+        file.ordered = parseText<nlohmann::ordered_json>(file.text);
     if (!file.isBinary)
         file.bytes = {}; // large where buffers are embedded as text
     file.text = {};

@@ -29,6 +29,7 @@ struct GltfFile {
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
     nlohmann::json json;
+    nlohmann::ordered_json ordered; // the same in the order of the file, where it was asked for
     std::vector<std::span<const std::byte>> buffers; // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
@@ -36,10 +37,10 @@ struct GltfFile {
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
 // the file; JSON nested deeper than kGltfDepth is refused before it is parsed, because the
-// parsers behind this recurse.
+// parsers behind this recurse. keepOrder: fills `ordered` too.
 inline constexpr int kGltfDepth = 128;
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits,
-                  GltfWarnings& warnings);
+                  GltfWarnings& warnings, bool keepOrder = false);
 
 // Fills GltfFile::buffers. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);

@@ -15,6 +15,10 @@ namespace {
 // to sqrt(3)/2/127 = 0.0069.
 constexpr float kUnitTolerance = 0.01f;
 
+// Lengths within this of one are unit as far as floats and six decimals go. Such normals keep their
+// bits: normalising again would make some equal that differ, and weld their vertices.
+constexpr double kUnitRounding = 2e-6;
+
 // ---- normals --------------------------------------------------------------------------------
 
 template<class T> void spread(std::vector<T>& values, const std::vector<std::uint32_t>& order)
@@ -62,7 +66,8 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
         const double length = glm::length(glm::dvec3(n));
         zero += length == 0;
         odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
-        n = unitOrZero(n);
+        if (std::abs(length - 1) > kUnitRounding)
+            n = unitOrZero(n);
     }
     if (zero > 0)
         warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");

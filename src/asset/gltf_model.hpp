@@ -29,6 +29,12 @@ struct GltfModel {
     std::size_t trianglesTaken = 0; // against limits.triangles
 };
 
+// ---- gltf_structure.cpp ---------------------------------------------------------------------
+
+// The structure as tinygltf understands it. Buffers and images are kept from it and are all that
+// is left in `json` afterwards; animations are not used.
+tinygltf::Model parseGltfStructure(nlohmann::json& json);
+
 // ---- gltf_accessor.cpp ----------------------------------------------------------------------
 
 // Checks all buffer views, and all accessors with their sparse parts, against the buffers, and

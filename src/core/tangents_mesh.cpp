@@ -15,14 +15,15 @@ bool usable(const MeshView& mesh)
                        [count](std::uint32_t i) { return i < count; });
 }
 
-std::vector<std::uint32_t> weld(const MeshView& mesh)
+std::vector<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
 {
-    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), [&](std::uint32_t i) {
+    const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
         const glm::vec2 t = mesh.texcoords[i];
         return std::array{bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x),
                           bitsOf(n.y), bitsOf(n.z), bitsOf(t.x), bitsOf(t.y)};
-    });
+    };
+    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads);
 }
 
 glm::vec3 anyPerpendicular(glm::vec3 n)
@@ -34,13 +35,6 @@ glm::vec3 anyPerpendicular(glm::vec3 n)
                                                     : glm::vec3(0, 0, 1);
     const glm::vec3 t = normalizeOrZero(axis - n * (glm::dot(axis, n) / glm::dot(n, n)));
     return glm::dot(t, t) > 0.5f ? t : glm::vec3(1, 0, 0);
-}
-
-float projectedAngle(glm::vec3 corner, glm::vec3 previous, glm::vec3 next, glm::vec3 n)
-{
-    const glm::vec3 a = projectedUnit(previous - corner, n);
-    const glm::vec3 b = projectedUnit(next - corner, n);
-    return std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
 }
 
 } // namespace cotan::tangents

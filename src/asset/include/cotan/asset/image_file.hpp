@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cotan/asset/load.hpp"
 #include "cotan/result.hpp"
@@ -28,5 +29,10 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
 // Errors: ErrorKind::output where the folder cannot be written, ErrorKind::usage for an extension
 // that nothing writes.
 Status writeImage(const std::filesystem::path& file, const Image& image);
+
+// The bytes of a PNG file, packed tighter and more slowly than writeImage does. image: unorm8 or
+// unorm16, with all its data.
+// Errors (ErrorKind::output): not enough memory.
+Result<std::vector<std::byte>> encodePng(const Image& image);
 
 } // namespace cotan

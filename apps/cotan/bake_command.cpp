@@ -1,0 +1,176 @@
+#include "commands.hpp"
+
+#include <csignal>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "bake_options.hpp"
+#include "cotan/asset/image_file.hpp"
+#include "parse.hpp"
+#include "progress.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+// Ctrl-C waits until a file that is being written is whole.
+class InterruptsHeld {
+public:
+    InterruptsHeld()
+    {
+        sigset_t held;
+        sigemptyset(&held);
+        sigaddset(&held, SIGINT);
+        sigaddset(&held, SIGTERM);
+        pthread_sigmask(SIG_BLOCK, &held, &before_);
+    }
+    ~InterruptsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    InterruptsHeld(const InterruptsHeld&) = delete;
+    InterruptsHeld& operator=(const InterruptsHeld&) = delete;
+
+private:
+    sigset_t before_;
+};
+
+Status writeHeld(const std::filesystem::path& file, const Image& image)
+{
+    const InterruptsHeld held;
+    return writeImage(file, image);
+}
+
+double peakMegabytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+}
+
+nlohmann::ordered_json describe(const BakeStatistics& s)
+{
+    return {{"texels", s.texels},       {"covered", s.covered},       {"touched", s.touched},
+            {"missed", s.missed},       {"negative_z", s.negative},   {"claimed_twice", s.twice},
+            {"rays", s.rays},           {"ray_distance", s.rayDistance},
+            {"triangles_mirrored", s.mirroredTriangles},              {"triangles_without_uv_area", s.degenerateTriangles},
+            {"seconds", s.seconds},     {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
+}
+
+double percent(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : 100.0 * double(part) / double(whole); }
+
+// What the statistics mean for the one who baked.
+void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatistics& s)
+{
+    say(o.common, fmt::format("{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays a second",
+                              s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6));
+    if (s.missed > 0)
+        warn(o.common, fmt::format("{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask shows where)",
+                                   percent(s.missed, s.covered), s.rayDistance));
+    if (s.negative > 0)
+        warn(o.common, fmt::format("{:.2f} % of the covered texels look below the frame's horizon (negative z): the low mesh is too coarse there, or rays hit another part",
+                                   percent(s.negative, s.covered)));
+    if (s.twice > 0)
+        warn(o.common, fmt::format("{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
+                                   percent(s.twice, s.covered)));
+    const bool perTriangle = info(job.frame).source != FrameSource::vertices && job.frame != Frame::orthonormal;
+    if (job.options.kind == BakeKind::normal && perTriangle)
+        warn(o.common, fmt::format("the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
+                                   "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame)));
+}
+
+Status checkWritable(const std::filesystem::path& file)
+{
+    const auto folder = file.parent_path().empty() ? std::filesystem::path(".") : file.parent_path();
+    if (!std::filesystem::is_directory(folder))
+        return outputError(fmt::format("{}: no such folder", folder.string()));
+    return Done{};
+}
+
+Status run(const BakeCommandOptions& o)
+{
+    if (o.common.output.empty())
+        return usageError("-o: expected the file to write the map to");
+    // Hours may pass before the file is written: look at the folder first.
+    if (Status ok = checkWritable(o.common.output); !ok)
+        return ok;
+    Stopwatch watch;
+    const auto job = prepareBake(o);
+    if (!job)
+        return job.error();
+    for (const std::string& line : job->lowScene.warnings)
+        warn(o.common, line);
+    const double loadSeconds = watch.lap();
+    Result<Baked> baked = Baked{};
+    {
+        Progress progress(o.common, std::size_t(job->options.height), "rows");
+        baked = bake(job->low, job->high.front(), job->options, [&] { progress.step(); });
+    }
+    if (!baked)
+        return baked.error();
+    explain(o, *job, baked->statistics);
+    if (!o.mask.empty())
+        if (Status w = writeHeld(o.mask, maskOf(*baked)); !w)
+            return w;
+    watch.lap();
+    if (o.padding >= 0)
+        padCharts(*baked, o.padding);
+    const double padSeconds = watch.lap();
+    const Image image = storeBaked(*baked, job->options.kind, job->stored);
+    if (Status w = writeHeld(o.common.output, image); !w)
+        return w;
+    const double writeSeconds = watch.lap();
+    say(o.common, fmt::format("map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.common.output.string(), o.kind,
+                              o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes()));
+    nlohmann::ordered_json report{{"command", "bake"}, {"low", o.low}, {"high", o.high}, {"frame", o.frame},
+                                  {"kind", o.kind}, {"size", {image.width, image.height}},
+                                  {"triangles_high", job->high.front().triangleCount()},
+                                  {"triangles_low", job->low.triangleCount()},
+                                  {"bake", describe(baked->statistics)},
+                                  {"seconds", {{"load", loadSeconds}, {"pad", padSeconds}, {"write", writeSeconds}}},
+                                  {"peak_megabytes", peakMegabytes()}};
+    if (!o.verify.empty()) {
+        if (job->options.kind != BakeKind::normal)
+            return usageError("--verify: only maps of the kind normal can be drawn and compared");
+        const auto verified = verifyBake(o, *job, image);
+        if (!verified)
+            return verified.error();
+        report["verify"] = *verified;
+    }
+    return writeReport(o.common, report);
+}
+
+} // namespace
+
+Command addBakeCommand(CLI::App& app)
+{
+    auto o = std::make_shared<BakeCommandOptions>();
+    CLI::App* c = app.add_subcommand("bake", "normal map of a detailed mesh for a simple one, in a named frame");
+    addCommonOptions(*c, o->common, "the map: .png, .exr, .tif, .tga");
+    c->add_option("--high", o->high, "detailed mesh; may be given several times")->required()->type_name("FILE");
+    c->add_option("--low", o->low, "simple mesh with texture coordinates")->required()->type_name("FILE");
+    c->add_option("--frame", o->frame, "the frame that the shader will use: " + frameNames())->type_name("NAME")->capture_default_str();
+    c->add_option("--kind", o->kind, "normal, object-normal, height (model units) or ao")
+        ->check(CLI::IsMember({"normal", "object-normal", "height", "ao"}))->type_name("NAME")->capture_default_str();
+    c->add_option("--size", o->size, "width and height in texels")->type_name("WxH")->capture_default_str();
+    c->add_option("--samples", o->samples, "samples a texel: 1, 4 or 16")->check(CLI::IsMember({1, 4, 16}))->type_name("N")->capture_default_str();
+    c->add_option("--max-distance", o->maxDistance, "how far rays look forward and back, model units; 0: 5 % of the high mesh's diagonal")
+        ->check(CLI::Range(0.0f, 1e9f))->type_name("D")->capture_default_str();
+    c->add_option("--cage", o->cage, "mesh of the same triangles as the low one, around both; rays run from it inwards")->type_name("FILE");
+    c->add_flag("--match-by-name", o->matchByName, "a low mesh NAME_low sees only the high mesh NAME_high");
+    c->add_option("--material", o->material, "number of the low mesh's material to bake; -1: all")->check(CLI::Range(-1, 100000))->type_name("N")->capture_default_str();
+    c->add_option("--udim", o->udim, "tile of the texture coordinates to bake")->check(CLI::Range(1001, 1999))->type_name("N")->capture_default_str();
+    c->add_option("--tangents", o->tangents, "for the frames vertex and mikktspace: stored (generated where missing) or generated")
+        ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
+    c->add_flag("--face-normals", o->faceNormals, "flat normals of the high mesh instead of smooth ones");
+    c->add_option("--bits", o->bits, "8, 16 or 32 (float; .exr or .tif)")->check(CLI::IsMember({8, 16, 32}))->type_name("N")->capture_default_str();
+    c->add_flag("--dither", o->dither, "8 bit: round by a fixed pattern");
+    c->add_option("--convention", o->convention, "how the map is stored: opengl (green up, flat is 128, as nearly all glTF files have it), gltf (to the letter of its text, 2c - 1), directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();
+    c->add_option("--padding", o->padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none")
+        ->check(CLI::Range(-1, 65536))->type_name("N")->capture_default_str();
+    c->add_option("--ao-rays", o->occlusionRays, "rays a sample for ao")->check(CLI::Range(1, 65536))->type_name("N")->capture_default_str();
+    c->add_option("--mask", o->mask, "picture of what became of each texel")->type_name("FILE");
+    c->add_option("--verify", o->verify, "folder: draw the low mesh with the map and compare with the high one")->type_name("DIR");
+    c->add_option("--device", o->device, "draws for --verify: auto, reference, or a part of a Vulkan device's name")->type_name("DEVICE")->capture_default_str();
+    return {c, [o] { return run(*o); }};
+}
+
+} // namespace cotan::app

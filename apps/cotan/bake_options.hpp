@@ -1,0 +1,41 @@
+// What `cotan bake` was asked for, and what of it the baker needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "cotan/bake/bake.hpp"
+
+namespace cotan::app {
+
+struct BakeCommandOptions {
+    CommonOptions common;
+    std::vector<std::string> high;
+    std::string low, cage, mask, device = "auto";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored";
+    std::filesystem::path verify;
+    int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
+    float maxDistance = 0;
+    bool dither = false, matchByName = false, faceNormals = false;
+};
+
+// Everything that was loaded and derived for one bake.
+struct BakeJob {
+    Scene lowScene;
+    LowSurface low;
+    std::vector<HighSurface> high; // one; a vector because it has no empty state
+    BakeOptions options;
+    Frame frame = Frame::cotangent;
+    StoredAs stored;
+};
+
+// Loads and checks. Errors: those of the files and words.
+Result<BakeJob> prepareBake(const BakeCommandOptions& o);
+
+// Draws the low mesh with the stored map from four sides, by the device and the real shader, and
+// compares with the normals that rays from the eye find on the high mesh. Writes pictures and heat
+// maps into a folder; returns the report.
+Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
+
+} // namespace cotan::app

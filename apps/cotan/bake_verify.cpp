@@ -1,0 +1,97 @@
+#include "bake_options.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/asset/geometry.hpp"
+#include "cotan/asset/image_file.hpp"
+#include "cotan/report/angles.hpp"
+#include "painter.hpp"
+#include "vertex_frames.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+constexpr int kSide = 640; // pixels
+constexpr int kViews = 4;
+
+// The low scene with the baked map on the baked material, or on all.
+Scene mappedScene(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
+{
+    Scene scene = job.lowScene;
+    const int image = int(scene.images.size());
+    scene.images.push_back(map);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (o.material >= 0 && int(i) != o.material)
+            continue;
+        Material& material = scene.materials[i];
+        material.normalMap.image = image;
+        material.normalMap.sampler.wrapU = material.normalMap.sampler.wrapV = Wrap::repeat;
+        material.normalScale = 1;
+        material.normalFormat = job.stored.format;
+    }
+    deriveVertexFrames(scene, job.frame, o.tangents != "stored");
+    return scene;
+}
+
+Camera turned(Camera camera, double quarter)
+{
+    const glm::vec3 d = camera.eye - camera.target;
+    const float c = float(std::cos(quarter)), s = float(std::sin(quarter));
+    camera.eye = camera.target + glm::vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
+    return camera;
+}
+
+} // namespace
+
+Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
+{
+    if (Status made = makeFolder(o.verify); !made)
+        return made.error();
+    std::string note;
+    const auto painter = openPainter(o.device, o.common.threads, note);
+    if (!painter)
+        return painter.error();
+    if (!note.empty())
+        warn(o.common, note);
+    const Scene scene = mappedScene(o, job, map);
+    if (Status loaded = (*painter)->load(scene); !loaded)
+        return loaded.error();
+    auto views = nlohmann::ordered_json::array();
+    std::vector<float> all;
+    for (int i = 0; i < kViews; ++i) {
+        View view;
+        view.width = view.height = kSide;
+        view.camera = turned(fitCamera(bounds(scene), kSide, kSide), i * 1.5707963);
+        view.frame = int(job.frame);
+        view.output = Output::normal;
+        const auto drawn = (*painter)->draw(view);
+        if (!drawn)
+            return drawn.error();
+        const Image expected = expectedNormals(job.low, job.high.front(), job.options, view);
+        auto degrees = anglesBetween(*drawn, expected);
+        keepInterior(degrees, kSide, kSide);
+        const AngleStatistics s = angleStatistics(degrees);
+        views.push_back(toJson(s));
+        say(o.common, fmt::format("view {}: {}", i, toText(s)));
+        for (float d : degrees)
+            if (d >= 0)
+                all.push_back(d);
+        const std::pair<const char*, Image> pictures[] = {{"error", heatMap(degrees, kSide, kSide)},
+                                                          {"low", directionsAsColor(*drawn)},
+                                                          {"high", directionsAsColor(expected)}};
+        for (const auto& [name, picture] : pictures)
+            if (Status w = writeImage(o.verify / fmt::format("{}-{}.png", name, i), picture); !w)
+                return w.error();
+    }
+    const AngleStatistics s = statisticsOf(std::move(all));
+    say(o.common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(job.frame), (*painter)->device(),
+                              toText(s)));
+    return nlohmann::ordered_json{{"device", (*painter)->device()}, {"all", toJson(s)}, {"views", views}};
+}
+
+} // namespace cotan::app

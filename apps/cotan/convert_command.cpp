@@ -1,0 +1,243 @@
+#include "commands.hpp"
+
+#include <fmt/format.h>
+
+#include "convert_gltf.hpp"
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
+#include "cotan/lint/texel.hpp"
+#include "parse.hpp"
+#include "progress.hpp"
+#include "verify.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+constexpr double kMostCopies = 2e6; // of the image under all triangles together
+
+struct Options {
+    CommonOptions common;
+    std::string model;
+    std::string from = "mikktspace", to;
+    std::string tangents = "stored";
+    bool keepTangents = false;
+    int bits = 0; // 0: as the old map
+    std::filesystem::path verify;
+    std::string device = "auto";
+};
+
+std::string triple(const Spread& s) { return fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum); }
+
+nlohmann::ordered_json json(const Spread& s)
+{
+    return {{"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
+}
+
+bool needsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
+
+Result<Frame> frameFor(const char* option, const std::string& text)
+{
+    const auto frame = parseFrame(text);
+    if (!frame)
+        return usageError(fmt::format("{}: {}", option, frame.error().message));
+    if (!viewIndependent(*frame))
+        return usageError(fmt::format("{}: expected a frame that is the same from every side; {} is not, so no map can be made for it",
+                                      option, text));
+    return *frame;
+}
+
+Result<FramePair> checkUsage(const Options& o)
+{
+    if (o.to.empty())
+        return usageError("convert: expected --to FRAME; found none");
+    const auto from = frameFor("--from", o.from);
+    if (!from)
+        return from.error();
+    const auto to = frameFor("--to", o.to);
+    if (!to)
+        return to.error();
+    const auto extension = o.common.output.extension();
+    if (extension != ".glb" && extension != ".gltf")
+        return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", o.common.output.string()));
+    const std::string input = std::filesystem::path(o.model).extension().string();
+    if (input != ".glb" && input != ".gltf")
+        return usageError(fmt::format("{}: expected a .gltf or .glb model", o.model));
+    std::error_code ignored;
+    if (std::filesystem::equivalent(o.model, o.common.output, ignored))
+        return usageError(fmt::format("-o: {} is the model itself; expected another file", o.common.output.string()));
+    return FramePair{*from, *to, o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
+                     TangentOrigin::generated};
+}
+
+void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
+{
+    const double texels = double(r.image.pixelCount());
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surface{}; read with {} as it is, off by {} degrees", job.name, r.image.width,
+                              r.image.height, 100 * double(r.covered) / texels, job.uses.size(), job.uses.size() == 1 ? "" : "s", o.to,
+                              triple(r.unconverted)));
+    if (r.several > 0)
+        say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
+                                  r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
+                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", triple(r.disagreement)) : ""));
+    say(o.common, fmt::format("  converted and rounded to {} bits{} off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
+                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", triple(r.error), r.padded, after, before));
+    if (r.belowHorizon > 0)
+        say(o.common, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
+}
+
+nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
+{
+    return {{"image", job.image}, {"name", job.name}, {"surfaces", job.uses.size()}, {"size", {r.image.width, r.image.height}},
+            {"bits", r.image.type == PixelType::unorm16 ? 16 : 8}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
+            {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
+            {"disagreement_degrees", json(r.disagreement)}, {"moved_degrees", json(r.moved)},
+            {"degrees_unconverted", json(r.unconverted)}, {"degrees_after_rounding", json(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
+            {"bytes_before", before}, {"bytes_after", after}};
+}
+
+// Converts one image and puts it back.
+Status convertMap(const Options& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
+                  nlohmann::ordered_json& report)
+{
+    const auto bytes = gltfImageBytes(document, job.image);
+    if (!bytes)
+        return bytes.error();
+    const auto map = decodeImage(*bytes, fmt::format("{}: {}", o.model, job.name));
+    if (!map)
+        return map.error();
+    if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
+        return inputError(fmt::format("{}: {}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", o.model, job.name,
+                                      copies, kMostCopies));
+    const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
+    Progress progress(o.common, std::size_t(map->height), "rows of " + job.name);
+    const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
+    auto png = encodePng(r.image);
+    if (!png)
+        return png.error();
+    const std::size_t before = bytes->size(), after = png->size();
+    replaceMap(document, job, std::move(*png));
+    sayMap(o, job, r, before, after);
+    report["maps"].push_back(describe(job, r, before, after));
+    return Done{};
+}
+
+Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& document, std::vector<std::string>& notes,
+                      nlohmann::ordered_json& report)
+{
+    if (needsTangents(frames.to)) {
+        const auto given = giveTangents(document, frames.to);
+        if (!given)
+            return given.error();
+        say(o.common, fmt::format("{} primitives got TANGENT for {}", *given, o.to));
+        report["tangents"] = {{"given_primitives", *given}};
+        return Done{};
+    }
+    if (o.keepTangents) {
+        notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
+        report["tangents"] = {{"kept", true}};
+        return Done{};
+    }
+    const auto dropped = dropTangents(document, notes);
+    if (!dropped)
+        return dropped.error();
+    const double each = dropped->vertices > 0 ? double(dropped->bytes) / double(dropped->vertices) : 0;
+    say(o.common, dropped->bytes > 0
+                      ? fmt::format("TANGENT dropped from {} primitives: {:.3g} bytes a vertex, {} vertices, {} bytes", dropped->primitives,
+                                    each, dropped->vertices, dropped->bytes)
+                      : "no TANGENT to drop");
+    report["tangents"] = {{"dropped_primitives", dropped->primitives}, {"bytes_per_vertex", each},
+                          {"vertices", dropped->vertices}, {"bytes", dropped->bytes}};
+    return Done{};
+}
+
+Status writeModel(const Options& o, const GltfDocument& document, nlohmann::ordered_json& report)
+{
+    const auto written = writeGltf(document, o.common.output);
+    if (!written)
+        return written.error();
+    for (const std::string& note : written->notes)
+        warn(o.common, note);
+    report["bytes_before"] = written->bytesBefore;
+    report["bytes_after"] = written->bytesAfter;
+    say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(), written->bytesAfter, written->bytesBefore));
+    return Done{};
+}
+
+Status run(const Options& o)
+{
+    const auto frames = checkUsage(o);
+    if (!frames)
+        return frames.error();
+    Stopwatch watch;
+    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
+    const auto scene = loadGltf(o.model);
+    if (!scene)
+        return scene.error();
+    for (const std::string& line : scene->warnings)
+        warn(o.common, line);
+    auto document = openGltfDocument(o.model);
+    if (!document)
+        return document.error();
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(*document, notes);
+    if (!jobs)
+        return jobs.error();
+    nlohmann::ordered_json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
+                                     {"tangents_read", o.tangents}, {"output", o.common.output.string()},
+                                     {"maps", nlohmann::ordered_json::array()}};
+    if (!o.verify.empty()) // before anything is written
+        if (Status made = makeFolder(o.verify); !made)
+            return made;
+    if (jobs->empty())
+        notes.push_back("no primitive has a normal map and uv: nothing to convert");
+    else
+        say(o.common, "three figures are: mean / 95 % / maximum, over texels");
+    for (const MapJob& job : *jobs)
+        if (Status converted = convertMap(o, *frames, *document, job, report); !converted)
+            return converted;
+    if (Status handled = handleTangents(o, *frames, *document, notes, report); !handled)
+        return handled;
+    if (!jobs->empty() && frames->to != Frame::mikktspace)
+        notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
+                                    "glTF asks, will show them wrongly", o.to));
+    if (Status written = writeModel(o, *document, report); !written)
+        return written;
+    for (const std::string& note : notes)
+        warn(o.common, note);
+    report["notes"] = notes;
+    report["seconds"] = {{"convert", watch.lap()}};
+    if (!o.verify.empty()) {
+        auto verified = verifyConversion({o.model, o.common.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device}, o.common);
+        if (!verified)
+            return verified.error();
+        report["verify"] = std::move(*verified);
+        report["seconds"]["verify"] = watch.lap();
+    }
+    return writeReport(o.common, report);
+}
+
+} // namespace
+
+Command addConvertCommand(CLI::App& app)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("convert", "make a glTF model's normal maps for another frame, and drop the tangents");
+    addCommonOptions(*command, options->common, "the converted model, .glb or .gltf");
+    command->add_option("MODEL", options->model, "glTF or GLB file")->required();
+    command->add_option("--from", options->from, "frame that the maps were made for")->type_name("FRAME")->capture_default_str();
+    command->add_option("--to", options->to, "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it")
+        ->type_name("FRAME");
+    command->add_option("--tangents", options->tangents, "for --from mikktspace or vertex: stored (as in the file, generated where missing) or generated")
+        ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
+    command->add_flag("--keep-tangents", options->keepTangents, "leave TANGENT where it is");
+    command->add_option("--bits", options->bits, "of the new maps: 8 or 16 (default: as the old ones)")
+        ->check(CLI::IsMember({8, 16}))->type_name("N");
+    command->add_option("--verify", options->verify, "folder: draw both models from five sides, compare normals, write the pictures")
+        ->type_name("FOLDER");
+    command->add_option("--device", options->device, "for --verify: auto, reference, or a part of a Vulkan device's name")
+        ->type_name("DEVICE")->capture_default_str();
+    return {command, [options] { return run(*options); }};
+}
+
+} // namespace cotan::app

@@ -1,0 +1,221 @@
+#include "convert_gltf.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cotan/tangents.hpp"
+#include "gltf_placed.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string fieldOf(std::size_t mesh, std::size_t primitive)
+{
+    return fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
+}
+
+// The texture that a primitive's material reads as normal map; null if none.
+const Json* normalTextureOf(const Json& root, const Json& primitive)
+{
+    if (!primitive.contains("material"))
+        return nullptr;
+    const Json& material = root["materials"][primitive["material"].get<std::size_t>()];
+    return material.contains("normalTexture") ? &material["normalTexture"] : nullptr;
+}
+
+Wrap wrapOf(const Json& root, const Json& texture, const char* axis)
+{
+    if (!texture.contains("sampler"))
+        return Wrap::repeat;
+    const int mode = root["samplers"][texture["sampler"].get<std::size_t>()].value(axis, 10497);
+    return mode == 33071 ? Wrap::clamp : mode == 33648 ? Wrap::mirror : Wrap::repeat;
+}
+
+// Indices of textures that slots other than normalTexture read.
+void collectOther(const Json& object, bool top, std::set<std::size_t>& textures)
+{
+    if (object.is_array())
+        for (const Json& item : object)
+            collectOther(item, false, textures);
+    if (!object.is_object())
+        return;
+    for (const auto& [key, value] : object.items()) {
+        if (top && key == "normalTexture")
+            continue;
+        const bool slot = key.size() >= 7 && key.ends_with("exture") && value.is_object() && value.contains("index");
+        if (slot && value["index"].is_number_unsigned())
+            textures.insert(value["index"].get<std::size_t>());
+        collectOther(value, false, textures);
+    }
+}
+
+bool readElsewhere(const Json& root, std::size_t image)
+{
+    std::set<std::size_t> textures;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
+        collectOther(root["materials"][m], true, textures);
+    return std::any_of(textures.begin(), textures.end(), [&](std::size_t t) {
+        return t < countOf(root, "textures") && root["textures"][t].contains("source")
+            && root["textures"][t]["source"].get<std::size_t>() == image;
+    });
+}
+
+template<class Visit> Status forEachPrimitive(const Json& root, const Visit& visit)
+{
+    for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)
+        for (std::size_t p = 0; p < root["meshes"][m]["primitives"].size(); ++p)
+            if (Status status = visit(m, p); !status)
+                return status;
+    return Done{};
+}
+
+} // namespace
+
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
+{
+    const Json& root = document.root;
+    const auto placed = placings(root);
+    std::map<std::size_t, MapJob> jobs;
+    const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
+        const Json& primitive = root["meshes"][m]["primitives"][p];
+        const Json* info = normalTextureOf(root, primitive);
+        if (!info)
+            return Done{};
+        const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
+        if (!texture.contains("source")) {
+            notes.push_back(fieldOf(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
+            return Done{};
+        }
+        auto geometry = gltfGeometry(document, m, p);
+        if (!geometry)
+            return geometry.error();
+        if (geometry->texcoords.empty() || geometry->indices.empty()) {
+            notes.push_back(fieldOf(m, p) + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
+                            + "; its normal map is not converted for it");
+            return Done{};
+        }
+        const std::size_t image = texture["source"].get<std::size_t>();
+        MapJob& job = jobs[image];
+        job.image = image;
+        job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+        if (job.name.empty() || job.name.starts_with("data:"))
+            job.name = fmt::format("image {}", image);
+        const std::size_t material = primitive["material"].get<std::size_t>();
+        if (std::find(job.materials.begin(), job.materials.end(), material) == job.materials.end())
+            job.materials.push_back(material);
+        const Mesh mesh = meshOf(std::move(*geometry));
+        for (const glm::dmat3& linear : placed[m]) {
+            MapUse use;
+            use.surface = makeSurface(mesh, Texture{}, linear);
+            use.format = {0, 0, -1.0, info->value("scale", 1.0)}; // glTF: exact, xyz, green against +v
+            use.wrapU = wrapOf(root, texture, "wrapS");
+            use.wrapV = wrapOf(root, texture, "wrapT");
+            job.uses.push_back(std::move(use));
+        }
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    std::vector<MapJob> result;
+    for (auto& [image, job] : jobs) {
+        job.alsoElsewhere = readElsewhere(root, image);
+        result.push_back(std::move(job));
+    }
+    return result;
+}
+
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png)
+{
+    if (!job.alsoElsewhere) {
+        replaceGltfImage(document, job.image, std::move(png), "image/png");
+        return;
+    }
+    const std::size_t image = addGltfImage(document, std::move(png), "image/png", job.name);
+    std::map<std::size_t, std::size_t> copies;
+    for (std::size_t m : job.materials) {
+        const std::size_t texture = document.root["materials"][m]["normalTexture"]["index"].get<std::size_t>();
+        if (!copies.contains(texture))
+            copies[texture] = copyGltfTexture(document, texture, image);
+        document.root["materials"][m]["normalTexture"]["index"] = copies[texture];
+    }
+}
+
+Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes)
+{
+    TangentBytes dropped;
+    std::set<std::size_t> seen, told;
+    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
+        const Json& root = document.root;
+        const Json& primitive = root["meshes"][m]["primitives"][p];
+        if (!primitive["attributes"].contains("TANGENT"))
+            return Done{};
+        if (primitive.contains("material")) {
+            const std::size_t material = primitive["material"].get<std::size_t>();
+            const Json& extensions = root["materials"][material].value("extensions", Json::object());
+            for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_anisotropy"}) {
+                const bool reads = extensions.contains(name)
+                    && (name == std::string("KHR_materials_anisotropy") || extensions[name].contains("clearcoatNormalTexture"));
+                if (!reads)
+                    continue;
+                if (told.insert(material).second)
+                    notes.push_back(fmt::format("materials[{}]: {} reads tangents and is not converted; TANGENT stays", material, name));
+                return Done{};
+            }
+        }
+        auto count = [&](const Json& attributes, bool base) {
+            if (!attributes.contains("TANGENT"))
+                return;
+            const std::size_t index = attributes["TANGENT"].get<std::size_t>();
+            if (!seen.insert(index).second)
+                return;
+            const Json& accessor = root["accessors"][index];
+            const int type = accessor["componentType"].get<int>();
+            const std::size_t component = type == 5126 ? 4 : type == 5122 || type == 5123 ? 2 : 1;
+            const std::size_t vertices = accessor["count"].get<std::size_t>();
+            dropped.vertices += base ? vertices : 0;
+            dropped.bytes += vertices * component * (base ? 4 : 3);
+        };
+        count(primitive["attributes"], true);
+        for (const Json& target : primitive.value("targets", Json::array()))
+            count(target, false);
+        const auto done = dropGltfTangents(document, m, p);
+        if (!done)
+            return done.error();
+        dropped.primitives += *done;
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    return dropped;
+}
+
+Result<std::size_t> giveTangents(GltfDocument& document, Frame frame)
+{
+    std::vector<GltfCornerTangents> all;
+    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
+        if (!normalTextureOf(document.root, document.root["meshes"][m]["primitives"][p]))
+            return Done{};
+        auto geometry = gltfGeometry(document, m, p);
+        if (!geometry)
+            return geometry.error();
+        if (geometry->normals.empty() || geometry->texcoords.empty() || geometry->indices.empty())
+            return Done{};
+        makeUnit(geometry->normals);
+        const MeshView view{geometry->positions, geometry->normals, geometry->texcoords, geometry->indices};
+        all.push_back({m, p, frame == Frame::vertex ? vertexTangents(view) : mikktspaceTangents(view)});
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    if (const auto added = setGltfTangents(document, all); !added)
+        return added.error();
+    return all.size();
+}
+
+} // namespace cotan::app

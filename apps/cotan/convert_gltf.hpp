@@ -1,0 +1,44 @@
+// Between a glTF file and the conversion of its normal maps: which primitives read which image, and
+// how what comes out goes back in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/convert/reencode.hpp"
+
+namespace cotan::app {
+
+// An image and everything that reads it as its normal map.
+struct MapJob {
+    std::size_t image = 0; // index into the file's images
+    std::string name;
+    std::vector<MapUse> uses;
+    std::vector<std::size_t> materials; // that read it so
+    bool alsoElsewhere = false;         // another slot of a material reads it too: it has to stay as it is
+};
+
+// The jobs of a file, in the order of its images. A mesh that nodes show under several maps that are not
+// rotations and uniform scales of one another is several surfaces. What is left out goes to `notes`.
+// Errors (ErrorKind::input): compressed geometry.
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
+
+// Puts a job's new image in place of the old one where normal maps read it.
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png);
+
+struct TangentBytes {
+    std::size_t vertices = 0; // that had TANGENT
+    std::size_t bytes = 0;    // of their accessors, morph targets included
+    std::size_t primitives = 0;
+};
+
+// Takes TANGENT from all primitives but those whose material has a map in an extension that is not
+// converted and needs it (`notes` says so).
+Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes);
+
+// Generates tangents of that frame (mikktspace or vertex) for all primitives with a normal map. Returns
+// how many primitives got them.
+Result<std::size_t> giveTangents(GltfDocument& document, Frame frame);
+
+} // namespace cotan::app

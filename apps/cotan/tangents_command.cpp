@@ -1,0 +1,265 @@
+#include "commands.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/report/tangent_difference.hpp"
+#include "cotan/tangents.hpp"
+#include "progress.hpp"
+#include "smooth_report.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct Options {
+    CommonOptions common;
+    std::string model;
+    std::string frame = "mikktspace";
+    bool replace = false;
+};
+
+// What happens with one primitive.
+struct Entry {
+    std::size_t mesh = 0, primitive = 0;
+    std::string name;
+    GltfGeometry geometry;
+    std::string cannot; // why there are no tangents to be had; empty if there are
+
+    MeshView view() const
+    {
+        return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices};
+    }
+};
+
+// Unit normals. Those that are unit up to rounding keep their bits, on which MikkTSpace's welding
+// depends; quantised ones are up to 0.007 off.
+void makeUnit(std::vector<glm::vec3>& normals)
+{
+    for (glm::vec3& n : normals) {
+        const double length = glm::length(glm::dvec3(n));
+        if (length > 0 && std::abs(length - 1) > 2e-6)
+            n = glm::vec3(glm::dvec3(n) / length);
+    }
+}
+
+std::string whyNot(const GltfGeometry& geometry)
+{
+    if (geometry.indices.empty())
+        return "no triangles";
+    if (geometry.normals.empty())
+        return "no NORMAL";
+    if (geometry.texcoords.empty())
+        return fmt::format("no TEXCOORD_{}", geometry.texcoordSet);
+    return {};
+}
+
+Result<std::vector<Entry>> readEntries(const GltfDocument& document)
+{
+    std::vector<Entry> entries;
+    if (!document.root.contains("meshes"))
+        return entries;
+    const auto& meshes = document.root["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+            auto geometry = gltfGeometry(document, m, p);
+            if (!geometry)
+                return geometry.error();
+            Entry entry{m, p, meshes[m].value("name", fmt::format("mesh {}", m)),
+                        std::move(*geometry), {}};
+            if (meshes[m]["primitives"].size() > 1)
+                entry.name += fmt::format("/{}", p);
+            entry.cannot = whyNot(entry.geometry);
+            makeUnit(entry.geometry.normals);
+            entries.push_back(std::move(entry));
+        }
+    return entries;
+}
+
+std::vector<glm::vec4> generate(const Options& o, const Entry& entry)
+{
+    return o.frame == "vertex" ? vertexTangents(entry.view()) : mikktspaceTangents(entry.view(), o.common.threads);
+}
+
+nlohmann::ordered_json describe(const Entry& entry)
+{
+    return {{"mesh", entry.mesh},
+            {"primitive", entry.primitive},
+            {"name", entry.name},
+            {"triangles", entry.geometry.indices.size() / 3},
+            {"stored", !entry.geometry.tangents.empty()}};
+}
+
+std::string referenceName(const Options& o)
+{
+    return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
+}
+
+// Compares what is stored.
+void compare(const Options& o, const std::vector<Entry>& entries, nlohmann::ordered_json& report)
+{
+    TangentDifference all;
+    std::size_t without = 0;
+    Progress progress(o.common, entries.size(), "primitives");
+    for (const Entry& entry : entries) {
+        auto row = describe(entry);
+        const std::string label = fmt::format("{} ({} triangles)", entry.name,
+                                              entry.geometry.indices.size() / 3);
+        if (!entry.cannot.empty()) {
+            row["cannot"] = entry.cannot;
+            say(o.common, fmt::format("{}: {}", label, entry.cannot));
+        } else if (entry.geometry.tangents.empty()) {
+            ++without;
+            say(o.common, fmt::format("{}: no TANGENT", label));
+        } else {
+            const TangentDifference d =
+                tangentDifference(entry.view(), entry.geometry.tangents, generate(o, entry));
+            row.update(toJson(d));
+            say(o.common, fmt::format("{}: {}", label, toText(d, referenceName(o))));
+            append(all, d);
+        }
+        report["primitives"].push_back(std::move(row));
+        progress.step();
+    }
+    std::string verdict = "no TANGENT is stored";
+    if (all.corners > 0)
+        verdict = toText(all, referenceName(o));
+    if (all.corners > 0 && without > 0)
+        verdict += fmt::format("; {} primitives without TANGENT", without);
+    report["model_verdict"] = verdict;
+    if (all.corners > 0)
+        report["whole"] = toJson(all);
+    say(o.common, "whole model: " + verdict);
+}
+
+// Generates and writes.
+Status write(const Options& o, GltfDocument& document, const std::vector<Entry>& entries,
+             nlohmann::ordered_json& report)
+{
+    std::vector<GltfCornerTangents> tangents;
+    std::size_t kept = 0, skipped = 0;
+    {
+        Progress progress(o.common, entries.size(), "primitives");
+        for (const Entry& entry : entries) {
+            auto row = describe(entry);
+            const bool keep = !entry.geometry.tangents.empty() && !o.replace;
+            row["generated"] = entry.cannot.empty() && !keep;
+            if (!entry.cannot.empty()) {
+                ++skipped;
+                row["cannot"] = entry.cannot;
+                warn(o.common, fmt::format("{}: {}, no tangents", entry.name, entry.cannot));
+            } else if (keep) {
+                ++kept;
+            } else {
+                tangents.push_back({entry.mesh, entry.primitive, generate(o, entry)});
+            }
+            report["primitives"].push_back(std::move(row));
+            progress.step();
+        }
+    }
+    const auto added = setGltfTangents(document, tangents);
+    if (!added)
+        return added.error();
+    const auto written = writeGltf(document, o.common.output);
+    if (!written)
+        return written.error();
+    for (const std::string& note : written->notes)
+        warn(o.common, note);
+    std::vector<std::string> files;
+    for (const auto& file : written->files)
+        files.push_back(file.string());
+    report["generated"] = tangents.size();
+    report["kept"] = kept;
+    report["skipped"] = skipped;
+    report["vertices_added"] = *added;
+    report["bytes_before"] = written->bytesBefore;
+    report["bytes_after"] = written->bytesAfter;
+    report["files"] = files;
+    report["notes"] = written->notes;
+    say(o.common, fmt::format("{} primitives got {} tangents, {} kept theirs, {} can have none; "
+                              "{} vertices added", tangents.size(), o.frame, kept, skipped, *added));
+    say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(),
+                              written->bytesAfter, written->bytesBefore));
+    return Done{};
+}
+
+Status checkUsage(const Options& o)
+{
+    if (o.frame != "mikktspace" && o.frame != "vertex" && o.frame != "smooth")
+        return usageError(fmt::format(
+            "--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
+    if (o.frame == "smooth" && !o.common.output.empty())
+        return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
+                          "out -o for its statistics");
+    if (o.replace && o.common.output.empty())
+        return usageError("--replace: expected -o FILE to write to; found none");
+    const auto extension = o.common.output.extension();
+    if (!o.common.output.empty() && extension != ".glb" && extension != ".gltf")
+        return usageError(fmt::format("{}: expected a name that ends in .glb or .gltf",
+                                      o.common.output.string()));
+    return Done{};
+}
+
+Status run(const Options& o)
+{
+    if (Status usage = checkUsage(o); !usage)
+        return usage;
+    Stopwatch watch;
+    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
+    const auto scene = loadGltf(o.model);
+    if (!scene)
+        return scene.error();
+    for (const std::string& line : scene->warnings)
+        warn(o.common, line);
+    auto document = openGltfDocument(o.model);
+    if (!document)
+        return document.error();
+    const auto entries = readEntries(*document);
+    if (!entries)
+        return entries.error();
+    nlohmann::ordered_json report = {{"command", "tangents"},
+                                     {"model", o.model},
+                                     {"frame", o.frame},
+                                     {"warnings", scene->warnings},
+                                     {"primitives", nlohmann::ordered_json::array()}};
+    const double load = watch.lap();
+    if (o.frame == "smooth") {
+        for (const Entry& entry : *entries) {
+            auto row = describe(entry);
+            const std::string line = entry.cannot.empty()
+                ? reportSmooth(entry.view(), row)
+                : entry.cannot;
+            say(o.common, fmt::format("{}: {}", entry.name, line));
+            report["primitives"].push_back(std::move(row));
+        }
+    } else if (o.common.output.empty()) {
+        compare(o, *entries, report);
+    } else if (Status written = write(o, *document, *entries, report); !written) {
+        return written;
+    }
+    report["seconds"] = {{"load", load}, {"work", watch.lap()}};
+    return writeReport(o.common, report);
+}
+
+} // namespace
+
+Command addTangentsCommand(CLI::App& app)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "tangents", "write tangents into a glTF model, or compare those in it; without -o nothing "
+                    "is written");
+    addCommonOptions(*command, options->common, "the model with tangents, .glb or .gltf");
+    command->add_option("MODEL", options->model, "glTF or GLB file")->required();
+    command->add_option("--frame", options->frame,
+                        "mikktspace, vertex (classic averages), or smooth (statistics only)")
+        ->capture_default_str();
+    command->add_flag("--replace", options->replace,
+                      "generate also where the file has TANGENT; else only where it is missing");
+    return {command, [options] { return run(*options); }};
+}
+
+} // namespace cotan::app

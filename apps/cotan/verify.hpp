@@ -1,0 +1,24 @@
+// Whether a converted model looks like the original: both drawn from several sides, normals compared.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common.hpp"
+#include "cotan/frame.hpp"
+
+namespace cotan::app {
+
+struct VerifyOptions {
+    std::filesystem::path before, after; // models
+    Frame from = Frame::mikktspace, to = Frame::cotangent;
+    bool fromGenerated = false;          // tangents of the original: generated instead of stored
+    std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
+    std::string device = "auto";
+};
+
+// Draws both from five sides, writes the pictures, says the degrees, and returns them for a report.
+// Errors: of loading, drawing and writing.
+Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& options, const CommonOptions& common);
+
+} // namespace cotan::app

@@ -1,0 +1,295 @@
+// A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <system_error>
+
+#include "file_bytes.hpp"
+#include "gltf_edit_state.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+using namespace gltf_edit;
+
+namespace {
+
+struct Output {
+    fs::path file;
+    std::vector<std::byte> bytes;
+};
+
+bool isExternal(const OrderedJson& image)
+{
+    return image.contains("uri")
+        && !image["uri"].get_ref<const std::string&>().starts_with("data:");
+}
+
+// The image files that the JSON names, by image; those that are missing are left out.
+std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const OrderedJson& root)
+{
+    std::map<std::size_t, fs::path> files;
+    for (std::size_t i = 0; i < countOf(root, "images"); ++i) {
+        const OrderedJson& image = root["images"][i];
+        if (!isExternal(image))
+            continue;
+        GltfResource resource =
+            resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
+                           fmt::format("images[{}].uri", i), /*mayMiss*/ true);
+        if (!resource.file.empty())
+            files.emplace(i, std::move(resource.file));
+    }
+    return files;
+}
+
+std::size_t totalSize(std::vector<fs::path> files)
+{
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    std::size_t total = 0;
+    for (const fs::path& file : files) {
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        total += error ? 0 : static_cast<std::size_t>(size);
+    }
+    return total;
+}
+
+std::size_t sizeBefore(const GltfSource& source)
+{
+    std::vector<fs::path> files;
+    for (const auto& [file, bytes] : source.file.bufferFiles)
+        files.push_back(file);
+    for (const auto& [image, file] : imageFiles(source, source.root))
+        files.push_back(file);
+    return source.bytes + totalSize(std::move(files));
+}
+
+std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits)
+{
+    Result<std::vector<std::byte>> bytes = readFileBytes(file, limits.fileBytes);
+    if (!bytes)
+        throw bytes.error();
+    return std::move(*bytes);
+}
+
+std::string mimeTypeOf(std::span<const std::byte> bytes, const std::string& field)
+{
+    const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
+    if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
+        return "image/png";
+    if (bytes.size() > 3 && at(0) == 0xff && at(1) == 0xd8)
+        return "image/jpeg";
+    if (bytes.size() > 12 && at(0) == 'R' && at(8) == 'W' && at(9) == 'E')
+        return "image/webp";
+    if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
+        return "image/ktx2";
+    failGltf("{}: expected PNG or JPEG data", field);
+}
+
+void embedImages(GltfDocument& document, const LoadLimits& limits)
+{
+    std::map<fs::path, std::size_t> views; // an image file used twice is embedded once
+    for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
+        OrderedJson& image = document.root["images"][i];
+        if (!views.contains(file)) {
+            std::vector<std::byte> bytes = readOrFail(file, limits);
+            image["mimeType"] = mimeTypeOf(bytes, fmt::format("images[{}]", i));
+            views[file] = addView(document, std::move(bytes));
+        } else if (!image.contains("mimeType")) {
+            image["mimeType"] = mimeTypeOf(viewBytes(document, views[file]),
+                                           fmt::format("images[{}]", i));
+        }
+        document.root["images"][i].erase("uri");
+        document.root["images"][i]["bufferView"] = views[file];
+    }
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+        if (isExternal(document.root["images"][i]))
+            document.notes.push_back(fmt::format(
+                "images[{}]: \"{}\" is missing and stays a reference", i,
+                oneLine(document.root["images"][i]["uri"].get<std::string>())));
+}
+
+// ---- GLB ------------------------------------------------------------------------------------
+
+void appendWord(std::vector<std::byte>& bytes, std::size_t word)
+{
+    for (int shift = 0; shift < 32; shift += 8)
+        bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+}
+
+void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type,
+                 std::span<const std::byte> content, char padding)
+{
+    const std::size_t padded = (content.size() + 3) / 4 * 4;
+    appendWord(bytes, padded);
+    appendWord(bytes, type);
+    bytes.insert(bytes.end(), content.begin(), content.end());
+    bytes.resize(bytes.size() + padded - content.size(), static_cast<std::byte>(padding));
+}
+
+std::vector<std::byte> makeGlb(const Layout& layout)
+{
+    constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
+    const std::string text = layout.root.dump();
+    const std::size_t padded[2] = {(text.size() + 3) / 4 * 4, (layout.buffer.size() + 3) / 4 * 4};
+    const std::size_t total = 12 + 8 + padded[0] + (layout.buffer.empty() ? 0 : 8 + padded[1]);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        failGltf("a .glb of {} bytes cannot be written, the limit is 4 GiB; write .gltf", total);
+    std::vector<std::byte> bytes;
+    bytes.reserve(total);
+    appendWord(bytes, 0x46546C67);
+    appendWord(bytes, 2);
+    appendWord(bytes, total);
+    appendChunk(bytes, kJson, std::as_bytes(std::span(text)), ' ');
+    if (!layout.buffer.empty())
+        appendChunk(bytes, kBinary, layout.buffer, '\0');
+    return bytes;
+}
+
+// ---- glTF with files beside -----------------------------------------------------------------
+
+std::string encodePercent(const std::string& name)
+{
+    std::string uri;
+    for (const char c : name) {
+        const auto u = static_cast<unsigned char>(c);
+        if (std::isalnum(u) || c == '-' || c == '_' || c == '.' || c == '~')
+            uri += c;
+        else
+            uri += fmt::format("%{:02X}", u);
+    }
+    return uri;
+}
+
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
+fs::path binaryBeside(const GltfSource& source, const fs::path& file)
+{
+    fs::path binary = file;
+    binary.replace_extension(".bin");
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(binary, error);
+    if (source.file.bufferFiles.contains(canonical) && !fs::equivalent(file, source.path, error))
+        binary.replace_filename(file.stem().string() + "_data.bin");
+    return binary;
+}
+
+// Image files go to the same place relative to the new folder; what is there already has to be the
+// same.
+void copyImages(const GltfSource& source, const OrderedJson& root, const fs::path& folder,
+                const LoadLimits& limits, std::vector<Output>& outputs)
+{
+    std::error_code error;
+    if (fs::equivalent(folder, source.file.folder, error))
+        return;
+    for (const auto& [i, file] : imageFiles(source, root)) {
+        const fs::path target = folder / file.lexically_relative(source.file.folder);
+        const auto same = [&](const Output& o) { return o.file == target; };
+        if (std::any_of(outputs.begin(), outputs.end(), same))
+            continue;
+        std::vector<std::byte> bytes = readOrFail(file, limits);
+        if (fs::exists(target, error)) {
+            const auto there = readFileBytes(target, limits.fileBytes);
+            if (!there || *there != bytes)
+                throw outputError(
+                    fmt::format("{}: a different file is in the way of an image to be copied",
+                                target.string()));
+            continue;
+        }
+        outputs.push_back({target, std::move(bytes)});
+    }
+}
+
+Status writeAll(const fs::path& file, std::span<const std::byte> bytes)
+{
+    std::FILE* const stream = std::fopen(file.c_str(), "wb");
+    bool good = stream && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+    good = stream && std::fclose(stream) == 0 && good;
+    return good ? Status(Done{}) : outputError(fmt::format("{}: cannot write", file.string()));
+}
+
+// All or none: each file is written beside its place, and none is renamed before the last is
+// written. The first, the model, is renamed last.
+Status writeTogether(std::span<const Output> outputs)
+{
+    if (outputs.empty())
+        return Done{};
+    std::error_code error;
+    fs::create_directories(folderOf(outputs.front().file), error);
+    return writeBeside(outputs.front().file, [&](const fs::path& beside) -> Status {
+        if (!writeAll(beside, outputs.front().bytes))
+            return outputError(fmt::format("{}: cannot write", outputs.front().file.string()));
+        return writeTogether(outputs.subspan(1));
+    });
+}
+
+GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits& limits)
+{
+    const bool binary = file.extension() == ".glb";
+    std::error_code error;
+    if (!fs::is_directory(folderOf(file), error))
+        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(),
+                                      folderOf(file).string()));
+    GltfWritten written;
+    written.bytesBefore = sizeBefore(*document.source);
+    if (binary)
+        embedImages(document, limits);
+    Layout layout = layOut(document);
+    std::vector<Output> outputs(1);
+    outputs[0].file = file;
+    if (binary) {
+        outputs[0].bytes = makeGlb(layout);
+    } else {
+        if (!layout.buffer.empty()) {
+            const fs::path beside = binaryBeside(*document.source, file);
+            layout.root["buffers"][0]["uri"] = encodePercent(beside.filename().string());
+            outputs.push_back({beside, std::move(layout.buffer)});
+        }
+        const std::string text = layout.root.dump(2) + "\n";
+        const auto bytes = std::as_bytes(std::span(text));
+        outputs[0].bytes.assign(bytes.begin(), bytes.end());
+    }
+    for (const Output& output : outputs)
+        written.bytesAfter += output.bytes.size();
+    if (!binary)
+        copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
+    if (Status done = writeTogether(outputs); !done)
+        throw done.error();
+    std::vector<fs::path> images;
+    for (const auto& [image, path] : imageFiles(*document.source, layout.root))
+        images.push_back(path);
+    written.bytesAfter += totalSize(images);
+    for (const Output& output : outputs)
+        written.files.push_back(output.file);
+    written.notes = std::move(document.notes);
+    return written;
+}
+
+} // namespace
+
+Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file,
+                              const LoadLimits& limits)
+{
+    if (file.extension() != ".glb" && file.extension() != ".gltf")
+        return usageError(
+            fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
+    try {
+        return write(document, file, limits);
+    } catch (const Error& failure) {
+        return failure;
+    } catch (const GltfProblem& problem) {
+        return inputError(document.source->path.string() + ": " + oneLine(problem.message));
+    } catch (const std::bad_alloc&) {
+        return unavailableError(file.string() + ": not enough memory to write it");
+    }
+}
+
+} // namespace cotan

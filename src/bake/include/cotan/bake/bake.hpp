@@ -1,0 +1,92 @@
+// From a detailed surface to a map on a simple one.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cotan/bake/high_surface.hpp"
+#include "cotan/bake/low_surface.hpp"
+#include "cotan/scene/view.hpp"
+
+namespace cotan {
+
+enum class BakeKind {
+    normal,       // texels of the named frame
+    objectNormal, // world-space normals
+    height,       // distance from the low to the high surface along the low normal, model units
+    occlusion,    // share of the hemisphere above the high surface that is open, cosine weighted
+};
+
+struct BakeOptions {
+    BakeKind kind = BakeKind::normal;
+    Frame frame = Frame::cotangent;
+    int width = 1024, height = 1024;
+    int samples = 1;             // a texel and axis: 1, 2 or 4
+    glm::ivec2 tile{0, 0};       // unit square of uv
+    float maxDistance = 0;       // model units, forward and back along the low normal; 0: 5 % of the high surface's box
+    std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
+                                 // low surface, and as far behind it
+    bool faceNormals = false;    // of the high surface instead of smooth ones
+    int occlusionRays = 64;
+    std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that counts, -1: all;
+                                       // empty: all
+    int threads = 0;
+};
+
+// What became of each texel: flags.
+enum TexelState : std::uint8_t {
+    texelCovered = 1,  // a triangle covers the centre (or a sample)
+    texelTouched = 2,  // a triangle only comes near: filled for filtering
+    texelMissed = 4,   // some ray found nothing
+    texelNegative = 8, // the normal lies below the frame's horizon
+    texelTwice = 16,   // several triangles cover it
+    texelPadded = 32,  // filled from the nearest chart
+};
+
+struct BakeStatistics {
+    std::size_t texels = 0, covered = 0, touched = 0, missed = 0, negative = 0, twice = 0;
+    std::size_t rays = 0;
+    std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
+    double rayDistance = 0;   // the search distance used
+    double seconds = 0;       // of the rays and frames
+};
+
+// A baked map before it is stored: per texel a unit texel m (or a world normal; or the value in x),
+// zero where nothing was found.
+struct Baked {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> values;
+    std::vector<std::uint8_t> states;
+    BakeStatistics statistics;
+};
+
+// Bakes. `progress` (may be empty) is called from several threads after each row. The result does not
+// depend on the number of threads.
+// Errors: ErrorKind::input for a cage of another number of vertices.
+Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
+                   const std::function<void()>& progress = {});
+
+// The normals of the high surface as a picture of the low one should show them: through each pixel's
+// centre to the low surface, from there as bake() does. float32, alpha 1 where both were found.
+// A second way to the same places: by rays from the eye instead of texels of a raster.
+Image expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
+
+// Fills texels without a value from the nearest one that has one, up to `radius` texels away (0: no
+// limit), ties to the upper, then the left. So every texel belongs to its nearest chart.
+void padCharts(Baked& baked, int radius);
+
+// How a map is stored.
+struct StoredAs {
+    NormalMapFormat format;
+    PixelType type = PixelType::unorm8;
+    bool dither = false; // 8 bit: rounds by a fixed pattern so that gradients do not band
+};
+
+// The picture of a baked map. Normals by the format; heights and occlusion as grey, heights shifted
+// and scaled to [0,1] unless float. Texels without a value become flat (normals) or zero.
+Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
+
+// States as colours: covered green, touched dark green, missed red, negative blue, twice yellow.
+Image maskOf(const Baked& baked);
+
+} // namespace cotan

@@ -1,0 +1,59 @@
+// The detailed surface that rays find.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "cotan/result.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+struct Ray {
+    glm::vec3 origin, direction; // direction unit
+    float nearest = 0, farthest = 0;
+};
+
+struct Hit {
+    bool found = false;
+    float distance = 0;
+    glm::vec3 normal{0};         // unit, smooth (interpolated), not turned towards the ray
+    glm::vec3 faceNormal{0};     // unit
+    std::uint32_t instance = 0;  // of the scenes, counted on; empty ones left out
+    std::uint32_t triangle = 0;  // of that instance
+    float b1 = 0, b2 = 0;        // barycentric coordinates of its corners 1 and 2
+};
+
+// All instances of some scenes in world space, in Embree's acceleration structure.
+class HighSurface {
+public:
+    // `threads`: 0 for all. Errors: ErrorKind::input where there is no triangle;
+    // ErrorKind::unavailable where memory does not suffice.
+    static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads);
+
+    HighSurface(HighSurface&&) noexcept;
+    HighSurface& operator=(HighSurface&&) noexcept;
+    ~HighSurface();
+
+    // The nearest hit of a ray. Only triangles of the instance `only` count, unless it is -1.
+    Hit trace(const Ray& ray, std::int64_t only = -1) const;
+    // Whether anything lies on the ray.
+    bool blocked(const Ray& ray) const;
+
+    // Names of the instances, in order, for matching.
+    const std::vector<std::string>& names() const;
+    std::size_t triangleCount() const;
+    glm::vec3 low() const;  // of the box around everything
+    glm::vec3 high() const;
+
+private:
+    struct State;
+    explicit HighSurface(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+} // namespace cotan

@@ -1,0 +1,71 @@
+// Which triangles a texel shows, and where on them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace cotan {
+
+// Triangles in texture space, (0,0) the top left corner of the image, (1,1) its bottom right.
+struct UvTriangles {
+    std::span<const glm::vec2> texcoords;
+    std::span<const std::uint32_t> indices; // three a triangle, each inside texcoords
+};
+
+// A point of a triangle: corner 0 + (corner 1 - corner 0) * b1 + (corner 2 - corner 0) * b2.
+struct UvPlace {
+    std::uint32_t triangle = 0;
+    float b1 = 0, b2 = 0;
+    bool covers = false; // the triangle covers the texel's centre; otherwise it only touches the texel, and
+                         // the place is its point nearest to the centre
+};
+
+// The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
+// in the order of the triangles. Triangles that share an edge never both cover a centre on it.
+struct UvRow {
+    std::vector<std::uint32_t> first; // width + 1
+    std::vector<UvPlace> places;
+};
+
+// The texels of an image under a layout of uv. Keeps, per row, a list of the triangles that may touch
+// it: some 8 bytes a triangle and row. Triangles without area in uv, or with uv that are not finite
+// or further than 1e6 from zero, touch nothing.
+class UvRaster {
+public:
+    // tile: which unit square of uv the image shows ((0,0) for ordinary layouts; UDIM 1001 + u + 10 v).
+    // wrap: uv outside the unit square show the image repeated; then every triangle is shown in all
+    // places, whatever the tile.
+    UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile = {0, 0}, bool wrap = false);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+    // The places of the row y, 0 at the top. With `touching`, also triangles that come within half a
+    // texel's diagonal of the centre. May be called from several threads.
+    void row(int y, bool touching, UvRow& result) const;
+
+private:
+    struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
+        std::uint32_t triangle;
+        glm::dvec2 corner[3];
+        bool mirrored; // corners 1 and 2 are exchanged
+    };
+    void scan(const Shown& t, int y, bool touching, std::vector<std::pair<int, UvPlace>>& found) const;
+
+    int width_, height_;
+    std::vector<Shown> shown_;
+    std::vector<std::size_t> rowFirst_;   // height + 1
+    std::vector<std::uint32_t> rowShown_; // indices into shown_, in order
+};
+
+// Counts over a whole layout.
+struct UvCoverage {
+    std::size_t covered = 0;     // texels whose centre some triangle covers
+    std::size_t overlapping = 0; // ... more than one
+};
+UvCoverage coverage(const UvRaster& raster);
+
+} // namespace cotan

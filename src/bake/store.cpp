@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "cotan/bake/bake.hpp"
+
+namespace cotan {
+
+namespace {
+
+// An 8x8 ordered pattern (B. Bayer 1973) in [0,1): the same for the same place.
+float bayer(int x, int y)
+{
+    unsigned v = 0;
+    for (int bit = 0; bit < 3; ++bit) {
+        const unsigned a = unsigned(x >> bit) & 1u, b = unsigned(y >> bit) & 1u;
+        v = (v << 2) | ((a ^ b) << 1) | b;
+    }
+    return (float(v) + 0.5f) / 64;
+}
+
+struct Writer {
+    Image image;
+    bool dither;
+
+    void put(std::size_t i, glm::vec3 c)
+    {
+        const float channels[4] = {c.x, c.y, c.z, 1};
+        const int x = int(i % std::size_t(image.width)), y = int(i / std::size_t(image.width));
+        const float offset = dither && image.type == PixelType::unorm8 ? bayer(x, y) : 0.5f;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const float v = std::clamp(channels[k], 0.0f, 1.0f);
+            if (image.type == PixelType::float32)
+                image.floats()[4 * i + k] = channels[k];
+            else if (image.type == PixelType::unorm16)
+                image.words()[4 * i + k] = std::uint16_t(v * 65535 + 0.5f);
+            else
+                image.bytes8()[4 * i + k] = std::uint8_t(std::min(std::floor(v * 255 + (k < 3 ? offset : 0.5f)), 255.0f));
+        }
+    }
+};
+
+f32::cotan_normal_format portable(const NormalMapFormat& f)
+{
+    return {f.expansion, f.channels, f.greenAlongV ? 1.0f : -1.0f, 1.0f};
+}
+
+} // namespace
+
+Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
+{
+    Writer writer{makeImage(baked.width, baked.height, as.type), as.dither};
+    const bool direction = kind == BakeKind::normal || kind == BakeKind::objectNormal;
+    float low = 0, scale = 1;
+    if (kind == BakeKind::height && as.type != PixelType::float32) {
+        float least = 1e30f, most = -1e30f;
+        for (std::size_t i = 0; i < baked.values.size(); ++i)
+            if (baked.values[i].z != 0) {
+                least = std::min(least, baked.values[i].x);
+                most = std::max(most, baked.values[i].x);
+            }
+        low = least;
+        scale = most > least ? 1 / (most - least) : 0;
+    }
+    NormalMapFormat format = as.format;
+    if (kind == BakeKind::objectNormal) { // world axes have no green to turn and need all three
+        format.channels = COTAN_CHANNELS_XYZ;
+        format.greenAlongV = true;
+    }
+    for (std::size_t i = 0; i < baked.values.size(); ++i) {
+        const glm::vec3 v = baked.values[i];
+        if (direction) {
+            const bool empty = v == glm::vec3(0);
+            if (empty && kind == BakeKind::objectNormal)
+                writer.put(i, glm::vec3(f32::cotan_compress(0, format.expansion)));
+            else
+                writer.put(i, f32::cotan_encode_texel(empty ? glm::vec3(0, 0, 1) : v, portable(format)));
+        } else {
+            writer.put(i, glm::vec3(v.z != 0 ? (v.x - low) * scale : 0.0f));
+        }
+    }
+    return std::move(writer.image);
+}
+
+Image maskOf(const Baked& baked)
+{
+    Writer writer{makeImage(baked.width, baked.height, PixelType::unorm8), false};
+    for (std::size_t i = 0; i < baked.states.size(); ++i) {
+        const std::uint8_t s = baked.states[i];
+        writer.put(i, s & texelMissed     ? glm::vec3(1, 0, 0)
+                      : s & texelNegative ? glm::vec3(0, 0.3f, 1)
+                      : s & texelTwice    ? glm::vec3(1, 1, 0)
+                      : s & texelCovered  ? glm::vec3(0, 0.7f, 0)
+                      : s & texelTouched  ? glm::vec3(0, 0.35f, 0)
+                                          : glm::vec3(0));
+    }
+    return std::move(writer.image);
+}
+
+} // namespace cotan

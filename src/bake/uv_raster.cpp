@@ -1,0 +1,183 @@
+#include "cotan/bake/uv_raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+constexpr double kFarthest = 1e6;         // uv beyond have no texel of their own in float
+constexpr double kReach = 0.70710678;     // half the diagonal of a texel
+constexpr int kMostCopies = 64;           // of one triangle that wraps: per axis
+
+double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+// Twice the area of (a, b, p). Exactly the negative when a and b are exchanged, so that a point on
+// the edge between two triangles is on the same side for both.
+double edge(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
+{
+    const bool swapped = a.x > b.x || (a.x == b.x && a.y > b.y);
+    if (swapped)
+        std::swap(a, b);
+    const double e = cross(b - a, p - a);
+    return swapped ? -e : e;
+}
+
+// Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of
+// rasterisers.
+bool takesEdge(glm::dvec2 a, glm::dvec2 b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
+
+glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
+{
+    const glm::dvec2 d = b - a;
+    const double d2 = glm::dot(d, d);
+    return a + d * std::clamp(d2 > 0 ? glm::dot(p - a, d) / d2 : 0, 0.0, 1.0);
+}
+
+} // namespace
+
+UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
+    : width_(width), height_(height), rowFirst_(std::size_t(height) + 1, 0)
+{
+    const glm::dvec2 size(width, height);
+    for (std::size_t f = 0; f + 2 < triangles.indices.size(); f += 3) {
+        glm::dvec2 uv[3];
+        bool usable = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            uv[k] = glm::dvec2(triangles.texcoords[triangles.indices[f + k]]);
+            usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
+        }
+        const double area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+        if (!usable || area == 0)
+            continue;
+        const glm::dvec2 low = glm::min(uv[0], glm::min(uv[1], uv[2]));
+        const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
+        glm::ivec2 from = tile, to = tile;
+        if (wrap) {
+            from = glm::ivec2(glm::floor(low));
+            to = glm::min(glm::ivec2(glm::ceil(high)) - 1, from + kMostCopies - 1);
+            to = glm::max(to, from);
+        }
+        for (int j = from.y; j <= to.y; ++j)
+            for (int i = from.x; i <= to.x; ++i) {
+                Shown t{std::uint32_t(f / 3), {}, area < 0};
+                for (int k = 0; k < 3; ++k)
+                    t.corner[k] = (uv[k] - glm::dvec2(i, j)) * size;
+                if (t.mirrored)
+                    std::swap(t.corner[1], t.corner[2]);
+                shown_.push_back(t);
+            }
+    }
+    auto rowsOf = [&](const Shown& t) {
+        const double low = std::min({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+        const double high = std::max({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+        const int first = int(std::clamp(std::floor(low - 0.5 - kReach), 0.0, double(height)));
+        const int last = int(std::clamp(std::ceil(high - 0.5 + kReach), -1.0, double(height) - 1));
+        return std::pair(first, last);
+    };
+    for (const Shown& t : shown_)
+        for (auto [y, last] = rowsOf(t); y <= last; ++y)
+            ++rowFirst_[std::size_t(y) + 1];
+    for (std::size_t y = 1; y < rowFirst_.size(); ++y)
+        rowFirst_[y] += rowFirst_[y - 1];
+    rowShown_.resize(rowFirst_.back());
+    std::vector<std::size_t> next(rowFirst_.begin(), rowFirst_.end() - 1);
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+        for (auto [y, last] = rowsOf(shown_[i]); y <= last; ++y)
+            rowShown_[next[std::size_t(y)]++] = std::uint32_t(i);
+}
+
+void UvRaster::scan(const Shown& t, int y, bool touching, std::vector<std::pair<int, UvPlace>>& found) const
+{
+    const glm::dvec2 *c = t.corner, edge1 = c[1] - c[0], edge2 = c[2] - c[0];
+    const double area = cross(edge1, edge2);
+    const double py = y + 0.5, reach = touching ? kReach : 0;
+    // The part of the triangle within reach of the row's centres.
+    double low = 1e30, high = -1e30;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec2 a = c[k], b = c[(k + 1) % 3];
+        for (double at : {py - reach, py + reach})
+            if ((a.y - at) * (b.y - at) <= 0 && a.y != b.y) {
+                const double x = a.x + (b.x - a.x) * ((at - a.y) / (b.y - a.y));
+                low = std::min(low, x);
+                high = std::max(high, x);
+            }
+        if (std::abs(a.y - py) <= reach) {
+            low = std::min(low, a.x);
+            high = std::max(high, a.x);
+        }
+    }
+    const int first = int(std::clamp(std::floor(low - 0.5 - reach), 0.0, double(width_)));
+    const int last = int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1));
+    for (int x = first; x <= last; ++x) {
+        glm::dvec2 p(x + 0.5, py);
+        bool covers = true;
+        for (int k = 0; k < 3 && covers; ++k) {
+            const glm::dvec2 a = c[k], b = c[(k + 1) % 3];
+            const double e = edge(a, b, p);
+            covers = e > 0 || (e == 0 && takesEdge(a, b));
+        }
+        if (!covers) {
+            if (!touching)
+                continue;
+            glm::dvec2 nearest = p;
+            double best = kReach * kReach;
+            bool reached = false;
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec2 q = nearestOn(c[k], c[(k + 1) % 3], p);
+                const double d2 = glm::dot(q - p, q - p);
+                if (d2 <= best) {
+                    best = d2;
+                    nearest = q;
+                    reached = true;
+                }
+            }
+            if (!reached)
+                continue;
+            p = nearest;
+        }
+        double b1 = cross(p - c[0], edge2) / area, b2 = cross(edge1, p - c[0]) / area;
+        if (t.mirrored)
+            std::swap(b1, b2);
+        found.push_back({x, {t.triangle, float(b1), float(b2), covers}});
+    }
+}
+
+void UvRaster::row(int y, bool touching, UvRow& result) const
+{
+    thread_local std::vector<std::pair<int, UvPlace>> found;
+    found.clear();
+    for (std::size_t i = rowFirst_[std::size_t(y)]; i < rowFirst_[std::size_t(y) + 1]; ++i)
+        scan(shown_[rowShown_[i]], y, touching, found);
+    result.first.assign(std::size_t(width_) + 1, 0);
+    for (const auto& [x, place] : found)
+        ++result.first[std::size_t(x) + 1];
+    for (std::size_t x = 1; x < result.first.size(); ++x)
+        result.first[x] += result.first[x - 1];
+    result.places.resize(found.size());
+    thread_local std::vector<std::uint32_t> next;
+    next.assign(result.first.begin(), result.first.end() - 1);
+    for (const auto& [x, place] : found) // in the order of the triangles
+        result.places[next[std::size_t(x)]++] = place;
+}
+
+UvCoverage coverage(const UvRaster& raster)
+{
+    UvCoverage c;
+    UvRow row;
+    for (int y = 0; y < raster.height(); ++y) {
+        raster.row(y, false, row);
+        for (std::size_t x = 0; x + 1 < row.first.size(); ++x) {
+            const std::uint32_t n = row.first[x + 1] - row.first[x];
+            c.covered += n > 0;
+            c.overlapping += n > 1;
+        }
+    }
+    return c;
+}
+
+} // namespace cotan

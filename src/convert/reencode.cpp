@@ -1,0 +1,286 @@
+#include "cotan/convert/reencode.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "cotan/convert/solve_texel.hpp"
+#include "cotan/lint/texel.hpp"
+#include "padding.hpp"
+#include "tally.hpp"
+#include "use_raster.hpp"
+
+namespace cotan {
+
+namespace {
+
+using convert::Place;
+using convert::UseRaster;
+
+glm::dmat3 matrixOf(const f64::cotan_frame& f, const f64::cotan_normal_format& format)
+{
+    return {f.t * format.strength, f.b * (format.strength * format.green), f.n};
+}
+
+struct RowCounts {
+    std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
+    convert::Tally moved, unconverted, disagreement, error;
+};
+
+class Reencoder {
+public:
+    Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits)
+        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)),
+          owner_(map.pixelCount(), convert::kNoTexel)
+    {
+        plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
+        plain_.strength = 1;
+        plain_.green = 1;
+        for (const MapUse& use : uses)
+            rasters_.emplace_back(use, map.width, map.height);
+        result_.image =
+            makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
+        nearest_.resize(std::size_t(map.height));
+    }
+
+    Reencoded run(const std::function<void()>& rowDone)
+    {
+        auto overRows = [&](const auto& work) { oneapi::tbb::parallel_for(0, map_.height, work); };
+        overRows([&](int y) {
+            solveRow(y);
+            if (rowDone)
+                rowDone();
+        });
+        convert::spread(owner_, map_.width, map_.height);
+        markNeeded();
+        overRows([&](int y) { findPlaces(y); });
+        overRows([&](int y) { padRow(y); });
+        RowCounts all;
+        for (const RowCounts& r : rows_) { // in order: sums are the same however many threads there are
+            all.moved.add(r.moved);
+            all.unconverted.add(r.unconverted);
+            all.disagreement.add(r.disagreement);
+            all.error.add(r.error);
+            result_.covered += r.covered;
+            result_.padded += r.padded;
+            result_.several += r.several;
+            result_.disagreeing += r.disagreeing;
+            result_.belowHorizon += r.belowHorizon;
+        }
+        result_.moved = all.moved.spread();
+        result_.unconverted = all.unconverted.spread();
+        result_.disagreement = all.disagreement.spread();
+        result_.error = all.error.spread();
+        return std::move(result_);
+    }
+
+private:
+    std::vector<std::vector<Place>> placesOf(int y) const
+    {
+        std::vector<std::vector<Place>> texels(std::size_t(map_.width));
+        for (std::size_t i = 0; i < rasters_.size(); ++i)
+            if (std::abs(uses_[i].format.strength) > 1e-6) // a flattened map shows nothing
+                rasters_[i].addRow(y, std::uint32_t(i), texels);
+        for (std::vector<Place>& places : texels) {
+            const bool covered = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.covers; });
+            if (covered)
+                std::erase_if(places, [](const Place& p) { return !p.covers; });
+            if (places.size() > kMostPlaces) {
+                std::vector<Place> chosen;
+                for (std::size_t k = 0; k < kMostPlaces; ++k)
+                    chosen.push_back(places[k * places.size() / kMostPlaces]);
+                places = std::move(chosen);
+            }
+        }
+        return texels;
+    }
+
+    // The stored direction, along (red, green, blue), whatever green means.
+    glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
+
+    Demand demandAt(const Place& p, glm::dvec3 old) const
+    {
+        const MapUse& use = uses_[p.use];
+        const f64::cotan_frame from = frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
+        const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
+        const glm::dvec3 m(old.x * use.format.strength, old.y * use.format.strength * use.format.green, old.z);
+        // `mikktspace` hands back its n, not unit, where the sum vanishes.
+        return {matrixOf(to, use.format), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
+    }
+
+    void write(int x, int y, glm::dvec3 texel)
+    {
+        const glm::dvec3 stored = f64::cotan_encode_texel(texel, plain_);
+        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
+        for (int k = 0; k < 3; ++k)
+            set(at + std::size_t(k), stored[k]);
+        copyAlpha(at);
+    }
+
+    void set(std::size_t component, double value)
+    {
+        if (result_.image.type == PixelType::unorm16)
+            result_.image.words()[component] = std::uint16_t(std::lround(std::clamp(value, 0.0, 1.0) * 65535));
+        else
+            result_.image.bytes8()[component] = std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));
+    }
+
+    void copyAlpha(std::size_t at)
+    {
+        const double alpha = map_.type == PixelType::unorm8 ? map_.bytes8()[at + 3] / 255.0
+            : map_.type == PixelType::unorm16               ? map_.words()[at + 3] / 65535.0
+                                                            : double(map_.floats()[at + 3]);
+        set(at + 3, alpha);
+    }
+
+    void keep(int x, int y)
+    {
+        const glm::dvec3 stored = storedTexel(map_, x, y);
+        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
+        for (int k = 0; k < 3; ++k)
+            set(at + std::size_t(k), stored[k]);
+        copyAlpha(at);
+    }
+
+    glm::dvec3 newTexel(int x, int y) const { return f64::cotan_decode(storedTexel(result_.image, x, y), plain_); }
+
+    void solveRow(int y)
+    {
+        const auto texels = placesOf(y);
+        RowCounts& counts = rows_[std::size_t(y)];
+        std::vector<Demand> demands;
+        for (int x = 0; x < map_.width; ++x) {
+            const std::vector<Place>& places = texels[std::size_t(x)];
+            if (places.empty())
+                continue;
+            const glm::dvec3 old = oldTexel(x, y);
+            demands.clear();
+            for (const Place& p : places)
+                demands.push_back(demandAt(p, old));
+            const bool any = std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
+            if (!any) {
+                keep(x, y);
+                continue; // and nothing to spread from
+            }
+            const glm::dvec3 texel = solveTexel(demands, old);
+            write(x, y, texel);
+            owner_[std::size_t(y) * std::size_t(map_.width) + std::size_t(x)] =
+                std::uint32_t(std::size_t(y) * std::size_t(map_.width) + std::size_t(x));
+            if (places.front().covers)
+                count(counts, demands, old, texel, newTexel(x, y));
+            else
+                ++counts.padded;
+        }
+    }
+
+    static double worst(const std::vector<Demand>& demands, glm::dvec3 texel)
+    {
+        double degrees = 0;
+        for (const Demand& d : demands)
+            degrees = std::max(degrees, invertible(d.frame) ? degreesOff(d, texel) : 0);
+        return degrees;
+    }
+
+    static void count(RowCounts& c, const std::vector<Demand>& demands, glm::dvec3 old, glm::dvec3 texel, glm::dvec3 stored)
+    {
+        ++c.covered;
+        c.several += demands.size() > 1;
+        c.belowHorizon += texel.z <= 0;
+        const double conflict = worst(demands, texel);
+        if (conflict > kDisagree) {
+            ++c.disagreeing;
+            c.disagreement.add(conflict);
+        } else {
+            c.error.add(worst(demands, stored));
+        }
+        c.unconverted.add(worst(demands, old));
+        c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
+    }
+
+    // Which texels lend their place to others; only their places are kept.
+    void markNeeded()
+    {
+        std::vector<bool> needed(owner_.size());
+        for (std::size_t i = 0; i < owner_.size(); ++i)
+            if (owner_[i] != convert::kNoTexel && owner_[i] != i)
+                needed[owner_[i]] = true;
+        for (std::size_t i = 0; i < needed.size(); ++i)
+            if (needed[i])
+                nearest_[i / std::size_t(map_.width)].push_back({int(i % std::size_t(map_.width)), {}});
+    }
+
+    void findPlaces(int y)
+    {
+        auto& lent = nearest_[std::size_t(y)];
+        if (lent.empty())
+            return;
+        const auto texels = placesOf(y);
+        for (Lent& l : lent)
+            l.place = texels[std::size_t(l.x)].front();
+    }
+
+    void padRow(int y)
+    {
+        for (int x = 0; x < map_.width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(map_.width) + std::size_t(x);
+            if (owner_[i] == i)
+                continue;
+            const glm::dvec3 old = oldTexel(x, y);
+            if (owner_[i] == convert::kNoTexel || !(old.z > 0)) {
+                keep(x, y);
+                continue;
+            }
+            const auto& row = nearest_[owner_[i] / std::size_t(map_.width)];
+            const int column = int(owner_[i] % std::size_t(map_.width));
+            const auto lent = std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
+            const Demand demand = demandAt(lent->place, old);
+            write(x, y, solveTexel({&demand, 1}, old));
+            ++rows_[std::size_t(y)].padded;
+        }
+    }
+
+    struct Lent {
+        int x = 0;
+        Place place;
+    };
+
+    const Image& map_;
+    std::span<const MapUse> uses_;
+    FramePair frames_;
+    f64::cotan_normal_format plain_{}; // of the map, without what differs between its uses
+    std::vector<UseRaster> rasters_;
+    std::vector<RowCounts> rows_;
+    std::vector<std::uint32_t> owner_;
+    std::vector<std::vector<Lent>> nearest_; // per row, by column
+    Reencoded result_;
+};
+
+} // namespace
+
+Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
+                   int threads, const std::function<void()>& rowDone)
+{
+    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
+    Reencoded result;
+    arena.execute([&] { result = Reencoder(map, uses, frames, bits).run(rowDone); });
+    return result;
+}
+
+double copiesOf(std::span<const MapUse> uses)
+{
+    double copies = 0;
+    for (const MapUse& use : uses)
+        for (std::size_t i = 0; i + 2 < use.surface.uv.size(); i += 3) {
+            const glm::dvec2 &a = use.surface.uv[i], &b = use.surface.uv[i + 1], &c = use.surface.uv[i + 2];
+            const glm::dvec2 low = glm::floor(glm::min(a, glm::min(b, c)));
+            const glm::dvec2 high = glm::max(glm::ceil(glm::max(a, glm::max(b, c))), low + 1.0);
+            copies += (high.x - low.x) * (high.y - low.y);
+        }
+    return copies;
+}
+
+} // namespace cotan

@@ -1,0 +1,64 @@
+// Loops over several threads. Which thread does what never shows in a result.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace cotan {
+
+// How many threads are worth starting for `count` items, of which one thread should get at least
+// `least`. wanted 0: all cores.
+inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted)
+{
+    const std::size_t most =
+        wanted > 0 ? std::size_t(wanted) : std::max(1u, std::thread::hardware_concurrency());
+    return std::clamp<std::size_t>(count / least, 1, most);
+}
+
+// Calls run(i) for all i < tasks, on `threads` threads, this one among them. Where a thread cannot
+// be started the others do its work. Throws what a task has thrown, after all threads have ended.
+template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const Run& run)
+{
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr problem;
+    std::mutex guard;
+    const auto work = [&] {
+        try {
+            for (std::size_t i; (i = next.fetch_add(1)) < tasks;)
+                run(i);
+        } catch (...) {
+            const std::lock_guard lock(guard);
+            problem = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    others.reserve(threads);
+    try {
+        for (std::size_t i = 1; i < std::min(threads, tasks); ++i)
+            others.emplace_back(work);
+    } catch (const std::system_error&) {
+        // no more threads to be had
+    }
+    work();
+    for (std::thread& t : others)
+        t.join();
+    if (problem)
+        std::rethrow_exception(problem);
+}
+
+// Calls run(begin, end) for consecutive parts of [0, count).
+template<class Run> void runParts(std::size_t count, std::size_t threads, const Run& run)
+{
+    // Some parts a thread, so that one that is held up does not keep the others waiting.
+    const std::size_t parts = threads == 1 ? 1 : std::min(count, threads * 8);
+    runTasks(parts, threads,
+             [&](std::size_t i) { run(count * i / parts, count * (i + 1) / parts); });
+}
+
+} // namespace cotan

@@ -1,0 +1,98 @@
+// What to expect of a model whose normal maps are read without stored tangents, before anything is
+// drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cotan/frame.hpp"
+#include "cotan/lint/spread.hpp"
+#include "cotan/lint/surface.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+inline constexpr double kStretched = 1.2; // the longer gradient over the shorter: an orthonormal frame is 2 degrees off
+inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle
+inline constexpr double kTurned = 45;     // degrees between a stored tangent and dP/du
+inline constexpr double kTestTilt = 35;   // degrees: the texel whose step across edges is measured
+
+struct UvQuality {
+    double area = 0;
+    double degenerate = 0;  // uv without area: points and lines
+    double mirrored = 0;
+    double overlapping = 0; // on texels that this or another primitive of the same image uses again
+    double overlappingMirrored = 0; // of those: texels that are used in both orientations
+    double stretched = 0;   // over kStretched
+    double sheared = 0;     // over kSheared
+    Spread stretch;         // ratio, at least 1; degenerate triangles left out
+    Spread shear;           // degrees
+    double gradient = 0;    // the longer uv gradient per unit of length, median
+    double largestUv = 0;   // magnitude
+};
+
+struct EdgeSteps {
+    std::size_t edges = 0; // interior: position, normal and uv agree on both sides, and the orientation
+    Spread cotangent;      // of a texel tilted by kTestTilt, over eight directions, weighted by area
+    Spread orthonormal;
+};
+
+struct StoredTangents {
+    bool present = false;
+    double reversedW = 0; // share of area where the bitangent points against the uv
+    double turned = 0;    // share of area where the tangent is over kTurned from dP/du
+    Spread angle;         // degrees from dP/du in the plane of the normal
+};
+
+// How another frame reads the map if it was made for MikkTSpace.
+struct Reading {
+    std::string name; // of the frame; "stored" for mikktspace with the tangents of the file
+    Spread error;
+};
+
+struct PrimitiveLint {
+    std::string mesh, material;
+    int image = -1; // of the normal map; -1: none
+    std::size_t triangles = 0;
+    bool hasUv = false;
+    UvQuality uv;
+    EdgeSteps steps;
+    StoredTangents stored;
+    std::vector<Reading> readings; // cotangent, orthonormal, smooth, exact and, if present, stored; empty without a map
+    double precision = 0;          // degrees by rounding of float derivatives at LintOptions::distance
+    double closest = 0;            // the distance at which that is half a degree
+};
+
+// Which way green points, from the map alone: the slopes of a height have no curl.
+struct GreenEvidence {
+    int image = -1;
+    std::string name;
+    bool decided = false;   // false: the map says nothing either way
+    bool asDeclared = true; // as the material reads it
+    double correlation = 0; // 1: a perfect height field as declared; -1: with green the other way
+    double agreement = 0;   // share of the detail, by tiles, that says the same
+};
+
+enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmooth };
+
+struct LintReport {
+    std::vector<PrimitiveLint> primitives;
+    std::vector<GreenEvidence> maps;
+    double distance = 0;     // the viewing distance used, world units
+    Advice advice = Advice::nothing;
+    // Stored tangents contradict the uv on more than a tenth of the area, and the maps do not make
+    // up for it (a reversed w with reversed green is right again).
+    bool distrustStored = false;
+    std::string recommendation;
+};
+
+struct LintOptions {
+    double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
+};
+
+// Looks at every primitive (mesh) of the scene, moved as its first instance moves it. Never fails:
+// primitives without triangles or uv are listed with what is known.
+LintReport lintScene(const Scene& scene, const LintOptions& options = {});
+
+} // namespace cotan

@@ -1,0 +1,67 @@
+// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every
+// point. In double, per corner; made once, asked often.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+
+#include "cotan/frame.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+// Which tangents the frames `mikktspace` and `vertex` read.
+enum class TangentOrigin {
+    stored,    // those of the file; generated where it has none
+    generated, // always derived from positions, normals and uv
+};
+
+// Arrays have one entry per corner, three a triangle. Space: the mesh's, moved by the linear map
+// that makeSurface was given.
+struct MappedSurface {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dvec3> normals;    // unit, or zero where unknown
+    std::vector<glm::dvec2> uv;         // of the normal map, transformed; empty if the mesh has none
+    std::vector<glm::dvec4> stored;     // xyz along +u; w * cross(n, xyz) along +v. Empty if none
+    std::vector<glm::dvec4> mikktspace; // generated, laid out as `stored`
+    std::vector<glm::dvec4> vertex;
+    std::vector<glm::dvec3> cotangentsU, cotangentsV;
+
+    std::size_t triangleCount() const { return positions.size() / 3; }
+};
+
+// map: whose uv set and transform are used; with no image the first uv set as it is. linear: moves
+// positions and vectors, covectors by its inverse transpose; singular maps leave normals zero.
+// Tangents and cotangents are generated in the mesh's own space and moved, as viewers do.
+// Degenerate input: a mesh without triangles or uv gives a surface without them; uv that are not
+// finite are taken as 0, and `mikktspace`, `vertex` and cotangents stay as their generators say.
+MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear = glm::dmat3(1));
+
+// Whether the frame at a point is the same from wherever it is seen: only then a map can be made for it.
+bool viewIndependent(Frame frame);
+
+// The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are
+// made of differences take the triangle's edges, which gives the same as a pixel's differences.
+// Degenerate input: as for the functions cotan_frame_NAME; no uv, or no tangents, give t = b = 0.
+f64::cotan_frame frameAt(const MappedSurface& surface, Frame frame, TangentOrigin tangents, std::size_t triangle,
+                         glm::dvec3 barycentric);
+
+// A value per corner at a point of a triangle.
+template<class T> T atPoint(const std::vector<T>& corners, std::size_t triangle, glm::dvec3 barycentric)
+{
+    return corners[3 * triangle] * barycentric.x + corners[3 * triangle + 1] * barycentric.y
+        + corners[3 * triangle + 2] * barycentric.z;
+}
+
+// Half the length of the cross product of two edges.
+double areaOf(const MappedSurface& surface, std::size_t triangle);
+
+// The sign of a triangle's uv: +1 where increasing u turned towards increasing v (which runs down
+// the image) goes clockwise seen from outside, as on an unmirrored chart; -1 mirrored; 0 without area.
+int orientationOf(const MappedSurface& surface, std::size_t triangle);
+
+} // namespace cotan

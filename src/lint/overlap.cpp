@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <glm/common.hpp>
+
+#include "cotan/bake/uv_raster.hpp"
+#include "parts.hpp"
+
+namespace cotan::lint {
+
+namespace {
+
+constexpr double kFarthest = 1e6;   // uv beyond are not drawn, as UvRaster has it
+constexpr double kMostCopies = 2e6; // of the image under all triangles together
+
+// How often the image is repeated under the triangles' boxes.
+double copiesUnder(const MappedSurface& s)
+{
+    double copies = 0;
+    for (std::size_t i = 0; i + 2 < s.uv.size(); i += 3) {
+        const glm::dvec2 low = glm::min(s.uv[i], glm::min(s.uv[i + 1], s.uv[i + 2]));
+        const glm::dvec2 high = glm::max(s.uv[i], glm::max(s.uv[i + 1], s.uv[i + 2]));
+        if (low.x < -kFarthest || low.y < -kFarthest || high.x > kFarthest || high.y > kFarthest)
+            continue;
+        const glm::dvec2 tiles = glm::max(glm::ceil(high) - glm::floor(low), 1.0);
+        copies += tiles.x * tiles.y;
+    }
+    return copies;
+}
+
+UvRaster rasterOf(const MappedSurface& s, int side)
+{
+    std::vector<glm::vec2> uv;
+    for (glm::dvec2 c : s.uv)
+        uv.push_back(glm::vec2(c));
+    std::vector<std::uint32_t> indices(uv.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    return UvRaster({uv, indices}, side, side, {0, 0}, true);
+}
+
+// Calls use(texel, triangle) for every texel whose centre a triangle covers; uv repeat the image.
+template<class Use> void forEachTexel(const UvRaster& raster, const Use& use)
+{
+    UvRow row;
+    for (int y = 0; y < raster.height(); ++y) {
+        raster.row(y, false, row);
+        for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
+            for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
+                use(std::size_t(y) * std::size_t(raster.width()) + x, std::size_t(row.places[i].triangle));
+    }
+}
+
+// How often a texel is used, up to 3, by each orientation.
+struct Uses {
+    std::uint8_t plain = 0, mirrored = 0;
+};
+
+struct Covered {
+    std::size_t texels = 0, shared = 0, turned = 0;
+};
+
+void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, UvQuality& q)
+{
+    double several = 0, both = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (triangles[i].texels == 0)
+            continue;
+        const double perTexel = areaOf(s, i) / double(triangles[i].texels);
+        several += perTexel * double(triangles[i].shared);
+        both += perTexel * double(triangles[i].turned);
+    }
+    const double whole = q.area > 0 ? q.area : 1;
+    q.overlapping = several / whole;
+    q.overlappingMirrored = both / whole;
+}
+
+} // namespace
+
+void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
+                   int side)
+{
+    double copies = 0;
+    for (const MappedSurface* s : surfaces)
+        copies += copiesUnder(*s);
+    if (copies > kMostCopies) {
+        for (UvQuality* q : qualities)
+            q->overlapping = 1;
+        return;
+    }
+    std::vector<UvRaster> rasters;
+    std::vector<Uses> uses(std::size_t(side) * std::size_t(side));
+    for (const MappedSurface* s : surfaces) {
+        std::vector<bool> mirrored(s->triangleCount());
+        for (std::size_t i = 0; i < mirrored.size(); ++i)
+            mirrored[i] = orientationOf(*s, i) < 0;
+        rasters.push_back(rasterOf(*s, side));
+        forEachTexel(rasters.back(), [&](std::size_t texel, std::size_t triangle) {
+            std::uint8_t& n = mirrored[triangle] ? uses[texel].mirrored : uses[texel].plain;
+            n = std::uint8_t(std::min(n + 1, 3));
+        });
+    }
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        std::vector<Covered> triangles(surfaces[k]->triangleCount());
+        forEachTexel(rasters[k], [&](std::size_t texel, std::size_t triangle) {
+            Covered& c = triangles[triangle];
+            ++c.texels;
+            c.shared += uses[texel].plain + uses[texel].mirrored > 1;
+            c.turned += uses[texel].plain > 0 && uses[texel].mirrored > 0;
+        });
+        addOverlaps(*surfaces[k], triangles, *qualities[k]);
+    }
+}
+
+} // namespace cotan::lint

@@ -1,0 +1,32 @@
+// The steps of lintScene, each in a file of its own.
+#pragma once
+
+#include "cotan/lint/lint.hpp"
+
+namespace cotan::lint {
+
+// Everything of UvQuality but the two overlaps.
+UvQuality uvQuality(const MappedSurface& surface);
+
+// The two overlaps, for surfaces that read the same image: by counting how often each texel of a
+// raster is used. Triangles that cover no texel centre do not count; where uv repeat the image millions
+// of times all counts as overlapping. side: of the raster.
+void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
+                   int side = 512);
+
+EdgeSteps edgeSteps(const MappedSurface& surface);
+
+StoredTangents storedTangents(const MappedSurface& surface);
+
+// Points spread evenly over the area, decoded there and read with each frame. Angles to MikkTSpace
+// with generated tangents.
+std::vector<Reading> readings(const MappedSurface& surface, const Material& material, const Image& map);
+
+GreenEvidence greenEvidence(const Image& map, const Material& material);
+
+// Sets advice, distrustStored and recommendation from all the rest.
+void recommend(LintReport& report);
+
+double degreesBetween(glm::dvec3 a, glm::dvec3 b); // of unit vectors; stays exact near zero
+
+} // namespace cotan::lint

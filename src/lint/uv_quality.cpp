@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "parts.hpp"
+
+namespace cotan::lint {
+
+namespace {
+
+// Gradients of u and v in the plane of a triangle, per unit of length.
+struct Gradients {
+    glm::dvec3 u{0}, v{0};
+    bool usable = false;
+};
+
+Gradients gradientsOf(const MappedSurface& s, std::size_t triangle)
+{
+    const std::size_t a = 3 * triangle;
+    const glm::dvec3 e1 = s.positions[a + 1] - s.positions[a], e2 = s.positions[a + 2] - s.positions[a];
+    const glm::dvec2 d1 = s.uv[a + 1] - s.uv[a], d2 = s.uv[a + 2] - s.uv[a];
+    const glm::dvec3 face = glm::cross(e1, e2);
+    const double area2 = glm::dot(face, face);
+    if (!(area2 > 0))
+        return {};
+    const glm::dvec3 r1 = glm::cross(e2, face) / area2, r2 = glm::cross(face, e1) / area2;
+    return {r1 * d1.x + r2 * d2.x, r1 * d1.y + r2 * d2.y, true};
+}
+
+// The ratio of the two singular values of (grad u, grad v), at least 1; 0 where the smaller is below
+// 1e-4 of the larger: uv along a line, or one point.
+double stretchOf(const Gradients& g)
+{
+    const double uu = glm::dot(g.u, g.u), vv = glm::dot(g.v, g.v), uv = glm::dot(g.u, g.v);
+    const double mean = (uu + vv) / 2;
+    const double radius = std::sqrt((uu - vv) * (uu - vv) / 4 + uv * uv);
+    const double large = mean + radius;
+    // The smaller eigenvalue from the determinant: the difference would cancel out.
+    const glm::dvec3 crossed = glm::cross(g.u, g.v);
+    const double small = large > 0 ? glm::dot(crossed, crossed) / large : 0;
+    return small > 1e-8 * large ? std::sqrt(large / small) : 0;
+}
+
+double shearOf(const Gradients& g)
+{
+    const double angle = glm::degrees(std::atan2(glm::length(glm::cross(g.u, g.v)), glm::dot(g.u, g.v)));
+    return std::abs(90 - angle);
+}
+
+} // namespace
+
+UvQuality uvQuality(const MappedSurface& s)
+{
+    UvQuality q;
+    std::vector<std::pair<double, double>> stretch, shear, gradient;
+    for (std::size_t i = 0; i < s.triangleCount(); ++i) {
+        const double area = areaOf(s, i);
+        q.area += area;
+        if (s.uv.empty())
+            continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            q.largestUv = std::max({q.largestUv, std::abs(s.uv[3 * i + k].x), std::abs(s.uv[3 * i + k].y)});
+        const Gradients g = gradientsOf(s, i);
+        if (!g.usable)
+            continue;
+        const double ratio = stretchOf(g);
+        if (!(ratio > 0)) {
+            q.degenerate += area;
+            continue;
+        }
+        const double degrees = shearOf(g);
+        q.mirrored += orientationOf(s, i) < 0 ? area : 0;
+        q.stretched += ratio > kStretched ? area : 0;
+        q.sheared += degrees > kSheared ? area : 0;
+        stretch.emplace_back(ratio, area);
+        shear.emplace_back(degrees, area);
+        gradient.emplace_back(std::max(glm::length(g.u), glm::length(g.v)), area);
+    }
+    const double whole = q.area > 0 ? q.area : 1;
+    q.degenerate /= whole;
+    q.mirrored /= whole;
+    q.stretched /= whole;
+    q.sheared /= whole;
+    q.stretch = spreadOf(std::move(stretch));
+    q.shear = spreadOf(std::move(shear));
+    if (!gradient.empty()) {
+        auto middle = gradient.begin() + std::ptrdiff_t(gradient.size() / 2);
+        std::nth_element(gradient.begin(), middle, gradient.end());
+        q.gradient = middle->first;
+    }
+    return q;
+}
+
+} // namespace cotan::lint

@@ -1,0 +1,157 @@
+// `cotan bake` as a user runs it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/truth/quad.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+const std::filesystem::path kWaves = COTAN_SHARED_DATA "/bake/synthetic_waves";
+
+glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
+{
+    auto component = [&](std::size_t k) {
+        const double c = image.type == PixelType::unorm16 ? image.words()[4 * i + k] / 65535.0 : image.bytes8()[4 * i + k] / 255.0;
+        return (255 * c - 128) / 127;
+    };
+    return {component(0), component(1) * (green ? 1 : -1), component(2)};
+}
+
+// The high mesh is a grid of 128 cells with the analytic normals at its vertices. Centres of texels of a
+// 64 x 64 map lie on vertices, so that the answer is exact there.
+TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
+{
+    if (!std::filesystem::exists(kWaves / "high.obj"))
+        GTEST_SKIP() << "no " << kWaves;
+    std::vector<glm::dvec3> normals;
+    std::istringstream lines(readWhole(kWaves / "high.obj"));
+    for (std::string line; std::getline(lines, line);)
+        if (glm::dvec3 n; std::sscanf(line.c_str(), "vn %lf %lf %lf", &n.x, &n.y, &n.z) == 3)
+            normals.push_back(n);
+    ASSERT_EQ(normals.size(), 129u * 129u);
+    TemporaryFolder folder;
+    for (const char* convention : {"opengl", "directx"})
+        for (const char* bits : {"8", "16"}) {
+            const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(),
+                                       "--size", "64x64", "--bits", bits, "--convention", convention, "--frame", "cotangent",
+                                       "-o", "map.png", "--quiet"}, folder.path());
+            ASSERT_EQ(r.code, 0) << r.err;
+            const auto map = readImage(folder / "map.png");
+            ASSERT_TRUE(map);
+            double mean = 0;
+            for (std::size_t j = 0; j < 64; ++j)
+                for (std::size_t i = 0; i < 64; ++i)
+                    mean += degreesBetween(decoded(*map, j * 64 + i, convention == std::string("opengl")),
+                                           normals[(128 - (2 * j + 1)) * 129 + 2 * i + 1]) / 4096;
+            EXPECT_LT(mean, bits == std::string("8") ? 0.2 : 0.01) << convention << ", " << bits;
+        }
+}
+
+// Between its vertices the mesh only has interpolated normals: 0.22 degrees mean from the analytic ones
+// ((25 / 128)^2 / 8 of the slope), whatever bakes it.
+TEST(BakeCommand, syntheticWavesBetweenVerticesAreAsGoodAsTheMesh)
+{
+    if (!std::filesystem::exists(kWaves / "high.obj"))
+        GTEST_SKIP() << "no " << kWaves;
+    const auto truth = readImage(kWaves / "normal_gl16.png");
+    ASSERT_TRUE(truth);
+    TemporaryFolder folder;
+    const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(), "--size",
+                               "256x256", "--bits", "16", "-o", "map.png", "--quiet"}, folder.path());
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto map = readImage(folder / "map.png");
+    ASSERT_TRUE(map);
+    double mean = 0;
+    for (std::size_t i = 0; i < truth->pixelCount(); ++i) {
+        const glm::dvec3 t(truth->words()[4 * i] / 32767.5 - 1, truth->words()[4 * i + 1] / 32767.5 - 1,
+                           truth->words()[4 * i + 2] / 32767.5 - 1); // stored as n/2 + 1/2
+        mean += degreesBetween(decoded(*map, i, true), t) / double(truth->pixelCount());
+    }
+    EXPECT_LT(mean, 0.25);
+}
+
+TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
+{
+    const std::filesystem::path bunny = COTAN_SHARED_DATA "/bake/bunny";
+    if (!std::filesystem::exists(bunny / "bunny_high.obj"))
+        GTEST_SKIP() << "no " << bunny;
+    TemporaryFolder folder;
+    const ToolRun r = runTool({"bake", "--high", (bunny / "bunny_high.obj").string(), "--low", (bunny / "bunny_low.obj").string(),
+                               "--size", "1024x1024", "--frame", "smooth", "-o", "map.png", "--verify", "views", "--json", "r.json",
+                               "--quiet"}, folder.path(), 240);
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+    // Measured 0.6 mean at this size: the map's filtering; where rays of neighbours diverge, more.
+    EXPECT_LT(report["verify"]["all"]["mean_degrees"].get<double>(), 1.0);
+    EXPECT_LT(report["verify"]["all"]["median_degrees"].get<double>(), 0.6);
+    EXPECT_LT(report["bake"]["missed"].get<double>(), 0.01 * report["bake"]["covered"].get<double>());
+    for (const char* file : {"error-0.png", "low-3.png", "high-2.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / "views" / file)) << file;
+}
+
+struct Files {
+    TemporaryFolder folder;
+    Files()
+    {
+        const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+        std::ofstream(folder / "low.obj") << square << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+        std::ofstream(folder / "bare.obj") << square << "f 1 2 3\nf 1 3 4\n";
+        std::ofstream(folder / "one.obj") << square << "f 1 2 3\n";
+        std::ofstream(folder / "empty.obj") << "v 0 0 0\n";
+    }
+};
+
+TEST(BakeCommand, badInputGetsOneLineAndItsExitCode)
+{
+    Files files;
+    const std::pair<std::vector<std::string>, int> runs[] = {
+        {{"--high", "bare.obj", "--low", "bare.obj", "-o", "m.png"}, 2},                      // no uv
+        {{"--high", "empty.obj", "--low", "low.obj", "-o", "m.png"}, 2},                      // nothing to hit
+        {{"--high", "missing.obj", "--low", "low.obj", "-o", "m.png"}, 2},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--cage", "one.obj"}, 2},  // another topology
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "no/folder/m.png"}, 4},
+        {{"--high", "bare.obj", "--low", "low.obj"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "100000x100000"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "0x8"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--frame", "nonperspective"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--convention", "mine"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.xyz", "--size", "8x8"}, 1},
+    };
+    for (auto [words, code] : runs) {
+        words.insert(words.begin(), {"bake", "--quiet"});
+        const ToolRun r = runTool(words, files.folder.path());
+        EXPECT_EQ(r.code, code) << words.back() << r.err;
+        EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+        EXPECT_FALSE(std::filesystem::exists(files.folder / "m.png")) << words.back();
+    }
+}
+
+TEST(BakeCommand, flatOnFlatIsFlatAndACreaseIsWarnedOf)
+{
+    Files files;
+    const ToolRun r = runTool({"bake", "--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "5x3", "--frame",
+                               "cotangent", "--mask", "mask.png"}, files.folder.path());
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.err.find("bake and draw with smooth"), std::string::npos);
+    const auto map = readImage(files.folder / "m.png");
+    ASSERT_TRUE(map);
+    EXPECT_EQ(map->width, 5);
+    EXPECT_EQ(map->height, 3);
+    for (std::size_t i = 0; i < 15; ++i) {
+        EXPECT_EQ(int(map->bytes8()[4 * i]), 128);
+        EXPECT_EQ(int(map->bytes8()[4 * i + 2]), 255);
+    }
+    EXPECT_TRUE(std::filesystem::exists(files.folder / "mask.png"));
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,120 @@
+// The raster in uv: which triangles a texel shows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cotan/bake/uv_raster.hpp"
+#include "cotan/truth/random.hpp"
+
+namespace cotan {
+namespace {
+
+struct Layout {
+    std::vector<glm::vec2> texcoords;
+    std::vector<std::uint32_t> indices;
+    UvTriangles view() const { return {texcoords, indices}; }
+};
+
+// The unit square as a fan around a point inside: every texel is covered once.
+Layout fan(glm::vec2 centre)
+{
+    return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, centre}, {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4}};
+}
+
+// Triangles of both windings that cover the square, through random points of a grid.
+Layout jitteredGrid(int n)
+{
+    Layout l;
+    Random random(5);
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) {
+            const bool inner = i > 0 && j > 0 && i < n && j < n;
+            const double dx = inner ? random.range(-0.3, 0.3) : 0, dy = inner ? random.range(-0.3, 0.3) : 0;
+            l.texcoords.emplace_back(float((i + dx) / n), float((j + dy) / n));
+        }
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const auto a = std::uint32_t(j * (n + 1) + i), b = a + 1, d = a + std::uint32_t(n) + 1, c = d + 1;
+            for (std::uint32_t k : {a, b, c, a, d, c}) // the second is mirrored
+                l.indices.push_back(k);
+        }
+    return l;
+}
+
+TEST(UvRaster, texelsOnSharedEdgesBelongToExactlyOneTriangle)
+{
+    // Edges through texel centres: (0.5, 0.5) of an odd image, and diagonals of the square.
+    for (int side : {1, 2, 7, 16, 33})
+        for (const Layout& l : {fan({0.5f, 0.5f}), fan({0.25f, 0.625f}), jitteredGrid(5)}) {
+            const UvCoverage c = coverage(UvRaster(l.view(), side, side));
+            EXPECT_EQ(c.covered, std::size_t(side) * std::size_t(side)) << side;
+            EXPECT_EQ(c.overlapping, 0u) << side;
+        }
+}
+
+TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
+{
+    const Layout l = jitteredGrid(4);
+    const UvRaster raster(l.view(), 37, 23);
+    UvRow row;
+    for (int y = 0; y < 23; ++y) {
+        raster.row(y, false, row);
+        for (int x = 0; x < 37; ++x) {
+            ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
+            const UvPlace& p = row.places[row.first[std::size_t(x)]];
+            const std::uint32_t* v = &l.indices[3 * std::size_t(p.triangle)];
+            const glm::vec2 uv = l.texcoords[v[0]] * (1 - p.b1 - p.b2) + l.texcoords[v[1]] * p.b1 + l.texcoords[v[2]] * p.b2;
+            EXPECT_NEAR(uv.x * 37, float(x) + 0.5f, 1e-4f);
+            EXPECT_NEAR(uv.y * 23, float(y) + 0.5f, 1e-4f);
+        }
+    }
+}
+
+TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
+{
+    // A sliver that covers no centre of a 4 x 4 image.
+    const Layout l{{{0.26f, 0.26f}, {0.34f, 0.26f}, {0.3f, 0.3f}}, {0, 1, 2}};
+    const UvRaster raster(l.view(), 4, 4);
+    UvRow row;
+    raster.row(1, false, row);
+    EXPECT_TRUE(row.places.empty());
+    raster.row(1, true, row);
+    ASSERT_EQ(row.first[2] - row.first[1], 1u); // texel (1, 1), whose centre is (0.375, 0.375)
+    const UvPlace& p = row.places[row.first[1]];
+    EXPECT_FALSE(p.covers);
+    EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
+}
+
+TEST(UvRaster, overlapsAreCounted)
+{
+    Layout l = fan({0.5f, 0.5f});
+    const std::vector<std::uint32_t> again = l.indices;
+    l.indices.insert(l.indices.end(), again.begin(), again.begin() + 3); // the top quarter twice
+    const UvCoverage c = coverage(UvRaster(l.view(), 64, 64));
+    EXPECT_EQ(c.covered, 64u * 64u);
+    EXPECT_EQ(c.overlapping, coverage(UvRaster({l.texcoords, std::span(l.indices).first(3)}, 64, 64)).covered);
+}
+
+TEST(UvRaster, tilesShowTheirUnitSquareAndWrappingShowsAll)
+{
+    Layout l = fan({0.5f, 0.5f});
+    for (glm::vec2& uv : l.texcoords)
+        uv += glm::vec2(1, 0);
+    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8)).covered, 0u);
+    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8, {1, 0})).covered, 64u);
+    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8, {0, 0}, true)).covered, 64u);
+}
+
+TEST(UvRaster, uvThatAreNotFiniteOrHaveNoAreaShowNothing)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    for (glm::vec2 bad : {glm::vec2(nan, 0), {inf, 0}, {1e30f, 0}, {0, 0}, {-3e38f, 3e38f}}) {
+        const Layout l{{{0, 0}, {1, 1}, bad}, {0, 1, 2}};
+        EXPECT_EQ(coverage(UvRaster(l.view(), 4, 4)).covered, 0u);
+        EXPECT_EQ(coverage(UvRaster(l.view(), 4, 4, {0, 0}, true)).covered, 0u);
+    }
+}
+
+} // namespace
+} // namespace cotan

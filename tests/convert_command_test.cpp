@@ -1,0 +1,264 @@
+// `cotan convert` as a user runs it: what the files say afterwards, and what --verify measures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
+#include "cotan/asset/shapes.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
+
+// A grid of a unit square in xy, written with TANGENT and a map of waves beside it.
+struct Made {
+    json root;
+    std::string bytes;
+    int add(const std::vector<float>& values, const char* type, int width)
+    {
+        const std::size_t offset = bytes.size();
+        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(float)}});
+        root["accessors"].push_back({{"bufferView", int(root["bufferViews"].size()) - 1}, {"componentType", 5126}, {"type", type},
+                                     {"count", values.size() / std::size_t(width)}});
+        return int(root["accessors"].size()) - 1;
+    }
+};
+
+// stretch: how much wider than high what the unit square of uv covers. uvScale: in the vertices.
+Made quad(float stretch, float uvScale = 1)
+{
+    Made m;
+    m.root = {{"asset", {{"version", "2.0"}, {"extras", {{"keep", "me"}}}}}, {"scene", 0}};
+    const std::vector<float> positions = {0, 0, 0, stretch, 0, 0, stretch, 1, 0, 0, 0, 0, stretch, 1, 0, 0, 1, 0};
+    std::vector<float> normals, tangents;
+    const float u = uvScale;
+    const std::vector<float> uv = {0, u, u, u, u, 0, 0, u, u, 0, 0, 0};
+    for (int i = 0; i < 6; ++i) {
+        normals.insert(normals.end(), {0, 0, 1});
+        tangents.insert(tangents.end(), {1, 0, 0, 1});
+    }
+    const int p = m.add(positions, "VEC3", 3), n = m.add(normals, "VEC3", 3), t = m.add(tangents, "VEC4", 4), c = m.add(uv, "VEC2", 2);
+    m.root["accessors"][std::size_t(p)]["min"] = {0, 0, 0};
+    m.root["accessors"][std::size_t(p)]["max"] = {stretch, 1, 0};
+    m.root["meshes"] = json::array({{{"name", "quad"}, {"primitives", json::array({{{"attributes", {{"POSITION", p}, {"NORMAL", n}, {"TANGENT", t}, {"TEXCOORD_0", c}}}, {"material", 0}}})}}});
+    m.root["nodes"] = json::array({{{"mesh", 0}}});
+    m.root["scenes"] = json::array({{{"nodes", {0}}}});
+    m.root["materials"] = json::array({{{"name", "relief"}, {"normalTexture", {{"index", 0}}}, {"extras", {{"mine", 7}}}}});
+    m.root["textures"] = json::array({{{"source", 0}}});
+    m.root["images"] = json::array({{{"uri", "waves.png"}}});
+    return m;
+}
+
+void write(Made m, const std::filesystem::path& folder)
+{
+    std::ofstream(folder / "quad.bin", std::ios::binary) << m.bytes;
+    m.root["buffers"] = json::array({{{"byteLength", m.bytes.size()}, {"uri", "quad.bin"}}});
+    std::ofstream(folder / "quad.gltf") << m.root.dump();
+    ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, 128)));
+}
+
+json jsonOfGlb(const std::filesystem::path& file)
+{
+    const std::string bytes = readWhole(file);
+    std::uint32_t length = 0;
+    if (bytes.size() < 20)
+        return {};
+    std::memcpy(&length, bytes.data() + 12, 4);
+    return json::parse(bytes.substr(20, length), nullptr, false);
+}
+
+json convertJson(const std::filesystem::path& folder, std::vector<std::string> words, int code = 0)
+{
+    words.insert(words.begin(), "convert");
+    words.insert(words.end(), {"--json", "-", "--quiet"});
+    const ToolRun run = runTool(words, folder, 120);
+    EXPECT_EQ(run.code, code) << run.err;
+    return json::parse(run.out, nullptr, false);
+}
+
+Image normalMapOf(const std::filesystem::path& file)
+{
+    auto scene = loadScene(file);
+    if (!scene) {
+        ADD_FAILURE() << scene.error().message;
+        return {};
+    }
+    return scene->images.at(std::size_t(scene->materials.at(0).normalMap.image));
+}
+
+TEST(ConvertCommand, aStretchedQuadLooksTheSameAfterwardsWithinRounding)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "reference"});
+    // 8 bits: 0.17 mean; filtering two texels is not the same in the two frames: a little more.
+    EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25);
+    EXPECT_LT(r["verify"]["degrees"]["max_degrees"].get<double>(), 1.5);
+    EXPECT_GT(r["verify"]["degrees"]["pixels"].get<std::size_t>(), 100000u);
+    for (int k = 0; k < 5; ++k)
+        for (const char* name : {"before", "after", "difference"})
+            EXPECT_TRUE(std::filesystem::exists(folder / fmt::format("v/{}-{}.png", name, k)));
+    // The control: without the conversion the same reading is far off.
+    const ToolRun lint = runTool({"lint", "quad.gltf", "--json", "-", "--quiet"}, folder.path());
+    EXPECT_GT(json::parse(lint.out)["primitives"][0]["read_with"]["cotangent"]["mean"].get<double>(), 3);
+}
+
+TEST(ConvertCommand, tangentsGoAndEverythingElseStays)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "smooth", "-o", "out.glb"});
+    EXPECT_EQ(r["tangents"]["bytes_per_vertex"], 16);
+    EXPECT_EQ(r["tangents"]["bytes"], 16 * 6);
+    EXPECT_EQ(r["tangents"]["vertices"], 6);
+    EXPECT_EQ(r["bytes_after"].get<std::size_t>(), std::filesystem::file_size(folder / "out.glb"));
+    EXPECT_GT(r["bytes_before"].get<std::size_t>(), 0u);
+    const json out = jsonOfGlb(folder / "out.glb");
+    EXPECT_FALSE(out["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+    EXPECT_EQ(out["asset"]["extras"]["keep"], "me");
+    EXPECT_EQ(out["materials"][0]["extras"]["mine"], 7);
+    EXPECT_EQ(out["materials"][0]["name"], "relief");
+    convertJson(folder.path(), {"quad.gltf", "--to", "smooth", "-o", "kept.glb", "--keep-tangents"});
+    EXPECT_TRUE(jsonOfGlb(folder / "kept.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+}
+
+TEST(ConvertCommand, towardsMikktspaceWritesTangents)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "there.glb"});
+    convertJson(folder.path(), {"there.glb", "--from", "cotangent", "--to", "mikktspace", "--bits", "8", "-o", "back.glb"});
+    EXPECT_TRUE(jsonOfGlb(folder / "back.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+    EXPECT_EQ(normalMapOf(folder / "there.glb").type, PixelType::unorm16);
+    const Image before = normalMapOf(folder / "quad.gltf"), after = normalMapOf(folder / "back.glb");
+    ASSERT_EQ(before.data.size(), after.data.size());
+    int largest = 0;
+    for (std::size_t i = 0; i < before.data.size(); ++i)
+        largest = std::max(largest, std::abs(int(before.bytes8()[i]) - int(after.bytes8()[i])));
+    EXPECT_LE(largest, 1); // there in 16 bits and back: only that old texels were not quite unit
+}
+
+TEST(ConvertCommand, aTextureTransformDoesWhatTheSameUvInTheVerticesDo)
+{
+    TemporaryFolder one, other;
+    write(quad(2, 0.5f), one.path());
+    Made transformed = quad(2);
+    transformed.root["extensionsUsed"] = {"KHR_texture_transform"};
+    transformed.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {0.5, 0.5};
+    write(transformed, other.path());
+    convertJson(one.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    convertJson(other.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_EQ(normalMapOf(one / "out.glb").data, normalMapOf(other / "out.glb").data);
+    EXPECT_EQ(jsonOfGlb(other / "out.glb")["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"][0], 0.5);
+}
+
+TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["materials"][0]["occlusionTexture"] = {{"index", 0}};
+    write(m, folder.path());
+    convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    const auto scene = loadScene(folder / "out.glb");
+    ASSERT_TRUE(scene);
+    const Material& material = scene->materials[0];
+    ASSERT_NE(material.normalMap.image, material.occlusionMap.image);
+    EXPECT_EQ(scene->images[std::size_t(material.occlusionMap.image)].data, makeReliefMap(Relief::waves, 128).data);
+    EXPECT_NE(scene->images[std::size_t(material.normalMap.image)].data, makeReliefMap(Relief::waves, 128).data);
+}
+
+TEST(ConvertCommand, reversedTangentsAreFollowedOrLeftAsideAsAsked)
+{
+    TemporaryFolder folder;
+    Made m = quad(1);
+    for (std::size_t i = 0; i < 6; ++i) { // TANGENT comes after positions and normals
+        const float w = -1;
+        std::memcpy(m.bytes.data() + (18 + 18 + 4 * i + 3) * sizeof(float), &w, sizeof w);
+    }
+    write(m, folder.path());
+    convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "stored.glb"});
+    convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--tangents", "generated", "-o", "generated.glb"});
+    const Image old = normalMapOf(folder / "quad.gltf"), stored = normalMapOf(folder / "stored.glb"),
+                generated = normalMapOf(folder / "generated.glb");
+    for (std::size_t i = 0; i < old.pixelCount(); ++i) {
+        EXPECT_NEAR(stored.bytes8()[4 * i + 1], 256 - old.bytes8()[4 * i + 1], 1); // green turns over
+        EXPECT_NEAR(generated.bytes8()[4 * i + 1], old.bytes8()[4 * i + 1], 1);
+    }
+}
+
+TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
+{
+    const struct {
+        const char* file;
+        double mean; // degrees; maps of 8 bits cost 0.17, the rest is filtering across facets and shared texels
+    } models[] = {{"models/FlightHelmet/FlightHelmet.gltf", 0.5}, {"models/SketchfabCat/scene.gltf", 0.5}};
+    for (const auto& model : models) {
+        if (!std::filesystem::exists(shared(model.file)))
+            GTEST_SKIP() << model.file << " is missing";
+        TemporaryFolder folder;
+        const json r = convertJson(folder.path(), {shared(model.file), "--to", "smooth", "-o", "out.glb", "--verify", "v"});
+        EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), model.mean) << model.file;
+        EXPECT_GT(r["tangents"]["bytes"].get<std::size_t>(), 10000u);
+        EXPECT_EQ(runTool({"render", "out.glb", "-o", "out.png", "--frame", "smooth", "--size", "64x64", "--quiet"}, folder.path()).code, 0);
+    }
+}
+
+TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    Made noUv = quad(2);
+    noUv.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    std::filesystem::create_directory(folder / "no-uv");
+    write(noUv, folder / "no-uv");
+    Made far = quad(2, 1e5f);
+    std::filesystem::create_directory(folder / "far");
+    write(far, folder / "far");
+    Made broken = quad(2);
+    std::filesystem::create_directory(folder / "broken");
+    write(broken, folder / "broken");
+    std::ofstream(folder / "broken/waves.png") << "not an image";
+    const struct {
+        std::vector<std::string> words;
+        int code;
+    } cases[] = {
+        {{"quad.gltf", "-o", "out.glb"}, 1},
+        {{"quad.gltf", "--to", "cotangent"}, 1},
+        {{"quad.gltf", "--to", "cotangent", "-o", "out.png"}, 1},
+        {{"quad.gltf", "--to", "cotangent", "-o", "quad.gltf"}, 1},
+        {{"quad.gltf", "--to", "nonperspective", "-o", "out.glb"}, 1},
+        {{"quad.gltf", "--to", "nothing", "-o", "out.glb"}, 1},
+        {{"quad.gltf", "--to", "cotangent", "--bits", "12", "-o", "out.glb"}, 1},
+        {{"missing.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
+        {{"far/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
+        {{"broken/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
+        {{"quad.gltf", "--to", "cotangent", "-o", "no/such/folder/out.glb"}, 4},
+        {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "waves.png"}, 4},
+    };
+    for (const auto& c : cases) {
+        std::vector<std::string> words = c.words;
+        words.insert(words.begin(), "convert");
+        words.push_back("--quiet");
+        const ToolRun run = runTool(words, folder.path(), 20);
+        EXPECT_EQ(run.code, c.code) << fmt::format("{}", fmt::join(words, " ")) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+    }
+    const json r = convertJson(folder.path(), {"no-uv/quad.gltf", "--to", "cotangent", "-o", "no-uv.glb"});
+    EXPECT_TRUE(r["maps"].empty());
+    EXPECT_NE(r["notes"].dump().find("no uv"), std::string::npos);
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,15 @@
+# The npm packages of tests/npm, in the build folder. Where they cannot be had this is skipped, and
+# the tests that need them skip and say so.
+add_test(NAME npm_packages
+  COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-packages ${PROJECT_BINARY_DIR}/npm)
+set_tests_properties(npm_packages PROPERTIES
+  FIXTURES_SETUP npm SKIP_RETURN_CODE 3 TIMEOUT 300)
+cotan_test(gltf_edit_test
+  SOURCES gltf_edit_test.cpp gltf_edit_split_test.cpp gltf_edit_write_test.cpp
+  LIBRARIES cotan_asset nlohmann_json::nlohmann_json ZLIB::ZLIB)
+cotan_test(tangents_command_test FIXTURE npm
+  SOURCES tangents_command_test.cpp tangents_written_test.cpp
+  LIBRARIES cotan_asset cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+target_compile_definitions(tangents_command_test PRIVATE
+  COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
+add_dependencies(tangents_command_test cotan)

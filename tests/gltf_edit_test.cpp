@@ -1,0 +1,162 @@
+// What the glTF editor leaves alone, and what it removes.
+#include "gltf_edit_maker.hpp"
+
+namespace {
+
+using namespace cotan::test;
+
+// A square with things that mean nothing to us.
+Gltf richSquare()
+{
+    Gltf g = square();
+    g.root["asset"]["copyright"] = "(c) somebody";
+    g.root["asset"]["generator"] = "a tool";
+    g.root["extras"] = {{"note", {1, 2.5, "three"}}};
+    g.root["nodes"][0]["extras"] = {{"accessor", 3}};
+    g.root["materials"][0]["extensions"]["KHR_materials_sheen"] = {{"sheenRoughnessFactor", 0.25}};
+    g.root["extensionsUsed"] = {"KHR_materials_sheen"};
+    const int times = g.floats({0, 1}, "SCALAR");
+    g.root["accessors"][times]["min"] = {0};
+    g.root["accessors"][times]["max"] = {1};
+    const int turns = g.floats({0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}},
+                             {"channels", {{{"sampler", 0},
+                                            {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+    return g;
+}
+
+// Without what says where bytes are.
+json withoutBytes(json root)
+{
+    for (const char* const part : {"buffers", "bufferViews"})
+        root.erase(part);
+    for (json& a : root["accessors"])
+        for (const char* const part : {"bufferView", "byteOffset"})
+            a.erase(part);
+    return root;
+}
+
+class GltfUnchanged : public testing::TestWithParam<const char*> {};
+
+TEST_P(GltfUnchanged, keepsTheJsonAndTheBytes)
+{
+    const Gltf g = richSquare();
+    const TemporaryFolder folder;
+    const auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    const auto written = cotan::writeGltf(*document, folder.path / GetParam());
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_TRUE(written->notes.empty());
+    const ReadBack out = readBack(folder.path / GetParam());
+    EXPECT_EQ(out.buffer, g.bytes);
+    EXPECT_EQ(out.root["bufferViews"], g.root["bufferViews"]);
+    EXPECT_EQ(withoutBytes(out.root), withoutBytes(g.root));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, GltfUnchanged, testing::Values("out.glb", "out.gltf"),
+                         [](const auto& name) {
+                             return std::filesystem::path(name.param).extension().string().substr(1);
+                         });
+
+TEST(GltfEdit, membersKeepTheirOrder)
+{
+    const TemporaryFolder folder;
+    std::string text = R"({"scenes":[{}],"asset":{"version":"2.0","copyright":"me"},"extras":{"b":1,"a":2}})";
+    const auto document = openText(folder, text);
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "out.gltf"));
+    const auto out = nlohmann::ordered_json::parse(wholeFile(folder.path / "out.gltf"));
+    EXPECT_EQ(out.dump(), text);
+}
+
+// The animation and the extras keep pointing at what they did when accessors move up.
+TEST(GltfEdit, indicesFollowWhenSomethingIsRemoved)
+{
+    Gltf g = square();
+    primitive(g)["attributes"]["TANGENT"] =
+        g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    const int times = g.floats({0, 1}, "SCALAR");
+    const int turns = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}},
+                             {"channels", json::array()}}};
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(cotan::dropGltfTangents(*document, 0, 0));
+    const auto written = cotan::writeGltf(*document, folder.path / "out.glb");
+    ASSERT_TRUE(written);
+    EXPECT_LT(written->bytesAfter, written->bytesBefore);
+    const ReadBack out = readBack(folder.path / "out.glb");
+    EXPECT_EQ(out.root["accessors"].size(), g.root["accessors"].size() - 1);
+    EXPECT_EQ(out.buffer.size(), g.bytes.size() - 64);
+    const json& sampler = out.root["animations"][0]["samplers"][0];
+    EXPECT_EQ(floatsOf(out, sampler["input"], 1), (std::vector<float>{0, 1}));
+    EXPECT_EQ(floatsOf(out, sampler["output"], 4), (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}));
+}
+
+// What an extension refers to cannot be known: everything stays where it is.
+TEST(GltfEdit, unknownExtensionsKeepAllData)
+{
+    Gltf g = square();
+    const int tangents = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    primitive(g)["attributes"]["TANGENT"] = tangents;
+    g.root["nodes"][0]["extensions"]["ACME_hair"] = {{"accessor", tangents}};
+    g.root["extensionsUsed"] = {"ACME_hair"};
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(cotan::dropGltfTangents(*document, 0, 0));
+    const auto written = cotan::writeGltf(*document, folder.path / "out.glb");
+    ASSERT_TRUE(written);
+    ASSERT_EQ(written->notes.size(), 1u);
+    EXPECT_NE(written->notes[0].find("ACME_hair"), std::string::npos);
+    const ReadBack out = readBack(folder.path / "out.glb");
+    EXPECT_EQ(out.buffer, g.bytes);
+    EXPECT_EQ(out.root["accessors"], g.root["accessors"]);
+    EXPECT_EQ(out.root["nodes"], g.root["nodes"]);
+}
+
+TEST(GltfEdit, replacedImageIsReadBack)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["images"][0]["name"] = "bumps";
+    const std::string row = std::string(1, '\0') + "\xff\x80\x80";
+    const Bytes red = makePng({.width = 1, .height = 1, .rows = row});
+    const auto* const first = reinterpret_cast<const std::byte*>(red.data());
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    cotan::replaceGltfImage(*document, 0, {first, first + red.size()}, "image/png");
+    for (const char* const name : {"out.glb", "out.gltf"}) {
+        ASSERT_TRUE(cotan::writeGltf(*document, folder.path / name));
+        COTAN_LOADED(scene, cotan::loadGltf(folder.path / name));
+        ASSERT_EQ(scene.images.size(), 1u);
+        EXPECT_EQ(scene.images[0].width, 1);
+        const ReadBack out = readBack(folder.path / name);
+        EXPECT_EQ(out.root["images"][0]["name"], "bumps");
+        EXPECT_FALSE(out.root["images"][0].contains("uri"));
+    }
+}
+
+TEST(GltfEdit, copiedMaterialReadsTheAddedImage)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    const auto old = cotan::gltfImageBytes(*document, 0);
+    ASSERT_TRUE(old);
+    const std::size_t image = cotan::addGltfImage(*document, *old, "image/png", "again");
+    const std::size_t texture = cotan::copyGltfTexture(*document, 0, image);
+    const std::size_t material = cotan::copyGltfMaterial(*document, 0);
+    document->root["materials"][material]["normalTexture"]["index"] = texture;
+    document->root["meshes"][0]["primitives"][0]["material"] = material;
+    ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "out.glb"));
+    COTAN_LOADED(scene, cotan::loadGltf(folder.path / "out.glb"));
+    EXPECT_EQ(scene.images[0].width, 2);
+    EXPECT_EQ(readBack(folder.path / "out.glb").root["images"].size(), 2u) << "material 0 uses the old one";
+}
+
+} // namespace

@@ -1,0 +1,142 @@
+// `cotan lint` as a user runs it: models of known layout, exit codes, one clear line.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
+
+#define COTAN_NEEDS(file)                                                                          \
+    if (!std::filesystem::exists(shared(file)))                                                    \
+    GTEST_SKIP() << shared(file) << " is missing"
+
+json lintJson(const std::string& file)
+{
+    TemporaryFolder folder;
+    const ToolRun run = runTool({"lint", shared(file), "--json", "-", "--quiet"}, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out, nullptr, false);
+}
+
+const json& named(const json& report, const std::string& mesh)
+{
+    for (const json& p : report["primitives"])
+        if (p["mesh"].get<std::string>().find(mesh) != std::string::npos)
+            return p;
+    ADD_FAILURE() << "no primitive " << mesh;
+    return report;
+}
+
+TEST(LintCommand, theUvCasesAreReportedAsTheyWereMade)
+{
+    COTAN_NEEDS("synthetic/uv_cases.gltf");
+    const json r = lintJson("synthetic/uv_cases.gltf");
+    ASSERT_EQ(r["primitives"].size(), 16u);
+    const auto uv = [&](const char* mesh, const char* what) { return named(r, mesh)["uv"][what].get<double>(); };
+    for (const char* mirrored : {"mirrored_u", "mirrored_v", "node_negative_x"})
+        EXPECT_NEAR(uv(mirrored, "mirrored"), 1, 1e-9) << mirrored;
+    for (const char* plain : {"identity", "rotated30", "mirrored_both", "tiled3", "node_rotated"})
+        EXPECT_EQ(uv(plain, "mirrored"), 0) << plain;
+    for (const char* degenerate : {"degenerate_line", "degenerate_point"})
+        EXPECT_NEAR(uv(degenerate, "degenerate"), 1, 1e-9) << degenerate;
+    EXPECT_NEAR(named(r, "stretched4")["uv"]["stretch"]["mean"].get<double>(), 4, 1e-3);
+    EXPECT_NEAR(uv("sheared", "sheared"), 1, 1e-9);
+    EXPECT_EQ(uv("stretched4", "sheared"), 0);
+    EXPECT_LT(named(r, "identity")["read_with"]["cotangent"]["maximum"].get<double>(), 1e-3);
+    EXPECT_GT(named(r, "stretched4")["read_with"]["cotangent"]["mean"].get<double>(), 5);
+    EXPECT_TRUE(r["maps"][0]["decided"].get<bool>());
+    EXPECT_TRUE(r["maps"][0]["as_declared"].get<bool>()); // made in the file's own convention
+}
+
+// data/README: w is wrong almost everywhere, and the maps are probably green-down.
+TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatMakeUpForEachOther)
+{
+    COTAN_NEEDS("models/SketchfabCat/scene.gltf");
+    const json r = lintJson("models/SketchfabCat/scene.gltf");
+    for (const json& p : r["primitives"])
+        if (p.contains("stored_tangents") && p["uv"]["degenerate"] == 0) {
+            EXPECT_GT(p["stored_tangents"]["reversed_w"].get<double>(), 0.9) << p["mesh"];
+        }
+    for (const json& m : r["maps"])
+        EXPECT_TRUE(m["decided"].get<bool>() && !m["as_declared"].get<bool>()) << m.dump();
+    EXPECT_NE(r["recommendation"].get<std::string>().find("together they are right"), std::string::npos);
+    EXPECT_EQ(r["run"].get<std::string>().find("generated"), std::string::npos);
+}
+
+// Its TANGENTs are those of MikkTSpace (data/README), and its quads are mirrored.
+TEST(LintCommand, normalTangentMirrorTestAgreesWithItsStoredTangents)
+{
+    COTAN_NEEDS("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
+    const json r = lintJson("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
+    const json& p = r["primitives"][0];
+    EXPECT_LT(p["read_with"]["stored"]["maximum"].get<double>(), 0.002);
+    EXPECT_EQ(p["stored_tangents"]["reversed_w"].get<double>(), 0);
+    EXPECT_GT(p["uv"]["mirrored"].get<double>(), 0.1);
+    EXPECT_NE(r["recommendation"].get<std::string>().find("orthonormal"), std::string::npos);
+}
+
+TEST(LintCommand, flightHelmetAndBoomBoxCanBeReadAsTheyAre)
+{
+    for (const char* file : {"models/FlightHelmet/FlightHelmet.gltf", "models/BoomBox/BoomBox.gltf"}) {
+        if (!std::filesystem::exists(shared(file)))
+            GTEST_SKIP() << file << " is missing";
+        const json r = lintJson(file);
+        EXPECT_NE(r["run"].get<std::string>().find("--to orthonormal"), std::string::npos) << file;
+        for (const json& m : r["maps"])
+            EXPECT_TRUE(!m["decided"].get<bool>() || m["as_declared"].get<bool>()) << m.dump();
+    }
+}
+
+TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
+{
+    COTAN_NEEDS("synthetic/uv_cases.gltf");
+    const std::string model = shared("synthetic/uv_cases.gltf");
+    TemporaryFolder folder;
+    const ToolRun over = runTool({"lint", model, "--strict", "--limit", "1", "--quiet"}, folder.path());
+    EXPECT_EQ(over.code, 5);
+    EXPECT_EQ(lines(over.err), 1) << over.err;
+    EXPECT_NE(over.err.find("limit 1"), std::string::npos) << over.err;
+    EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "60", "--quiet"}, folder.path()).code, 0);
+    // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
+    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
+}
+
+TEST(LintCommand, badInputGetsOneClearLine)
+{
+    TemporaryFolder folder;
+    const std::string model = shared("synthetic/uv_cases.gltf");
+    const struct {
+        std::vector<std::string> words;
+        int code;
+    } cases[] = {
+        {{"lint"}, 1},
+        {{"lint", "missing.gltf"}, 2},
+        {{"lint", model, "--strict"}, 1},
+        {{"lint", model, "--distance", "-1"}, 1},
+        {{"lint", model, "--distance", "nan"}, 1},
+        {{"lint", model, "--limit", "inf"}, 1},
+        {{"lint", model, "-o", "out"}, 1},
+        {{"lint", model, "--quiet", "--json", "no/such/folder/r.json"}, 4},
+    };
+    for (const auto& c : cases) {
+        if (c.words.size() > 1 && c.words[1] == model && !std::filesystem::exists(model))
+            continue;
+        const ToolRun run = runTool(c.words, folder.path());
+        EXPECT_EQ(run.code, c.code) << fmt::format("{}", fmt::join(c.words, " ")) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,169 @@
+// cotan tangents as users run it: verdicts about the tangents that models bring, refusals.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "expected_list.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+const std::filesystem::path kModels = std::filesystem::path(COTAN_SHARED_DATA) / "models";
+
+// The report about a model of the shared data, or null where it is missing.
+json reportOn(const std::string& model, const std::vector<std::string>& more = {})
+{
+    if (!std::filesystem::exists(kModels / model))
+        return nullptr;
+    TemporaryFolder folder;
+    std::vector<std::string> words{"tangents", (kModels / model).string(), "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ToolRun run = runTool(words, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out);
+}
+
+struct Verdict {
+    const char* model;
+    const char* verdict;
+};
+
+class TangentVerdicts : public ::testing::TestWithParam<Verdict> {};
+
+// What is known about these models from elsewhere: see the list that comes with them.
+TEST_P(TangentVerdicts, sayWhatIsKnownAboutTheModel)
+{
+    const json report = reportOn(GetParam().model);
+    if (report.is_null())
+        GTEST_SKIP() << "no " << kModels / GetParam().model;
+    EXPECT_EQ(report["whole"]["verdict"], GetParam().verdict) << report["model_verdict"];
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, TangentVerdicts,
+    ::testing::Values(Verdict{"NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "equal"},
+                      Verdict{"ClearCoatTest/ClearCoatTest.glb", "equal"},
+                      Verdict{"FlightHelmet/FlightHelmet.gltf", "off"},
+                      Verdict{"SketchfabCat/scene.gltf", "w inverted"},
+                      Verdict{"TwoSidedPlane/TwoSidedPlane.glb", "w inverted"},
+                      Verdict{"MultiUVTest/MultiUVTest.glb", "half turned"}),
+    [](const auto& v) { return std::filesystem::path(v.param.model).parent_path().string(); });
+
+// The model's description says median 0.35 degrees and 99 % within 10; its last digit is rounded and
+// "99 % within 10" is at 10.4 here.
+TEST(TangentVerdicts, measureHowFarFlightHelmetIsOff)
+{
+    const json report = reportOn("FlightHelmet/FlightHelmet.gltf");
+    if (report.is_null())
+        GTEST_SKIP() << "no FlightHelmet in " << kModels;
+    EXPECT_NEAR(report["whole"]["directions"]["median_degrees"].get<double>(), 0.35, 0.005);
+    EXPECT_LT(report["whole"]["directions"]["percentile99_degrees"].get<double>(), 11);
+    EXPECT_LT(report["whole"]["w_different"].get<double>(), 0.001);
+}
+
+// A sphere-like model is nowhere without a frame, and a plane has no shear.
+TEST(TangentsCommand, reportsOnSmoothCotangents)
+{
+    const json report =
+        reportOn("TwoSidedPlane/TwoSidedPlane.glb", {"--frame", "smooth"});
+    if (report.is_null())
+        GTEST_SKIP() << "no TwoSidedPlane in " << kModels;
+    EXPECT_EQ(report["primitives"][0]["without_frame"], 0);
+    // a plane's texcoords at right angles: nothing but rounding of float
+    EXPECT_LT(report["primitives"][0]["shear"]["max_degrees"].get<double>(), 1e-3);
+}
+
+std::string squareText()
+{
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":2,"componentType":5126,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36},{"buffer":0,"byteOffset":72,"byteLength":24}],
+"buffers":[{"byteLength":96,"uri":"triangle.bin"}]})";
+}
+
+std::string writeTriangle(const TemporaryFolder& folder)
+{
+    std::ofstream(folder / "model.gltf") << squareText();
+    const float data[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    std::ofstream(folder / "triangle.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(data), sizeof data);
+    return (folder / "model.gltf").string();
+}
+
+TEST(TangentsCommand, refusesWithOneLine)
+{
+    TemporaryFolder folder;
+    const std::string model = writeTriangle(folder);
+    const std::vector<std::pair<std::vector<std::string>, int>> cases = {
+        {{model, "--frame", "smooth", "-o", "out.glb"}, 1},
+        {{model, "--frame", "gradient"}, 1},
+        {{model, "--replace"}, 1},
+        {{model, "-o", "out.obj"}, 1},
+        {{"missing.gltf"}, 2},
+        {{model, "-o", "no-such-folder/out.glb"}, 4},
+    };
+    for (auto [words, code] : cases) {
+        words.insert(words.begin(), "tangents");
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, code) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+    }
+}
+
+TEST(TangentsCommand, bytesDoNotDependOnTheNumberOfThreads)
+{
+    const auto model = kModels / "AnisotropyStrengthTest/AnisotropyStrengthTest.glb";
+    if (!std::filesystem::exists(model))
+        GTEST_SKIP() << "no " << model;
+    TemporaryFolder folder;
+    for (const char* const threads : {"1", "2", "7"}) {
+        const ToolRun run = runTool({"tangents", model.string(), "--replace", "--threads", threads,
+                                     "-o", std::string(threads) + ".glb"},
+                                    folder.path());
+        EXPECT_EQ(run.code, 0) << run.err;
+    }
+    EXPECT_EQ(readWhole(folder / "1.glb"), readWhole(folder / "2.glb"));
+    EXPECT_EQ(readWhole(folder / "1.glb"), readWhole(folder / "7.glb"));
+}
+
+class TangentsBadInput : public ::testing::TestWithParam<const char*> {};
+
+// Malformed and hostile files: one clear line and no output, or a written model.
+TEST_P(TangentsBadInput, getsWhatTheListSays)
+{
+    const auto rows = expectedFor(GetParam());
+    if (rows.empty())
+        GTEST_SKIP() << "no files: " << COTAN_SHARED_DATA << "/bad is missing";
+    for (const Expected& row : rows) {
+        SCOPED_TRACE(row.file.string());
+        TemporaryFolder folder;
+        const ToolRun run =
+            runTool({"tangents", row.file.string(), "-o", "out.glb", "--replace"}, folder.path(), 20);
+        EXPECT_TRUE(run.code == 0 || run.code == 2) << run.code << " " << run.err;
+        if (row.verdict == "reject") {
+            EXPECT_EQ(run.code, 2);
+        }
+        if (row.verdict == "accept") {
+            EXPECT_EQ(run.code, 0) << run.err;
+        }
+        if (run.code != 0) {
+            EXPECT_EQ(lines(run.err), 1) << run.err;
+        }
+        EXPECT_EQ(std::filesystem::exists(folder / "out.glb"), run.code == 0);
+        EXPECT_TRUE(run.code == 0 || std::filesystem::is_empty(folder.path()));
+        EXPECT_LT(run.seconds, 5.0); // the time that bad input may take
+        EXPECT_LT(run.megabytes, 1024.0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, TangentsBadInput, ::testing::Values(".gltf", ".glb"),
+                         [](const auto& extension) { return std::string(extension.param + 1); });
+
+} // namespace
+} // namespace cotan

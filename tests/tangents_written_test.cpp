@@ -1,0 +1,148 @@
+// Models with tangents that cotan wrote: valid, no vertex more than needed, everything else as before.
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/gltf_edit.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+const std::filesystem::path kModels = std::filesystem::path(COTAN_SHARED_DATA) / "models";
+
+class TangentsWritten : public ::testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override
+    {
+        if (!std::filesystem::exists(model()))
+            GTEST_SKIP() << "no " << model();
+        for (const char* const name : {"out.glb", "out.gltf"}) {
+            const ToolRun run = runTool({"tangents", model().string(), "--replace", "-o", name},
+                                        folder.path(), 60);
+            ASSERT_EQ(run.code, 0) << run.err;
+        }
+    }
+    std::filesystem::path model() const { return kModels / GetParam(); }
+
+    TemporaryFolder folder;
+};
+
+TEST_P(TangentsWritten, passKhronosValidator)
+{
+    const std::filesystem::path npm = COTAN_NPM;
+    if (!std::filesystem::exists(npm / "installed-lock.json"))
+        GTEST_SKIP() << "scripts/npm-packages could not install gltf-validator in " << npm;
+    const std::string command = "node '" COTAN_SOURCE_DIR "/tests/npm/validate.mjs' '"
+        + (npm / "node_modules").string() + "' '" + (folder / "out.glb").string() + "' '"
+        + (folder / "out.gltf").string() + "' > '" + (folder / "log").string() + "' 2>&1";
+    const int code = std::system(command.c_str());
+    const std::string log = readWhole(folder / "log");
+    EXPECT_EQ(code, 0) << log;
+    EXPECT_NE(log.find("out.glb: 0 errors"), std::string::npos) << log;
+    EXPECT_NE(log.find("out.gltf: 0 errors"), std::string::npos) << log;
+}
+
+// Position, normal and uv of each corner, and the tangents that we generate, come back; the number
+// of vertices is that of distinct pairs of (vertex, tangent), and of vertices that nothing uses.
+TEST_P(TangentsWritten, haveTheSameGeometryAndNoVertexTooMany)
+{
+    const auto before = openGltfDocument(model());
+    const auto after = openGltfDocument(folder / "out.glb");
+    ASSERT_TRUE(before && after);
+    const auto& meshes = before->root["meshes"];
+    // Primitives that share their vertices are counted together.
+    std::map<std::string, std::set<std::vector<float>>> pairs;
+    std::map<std::string, std::pair<std::size_t, std::size_t>> counts;
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+            const auto a = gltfGeometry(*before, m, p), b = gltfGeometry(*after, m, p);
+            ASSERT_TRUE(a && b);
+            ASSERT_EQ(a->indices.size(), b->indices.size());
+            auto attributes = meshes[m]["primitives"][p]["attributes"];
+            attributes.erase("TANGENT");
+            auto& set = pairs[attributes.dump()];
+            counts[attributes.dump()] = {a->positions.size(), b->positions.size()};
+            for (std::size_t c = 0; c < a->indices.size(); ++c) {
+                const std::uint32_t i = a->indices[c], j = b->indices[c];
+                ASSERT_EQ(a->positions[i], b->positions[j]);
+                ASSERT_EQ(a->normals[i], b->normals[j]);
+                if (b->tangents.empty())
+                    continue;
+                ASSERT_EQ(a->texcoords[i], b->texcoords[j]);
+                const glm::vec4 t = b->tangents[j];
+                set.insert({float(i), t.x, t.y, t.z, t.w});
+            }
+        }
+    for (const auto& [key, count] : counts) {
+        std::set<float> used;
+        for (const auto& pair : pairs[key])
+            used.insert(pair[0]);
+        if (!used.empty()) {
+            EXPECT_EQ(count.second, count.first + pairs[key].size() - used.size());
+        }
+    }
+}
+
+// All but geometry and where bytes are.
+json unrelated(const nlohmann::ordered_json& root)
+{
+    json j = root;
+    for (const char* const part : {"accessors", "bufferViews", "buffers"})
+        j.erase(part);
+    for (json& mesh : j["meshes"])
+        for (json& p : mesh["primitives"])
+            for (const char* const part : {"attributes", "indices"})
+                p.erase(part);
+    for (const char* const list : {"animations", "skins"})
+        if (j.contains(list))
+            for (json& item : j[list]) {
+                item.erase("inverseBindMatrices");
+                item.erase("samplers");
+            }
+    if (j.contains("images"))
+        for (json& image : j["images"])
+            for (const char* const part : {"uri", "bufferView", "mimeType"})
+                image.erase(part);
+    return j;
+}
+
+TEST_P(TangentsWritten, keepAllOtherJson)
+{
+    const auto before = openGltfDocument(model());
+    ASSERT_TRUE(before);
+    for (const char* const name : {"out.glb", "out.gltf"}) {
+        const auto after = openGltfDocument(folder / name);
+        ASSERT_TRUE(after);
+        EXPECT_EQ(json::diff(unrelated(before->root), unrelated(after->root)), json::array())
+            << name;
+    }
+}
+
+// What was just written is what would be generated again: loading and writing lose nothing.
+TEST_P(TangentsWritten, areEqualToMikktspace)
+{
+    const ToolRun run = runTool({"tangents", "out.glb", "--json", "-"}, folder.path());
+    ASSERT_EQ(run.code, 0) << run.err;
+    const json report = json::parse(run.out);
+    ASSERT_TRUE(report.contains("whole"));
+    EXPECT_EQ(report["whole"]["verdict"], "equal");
+    EXPECT_EQ(report["whole"]["directions"]["max_degrees"], 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, TangentsWritten,
+    ::testing::Values("NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                      "FlightHelmet/FlightHelmet.gltf", "GlamVelvetSofa/GlamVelvetSofa.glb",
+                      "SketchfabCat/scene.gltf", "SunglassesKhronos/SunglassesKhronos.glb",
+                      "VertexColorTest/VertexColorTest.glb",
+                      "AnisotropyStrengthTest/AnisotropyStrengthTest.glb"),
+    [](const auto& m) { return std::filesystem::path(m.param).parent_path().string(); });
+
+} // namespace
+} // namespace cotan
