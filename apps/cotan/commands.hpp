@@ -9,6 +9,7 @@ Command addRenderCommand(CLI::App& app);
 Command addCompareCommand(CLI::App& app);
 Command addAccuracyCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
+Command addMapCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);
 #endif
