@@ -23,7 +23,8 @@ Command addMapCommand(CLI::App& app)
     CLI::App* map = app.add_subcommand("map", "normal-map files: what they are, and from one form to another");
     map->require_subcommand(1);
     auto commands = std::make_shared<std::vector<Command>>();
-    for (auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff})
+    for (auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
+                     addMapBlend, addMapMips})
         commands->push_back(add(*map));
     return {map, [commands]() -> Status {
                 for (const Command& command : *commands)

@@ -28,14 +28,6 @@ float steps(PixelType type)
     return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
 }
 
-// Values that a rounding error away from a step are that step: dithering must not make noise of
-// what is exact, such as the flat texel.
-float dithered(float value, float most, float noise)
-{
-    const float scaled = value * most, nearest = std::round(scaled);
-    return std::abs(scaled - nearest) < 1e-3f ? value : (scaled + noise) / most;
-}
-
 } // namespace
 
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
@@ -45,6 +37,16 @@ float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
     h = (h ^ (h >> 12)) * 0x297a2d39u;
     h ^= h >> 15;
     return float(h >> 8) * (1.0f / 16777216.0f) - 0.5f;
+}
+
+glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y)
+{
+    for (int c = 0; c < 3 && steps > 0; ++c) {
+        const float scaled = texel[c] * steps;
+        if (std::abs(scaled - std::round(scaled)) >= 1e-3f)
+            texel[c] = (scaled + ditherNoise(std::uint32_t(x), std::uint32_t(y), std::uint32_t(c))) / steps;
+    }
+    return texel;
 }
 
 Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
@@ -72,10 +74,8 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 const float alpha = keepAlpha ? texels[x].w : 1.0f;
                 texels[x] = encodeTexel(n, s.to, keepLength);
                 texels[x].w = alpha;
-                if (s.dither && most > 0)
-                    for (int c = 0; c < 3; ++c)
-                        texels[x][c] = dithered(texels[x][c], most,
-                                                ditherNoise(std::uint32_t(x), std::uint32_t(y), std::uint32_t(c)));
+                if (s.dither)
+                    texels[x] = dithered(texels[x], most, int(x), y);
             }
             storeRow(out, y, texels);
         }

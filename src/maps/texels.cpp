@@ -37,7 +37,8 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
     if (!finite(stored))
         return glm::vec3(0);
     const glm::vec3 m = f32::cotan_decode(stored, format);
-    return glm::dot(m, m) < kShortest * kShortest ? glm::vec3(0) : m;
+    const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
+    return length2 >= kShortest * kShortest && length2 < 1e30f ? m : glm::vec3(0);
 }
 
 template<class T> T quantise(float value, float most)

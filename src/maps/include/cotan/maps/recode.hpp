@@ -3,13 +3,15 @@
 
 #include <cstdint>
 
+#include <glm/vec4.hpp>
+
 #include "cotan/convention.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan::maps {
 
 struct RecodeSettings {
-    Convention from, to;
+    Convention from{}, to{};
     PixelType type = PixelType::unorm8; // of the result
     float strength = 1;                 // factor on the slopes; not 0
     bool normalise = false;             // three channels to three: otherwise lengths are kept
@@ -28,5 +30,9 @@ Image recode(const Image& map, const RecodeSettings& settings, RecodeCounts& cou
 
 // A number in [-0.5,0.5) for a component of a texel, the same on every run: for dithering.
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component);
+
+// A texel with that noise, in steps of 1/steps, on its first three components; those that are a step
+// already (within 0.001) stay: dithering must not make noise of what is exact, such as flat. steps 0: as it is.
+glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y);
 
 } // namespace cotan::maps
