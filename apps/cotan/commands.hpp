@@ -14,6 +14,7 @@ Command addLintCommand(CLI::App& app);
 Command addConvertCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
 Command addShaderCommand(CLI::App& app);
+Command addMapCommand(CLI::App& app);
 #ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);
 #endif

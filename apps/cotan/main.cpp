@@ -30,6 +30,7 @@ int runCommandLine(int argc, char** argv)
         addRenderCommand,
         addCompareCommand,
         addFiguresCommand,
+        addMapCommand,
         addAccuracyCommand,
         addBakeCommand,
         addTangentsCommand,

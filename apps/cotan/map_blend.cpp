@@ -1,0 +1,123 @@
+// `cotan map blend`: a base and a detail as one map.
+#include "map_command.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/maps/blend.hpp"
+#include "map_options.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct Options {
+    MapOptions map;
+    std::string base, detail, from = "gltf,exact", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
+    double strength = 1;
+    bool dither = false;
+};
+
+std::optional<maps::BlendMode> modeFromName(const std::string& name)
+{
+    using enum maps::BlendMode;
+    for (const auto& [word, mode] : {std::pair("reoriented", reoriented), {"whiteout", whiteout}, {"udn", udn},
+                                     {"slopes", slopes}, {"linear", linear}})
+        if (name == word)
+            return mode;
+    return std::nullopt;
+}
+
+// "N" or "NxM", each 1..4096.
+Result<std::pair<int, int>> parseTiles(const std::string& text)
+{
+    char* end = nullptr;
+    const long x = std::strtol(text.c_str(), &end, 10);
+    const long y = *end == 'x' ? std::strtol(end + 1, &end, 10) : x;
+    if (text.empty() || *end != '\0' || x < 1 || y < 1 || x > 4096 || y > 4096)
+        return usageError(fmt::format("--tiles: expected N or NxM, each 1 to 4096; found '{}'", text));
+    return std::pair(int(x), int(y));
+}
+
+Status run(const Options& o)
+{
+    if (Status given = needOutput(o.map, "blend"); !given)
+        return given;
+    maps::BlendSettings s;
+    for (const auto& [words, option, target] : {std::tuple(o.from, "--from", &s.base),
+                                                {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &s.detail},
+                                                {o.to.empty() ? o.from : o.to, "--to", &s.to}}) {
+        const auto convention = parseConvention(words, option);
+        if (!convention)
+            return convention.error();
+        *target = *convention;
+    }
+    const auto mode = modeFromName(o.mode);
+    if (!mode)
+        return usageError(fmt::format("--mode: expected reoriented, whiteout, udn, slopes or linear; found '{}'", o.mode));
+    const auto tiles = parseTiles(o.tiles);
+    if (!tiles)
+        return tiles.error();
+    const auto base = openMap(o.base, o.map, s.base);
+    if (!base)
+        return base.error();
+    const auto detail = openMap(o.detail, o.map, s.detail);
+    if (!detail)
+        return detail.error();
+    const auto mask = o.mask.empty() ? Result<Image>(Image{}) : openMap(o.mask, o.map);
+    if (!mask)
+        return mask.error();
+    const auto type = parseBits(o.bits, base->type, o.map.common.output);
+    if (!type)
+        return type.error();
+    if (s.to.expansion == Expansion::signedValues && *type != PixelType::float32)
+        return usageError("--to: signed values need --bits float");
+    s.mode = *mode;
+    s.strength = float(o.strength);
+    s.tilesX = tiles->first, s.tilesY = tiles->second;
+    s.mask = o.mask.empty() ? nullptr : &*mask;
+    s.type = *type;
+    s.dither = o.dither;
+    std::size_t invalid = 0;
+    const Image out = maps::blend(*base, *detail, s, invalid);
+    if (Status written = writeImage(o.map.common.output, out); !written)
+        return written;
+    if (invalid > 0)
+        warn(o.map.common, fmt::format("{} texels are no direction in one of the maps; the other counts alone there", invalid));
+    say(o.map.common, fmt::format("{}: {} x {}, {}: {}, {}", o.map.common.output.string(), out.width, out.height,
+                                  bitsName(*type), o.mode, describe(s.to)));
+    return writeReport(o.map.common, {{"command", "map blend"}, {"base", o.base}, {"detail", o.detail},
+                                      {"output", o.map.common.output.string()}, {"mode", o.mode},
+                                      {"strength", o.strength}, {"tiles", {s.tilesX, s.tilesY}},
+                                      {"to", describe(s.to)}, {"bits", bitsName(*type)}, {"invalid", invalid}});
+}
+
+} // namespace
+
+Command addMapBlend(CLI::App& map)
+{
+    auto options = std::make_shared<Options>();
+    CLI::App* command = map.add_subcommand("blend", "a base and a detail map as one");
+    addMapOptions(*command, options->map, "the blend, of the base's size");
+    command->add_option("BASE", options->base, "the base map")->required();
+    command->add_option("DETAIL", options->detail, "the detail map")->required();
+    command->add_option("--mode", options->mode, "reoriented, whiteout, udn, slopes or linear")->capture_default_str();
+    command->add_option("--strength", options->strength, "factor on the detail's slopes")->capture_default_str();
+    command->add_option("--tiles", options->tiles, "how often the detail repeats over the base")->type_name("N[xM]")->capture_default_str();
+    command->add_option("--mask", options->mask, "picture whose red, 0 to 1, multiplies the strength")->type_name("FILE");
+    command->add_option("--from", options->from, "how the base is stored: " + conventionWords())->type_name("WORDS")->capture_default_str();
+    command->add_option("--detail-from", options->detailFrom, "how the detail is stored; as the base if not given")->type_name("WORDS");
+    command->add_option("--to", options->to, "how to store the blend; as the base if not given")->type_name("WORDS");
+    command->add_option("--bits", options->bits, "auto (as the base), 8, 16 or float")->capture_default_str();
+    command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
+    return {command, [options] {
+                return withThreads(options->map.common.threads, [&] { return run(*options); });
+            }};
+}
+
+} // namespace cotan::app

@@ -1,0 +1,37 @@
+#include "map_command.hpp"
+
+#include <memory>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
+#include "commands.hpp"
+
+namespace cotan::app {
+
+Status withThreads(int threads, const std::function<Status()>& work)
+{
+    using oneapi::tbb::global_control;
+    const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
+    const global_control limit(global_control::max_allowed_parallelism, std::size_t(count));
+    return work();
+}
+
+Command addMapCommand(CLI::App& app)
+{
+    CLI::App* map = app.add_subcommand("map", "normal-map files: what they are, and from one form to another");
+    map->require_subcommand(1);
+    auto commands = std::make_shared<std::vector<Command>>();
+    for (auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
+                     addMapBlend, addMapMips})
+        commands->push_back(add(*map));
+    return {map, [commands]() -> Status {
+                for (const Command& command : *commands)
+                    if (command.app->parsed())
+                        return command.run();
+                return usageError("map: expected a subcommand; found none");
+            }};
+}
+
+} // namespace cotan::app

@@ -1,0 +1,236 @@
+// `cotan map info`, `detect` and `diff`: nothing is changed.
+#include "map_command.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/maps/compare.hpp"
+#include "cotan/maps/green.hpp"
+#include "cotan/maps/normal_statistics.hpp"
+#include "cotan/report/angles.hpp"
+#include "map_options.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct InspectOptions {
+    MapOptions map;
+    std::string file;
+};
+
+const char* name(maps::Centre c)
+{
+    return c == maps::Centre::exact ? "exact" : c == maps::Centre::biased ? "biased" : "unknown";
+}
+
+const char* name(maps::Transfer t)
+{
+    return t == maps::Transfer::srgb ? "srgb" : t == maps::Transfer::linearised ? "linearised" : "linear";
+}
+
+const char* name(maps::Swizzle s)
+{
+    return s == maps::Swizzle::rg ? "rg" : s == maps::Swizzle::greyAlpha ? "grey-alpha" : "alpha-green";
+}
+
+std::string centreText(const maps::NormalStatistics& s)
+{
+    if (s.centre == maps::Centre::exact)
+        return fmt::format("128 is zero (exact expansion): lengths err by {:.4f}, with 127.5 by {:.4f}",
+                           s.rmsExact, s.rmsBiased);
+    if (s.centre == maps::Centre::biased)
+        return fmt::format("127.5 is zero (biased expansion, 2c-1): lengths err by {:.4f}, with 128 by {:.4f}",
+                           s.rmsBiased, s.rmsExact);
+    return "128 or 127.5: cannot be told from the lengths";
+}
+
+std::string transferText(maps::Transfer t)
+{
+    return t == maps::Transfer::srgb
+        ? "the values went through the sRGB curve, as if they were colours: lengths are right only after undoing it"
+        : "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128";
+}
+
+void sayInfo(const InspectOptions& o, const Image& image, const maps::NormalStatistics& s)
+{
+    const auto line = [&](const std::string& text) { say(o.map.common, text); };
+    line(fmt::format("{}: {} x {}, {}", o.file, image.width, image.height, bitsName(image.type)));
+    line("contents: " + maps::describe(s.content));
+    if (s.swizzle != maps::Swizzle::rg)
+        line(s.swizzle == maps::Swizzle::greyAlpha ? "channels: two (x as grey, y as alpha)"
+                                                   : "channels: two (x in alpha, y in green)");
+    if (s.content == maps::Content::tangentSpace || s.content == maps::Content::objectSpace)
+        line("centre: " + centreText(s));
+    if (s.transfer != maps::Transfer::linear)
+        line("warning: " + transferText(s.transfer));
+    if (s.content == maps::Content::grey)
+        return;
+    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthSpread,
+                     s.shortened * 100));
+    line(fmt::format("invalid (not finite, or no length): {:.2f} %; below the horizon: {:.2f} %; x^2+y^2 over 1: {:.2f} %",
+                     s.invalid * 100, s.belowHorizon * 100, s.outsideDisc * 100));
+    std::string tilt;
+    for (std::size_t i = 0; i < s.tilt.size(); ++i)
+        tilt += fmt::format("  {}{} {:.1f} %", i * 10, i == 8 ? "+" : "", s.tilt[i] * 100);
+    line(fmt::format("tilt from flat: mean {:.2f} degrees; share from", s.meanTilt) + tilt);
+    line(fmt::format("mean direction: {:.4f} {:.4f} {:.4f}", s.mean[0], s.mean[1], s.mean[2]));
+}
+
+nlohmann::ordered_json toJson(const InspectOptions& o, const Image& image, const maps::NormalStatistics& s)
+{
+    return {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
+            {"bits", bitsName(image.type)}, {"contents", maps::describe(s.content)},
+            {"channels", name(s.swizzle)}, {"centre", name(s.centre)}, {"transfer", name(s.transfer)},
+            {"signed", s.signedStored}, {"mean_length", s.meanLength}, {"length_spread", s.lengthSpread},
+            {"shortened", s.shortened}, {"invalid", s.invalid}, {"below_horizon", s.belowHorizon},
+            {"outside_disc", s.outsideDisc}, {"mean", s.mean}, {"lowest", s.lowest}, {"highest", s.highest},
+            {"mean_tilt_degrees", s.meanTilt}, {"tilt_by_10_degrees", s.tilt}};
+}
+
+Status runInfo(const InspectOptions& o)
+{
+    const auto image = openMap(o.file, o.map);
+    if (!image)
+        return image.error();
+    const maps::NormalStatistics s = maps::statisticsOfMap(*image);
+    sayInfo(o, *image, s);
+    return writeReport(o.map.common, toJson(o, *image, s));
+}
+
+const char* name(maps::Green g)
+{
+    return g == maps::Green::up ? "up" : g == maps::Green::down ? "down" : "undecidable";
+}
+
+const char* name(maps::Swapped s)
+{
+    return s == maps::Swapped::no ? "no" : s == maps::Swapped::yes ? "yes" : "undecidable";
+}
+
+const char* name(maps::Confidence c)
+{
+    return c == maps::Confidence::certain ? "certain" : c == maps::Confidence::likely ? "likely" : "none";
+}
+
+std::string verdictText(const maps::GreenVerdict& v)
+{
+    if (v.green == maps::Green::undecidable)
+        return "green: undecidable; " + v.reason;
+    const bool up = v.green == maps::Green::up;
+    std::string text = fmt::format("green: {} ({}), {}", up ? "up" : "down",
+                                   up ? "+Y, OpenGL, glTF" : "-Y, Direct3D", name(v.confidence));
+    if (v.swapped == maps::Swapped::yes)
+        text += "; red and green are exchanged (the answer is for the map with them put right)";
+    if (v.swapped == maps::Swapped::undecidable)
+        text += "; whether red and green are exchanged cannot be told from this relief";
+    return text;
+}
+
+Status runDetect(const InspectOptions& o)
+{
+    const auto image = openMap(o.file, o.map);
+    if (!image)
+        return image.error();
+    const maps::NormalStatistics s = maps::statisticsOfMap(*image);
+    const maps::GreenVerdict v = maps::greenOf(*image, s);
+    say(o.map.common, verdictText(v));
+    if (v.used > 0)
+        say(o.map.common, fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
+                                      "leaves {:.3g} times as much unexplained; {:.0f} % of the picture votes so",
+                                      v.agreement, v.deviations, v.exchanged, v.residualRatio, v.votes * 100));
+    if (v.green != maps::Green::undecidable)
+        say(o.map.common, "bump or dent cannot be told from a normal map: this takes red to point right, as every convention does");
+    return writeReport(o.map.common,
+                       {{"command", "map detect"}, {"file", o.file}, {"green", name(v.green)},
+                        {"confidence", name(v.confidence)}, {"exchanged", name(v.swapped)}, {"reason", v.reason},
+                        {"contents", maps::describe(s.content)}, {"agreement", v.agreement},
+                        {"agreement_exchanged", v.exchanged}, {"deviations", v.deviations},
+                        {"residual_ratio", v.residualRatio}, {"votes", v.votes}, {"used", v.used},
+                        {"bump_or_dent", "cannot be told"}});
+}
+
+struct DiffOptions {
+    MapOptions map;
+    std::string a, b, conventionA = "gltf,exact", conventionB;
+};
+
+Status runDiff(const DiffOptions& o)
+{
+    const auto conventionA = parseConvention(o.conventionA, "--from");
+    if (!conventionA)
+        return conventionA.error();
+    const auto conventionB = parseConvention(o.conventionB.empty() ? o.conventionA : o.conventionB, "--to");
+    if (!conventionB)
+        return conventionB.error();
+    const auto a = openMap(o.a, o.map, *conventionA);
+    if (!a)
+        return a.error();
+    const auto b = openMap(o.b, o.map, *conventionB);
+    if (!b)
+        return b.error();
+    if (a->width != b->width || a->height != b->height)
+        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", o.b, a->width, a->height,
+                                      o.a, b->width, b->height));
+    const auto degrees = maps::anglesBetween(*a, *conventionA, *b, *conventionB);
+    const AngleStatistics s = angleStatistics(degrees);
+    const std::size_t skipped = degrees.size() - s.count;
+    say(o.map.common, fmt::format("{} texels: {}", s.count, toText(s)));
+    if (skipped > 0)
+        say(o.map.common, fmt::format("{} texels are no direction in one of the two and were left out", skipped));
+    if (!o.map.common.output.empty()) {
+        if (Status written = writeImage(o.map.common.output, heatMap(degrees, a->width, a->height)); !written)
+            return written;
+        say(o.map.common, fmt::format("{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more",
+                                      o.map.common.output.string()));
+    }
+    return writeReport(o.map.common, {{"command", "map diff"}, {"a", o.a}, {"b", o.b},
+                                      {"convention_a", describe(*conventionA)},
+                                      {"convention_b", describe(*conventionB)}, {"skipped", skipped},
+                                      {"angles", cotan::toJson(s)}});
+}
+
+template<class Options, class Run>
+Command inspect(CLI::App* command, std::shared_ptr<Options> options, Run run)
+{
+    return {command, [options, run] {
+                return withThreads(options->map.common.threads, [&] { return run(*options); });
+            }};
+}
+
+} // namespace
+
+Command addMapInfo(CLI::App& map)
+{
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = map.add_subcommand("info", "what a map is: lengths, tilt, centre, channels, what is wrong");
+    addMapOptions(*command, options->map, "not used");
+    command->add_option("FILE", options->file, "the map")->required();
+    return inspect(command, options, runInfo);
+}
+
+Command addMapDetect(CLI::App& map)
+{
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command = map.add_subcommand("detect", "which way green points, and how sure that is");
+    addMapOptions(*command, options->map, "not used");
+    command->add_option("FILE", options->file, "the map")->required();
+    return inspect(command, options, runDetect);
+}
+
+Command addMapDiff(CLI::App& map)
+{
+    auto options = std::make_shared<DiffOptions>();
+    CLI::App* command = map.add_subcommand("diff", "two maps against each other, in degrees");
+    addMapOptions(*command, options->map, "heat map");
+    command->add_option("A", options->a, "the first map")->required();
+    command->add_option("B", options->b, "the second, of the same size")->required();
+    command->add_option("--from", options->conventionA, "how A is stored: " + conventionWords())
+        ->type_name("WORDS")->capture_default_str();
+    command->add_option("--to", options->conventionB, "how B is stored; as A if not given")->type_name("WORDS");
+    return inspect(command, options, runDiff);
+}
+
+} // namespace cotan::app

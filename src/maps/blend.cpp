@@ -1,0 +1,150 @@
+#include "cotan/maps/blend.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "cotan/maps/recode.hpp"
+#include "cotan/maps/texels.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+int repeated(int i, int size) { return (i % size + size) % size; }
+
+// Which texels of a repeating line of `size` one texel of `count` covers, and how much of each.
+struct Tap {
+    int texel;
+    float weight;
+};
+
+// Magnified: two taps, linear. Minified: all texels under the footprint, by their share of it.
+std::vector<std::vector<Tap>> tapsOf(int count, int size, int tiles)
+{
+    std::vector<std::vector<Tap>> taps(static_cast<std::size_t>(count));
+    const double step = double(size) * tiles / count; // texels of the detail per texel of the base
+    for (int i = 0; i < count; ++i) {
+        auto& list = taps[std::size_t(i)];
+        if (step <= 1) {
+            const double at = (i + 0.5) * step - 0.5;
+            const int first = int(std::floor(at));
+            const float part = float(at - first);
+            list = {{repeated(first, size), 1 - part}, {repeated(first + 1, size), part}};
+            continue;
+        }
+        const double from = i * step, to = from + step;
+        for (int k = int(std::floor(from)); k < to; ++k) {
+            const double covered = std::min(to, k + 1.0) - std::max(from, double(k));
+            if (covered > 1e-9)
+                list.push_back({repeated(k, size), float(covered / step)});
+        }
+    }
+    return taps;
+}
+
+glm::vec3 unitOrZero(const glm::vec3& v)
+{
+    const float length = glm::length(v);
+    return length > 1e-3f ? v / length : glm::vec3(0);
+}
+
+// Rows of the detail at the base's resolution, unit; zero where it has no direction.
+class DetailRows {
+public:
+    DetailRows(const Image& detail, const Convention& convention, int width, int height, int tilesX, int tilesY)
+        : detail_(detail), convention_(convention), across_(tapsOf(width, detail.width, tilesX)),
+          down_(tapsOf(height, detail.height, tilesY))
+    {
+    }
+
+    void load(int row, std::vector<glm::vec3>& out) const
+    {
+        std::vector<glm::vec3> line(std::size_t(detail_.width)), sum(line.size(), glm::vec3(0));
+        for (const Tap& tap : down_[std::size_t(row)]) {
+            decodeRow(detail_, tap.texel, convention_, line);
+            for (std::size_t x = 0; x < sum.size(); ++x)
+                sum[x] += unitOrZero(line[x]) * tap.weight;
+        }
+        for (std::size_t x = 0; x < out.size(); ++x) {
+            glm::vec3 v(0);
+            for (const Tap& tap : across_[x])
+                v += sum[std::size_t(tap.texel)] * tap.weight;
+            out[x] = unitOrZero(v);
+        }
+    }
+
+private:
+    const Image& detail_;
+    const Convention convention_;
+    std::vector<std::vector<Tap>> across_, down_;
+};
+
+// The mask's red at the nearest texel, [0,1]; not a number is 0.
+float maskAt(const Image& mask, int x, int y, int width, int height)
+{
+    const std::size_t mx = std::size_t(double(x) * mask.width / width);
+    const std::size_t my = std::size_t(double(y) * mask.height / height);
+    const std::size_t i = 4 * (my * std::size_t(mask.width) + mx);
+    const float value = mask.type == PixelType::unorm8 ? float(mask.bytes8()[i]) / 255
+        : mask.type == PixelType::unorm16              ? float(mask.words()[i]) / 65535
+                                                       : mask.floats()[i];
+    return value > 0 ? std::min(value, 1.0f) : 0.0f;
+}
+
+glm::vec3 blendTexels(const glm::vec3& base, const glm::vec3& detail, BlendMode mode)
+{
+    switch (mode) {
+    case BlendMode::reoriented: return f32::cotan_blend_reoriented(base, detail);
+    case BlendMode::whiteout: return f32::cotan_blend_whiteout(base, detail);
+    case BlendMode::udn: return f32::cotan_blend_udn(base, detail);
+    case BlendMode::slopes: return f32::cotan_blend_slopes(base, detail, 1.0f, 1.0f);
+    case BlendMode::linear: break;
+    }
+    return f32::cotan_blend_linear(base, detail);
+}
+
+} // namespace
+
+Image blend(const Image& base, const Image& detail, const BlendSettings& s, std::size_t& invalid)
+{
+    Image out = makeImage(base.width, base.height, s.type, base.name);
+    const DetailRows details(detail, s.detail, base.width, base.height, s.tilesX, s.tilesY);
+    const float steps = s.type == PixelType::unorm8 ? 255.0f : s.type == PixelType::unorm16 ? 65535.0f : 0.0f;
+    std::atomic<std::size_t> bad = 0;
+    forRowBands(base.height, [&](int first, int last) {
+        const std::size_t width = std::size_t(base.width);
+        std::vector<glm::vec3> baseRow(width), detailRow(width);
+        std::vector<glm::vec4> texels(width);
+        std::size_t badHere = 0;
+        for (int y = first; y < last; ++y) {
+            decodeRow(base, y, s.base, baseRow);
+            details.load(y, detailRow);
+            for (std::size_t x = 0; x < width; ++x) {
+                const float mask = s.mask ? maskAt(*s.mask, int(x), y, base.width, base.height) : 1.0f;
+                const glm::vec3 b = unitOrZero(baseRow[x]);
+                glm::vec3 d = detailRow[x];
+                badHere += b == glm::vec3(0) || d == glm::vec3(0);
+                d = unitOrZero({d.x * s.strength * mask, d.y * s.strength * mask, d.z});
+                glm::vec3 n = b == glm::vec3(0) ? d : b;
+                // A detail of no strength is no detail, also for the modes that flatten the base with it.
+                if (b != glm::vec3(0) && d != glm::vec3(0) && mask * s.strength != 0)
+                    n = blendTexels(b, d, s.mode);
+                texels[x] = encodeTexel(n, s.to);
+                if (s.dither)
+                    texels[x] = dithered(texels[x], steps, int(x), y);
+            }
+            storeRow(out, y, texels);
+        }
+        bad += badHere;
+    });
+    invalid = bad;
+    return out;
+}
+
+} // namespace cotan::maps

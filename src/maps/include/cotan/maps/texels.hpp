@@ -1,0 +1,61 @@
+// Texels of a normal map as vectors of the picture, and back.
+//
+// Picture space, used by everything in this part: x to the right, y up the picture, z out of it. A
+// map of any convention decodes into it; which way v runs does not matter here.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "cotan/convention.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan::maps {
+
+// Which of the four components hold a two-channel map.
+enum class Swizzle {
+    rg,        // x in red, y in green
+    greyAlpha, // x in red, green and blue, y in alpha: files of two channels
+    alphaGreen // x in alpha, y in green, red constant: "DXT5nm"
+};
+
+// Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
+// varying: alphaGreen. Otherwise rg.
+Swizzle swizzleOf(const Image& image);
+
+// Moves x to red and y to green, blue to zero's value and alpha to 1; nothing for rg.
+void unswizzle(Image& image, Swizzle from);
+
+// The stored components of one row, as a shader samples them: unorm in [0,1], floats as they are.
+// texels: image.width entries.
+void loadRow(const Image& image, int row, std::span<glm::vec4> texels);
+
+// The reverse. unorm components are rounded to the nearest step; what is not finite becomes 0.
+void storeRow(Image& image, int row, std::span<const glm::vec4> texels);
+
+// One texel as a vector of picture space, with its stored length; (0,0,0) where a component is not
+// finite or the vector is shorter than 1e-3.
+glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention);
+
+// A whole row. normals: image.width entries.
+void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals);
+
+// A vector of picture space as stored components; alpha 1. It is normalised first unless the
+// convention has three channels and keepLength is set. (0,0,0) is stored as flat.
+glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, bool keepLength = false);
+
+// Calls work(first, last) for bands of rows, on all threads that the caller's arena allows. Results
+// must depend on the rows only.
+void forRowBands(int height, const std::function<void(int first, int last)>& work);
+
+// The largest angle in degrees between a vector and what an encoding of `bits` per component gives
+// back for it, by rounding alone, anywhere on the upper hemisphere up to `tilt` degrees from flat.
+// 32 bits: that of float arithmetic. (docs/maps.md has the table.)
+double quantisationDegrees(const Convention& convention, int bits, double tilt);
+
+} // namespace cotan::maps

@@ -1,0 +1,180 @@
+#include "cotan/maps/mips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/maps/texels.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+constexpr float kSteepest = 128;
+
+// Means over a footprint. `share`: how much of it holds directions.
+struct Moments {
+    glm::vec3 normal{0};
+    float share = 0;
+    float bx = 0, by = 0, bb = 0; // slopes and the sum of their squares
+
+    void add(const Moments& o, float weight)
+    {
+        normal += o.normal * weight;
+        share += o.share * weight;
+        bx += o.bx * weight, by += o.by * weight, bb += o.bb * weight;
+    }
+};
+
+struct Level {
+    int width = 0, height = 0;
+    std::vector<Moments> texels;
+};
+
+Moments momentsOf(const glm::vec3& decoded)
+{
+    const float length = glm::length(decoded);
+    if (!(length > 0))
+        return {};
+    const glm::vec3 n = decoded / length;
+    const float z = std::max(n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepest);
+    const float bx = -n.x / z, by = -n.y / z;
+    return {n, 1, bx, by, bx * bx + by * by};
+}
+
+// One line of a smaller level: [first, last] of the larger one, the ends by their share.
+struct Footprint {
+    int first = 0, last = 0;
+    double from = 0, to = 0;
+
+    float weight(int i) const
+    {
+        return float((std::min(to, i + 1.0) - std::max(from, double(i))) / (to - from));
+    }
+};
+
+Footprint footprint(int i, int size, int larger)
+{
+    const double step = double(larger) / size;
+    Footprint f{.from = i * step, .to = (i + 1) * step};
+    f.first = int(std::floor(f.from));
+    f.last = std::min(int(std::ceil(f.to)), larger) - 1;
+    return f;
+}
+
+// rowOf(y, row): moments of a row of the larger level.
+template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
+{
+    Level level{std::max(1, width / 2), std::max(1, height / 2), {}};
+    level.texels.resize(std::size_t(level.width) * std::size_t(level.height));
+    forRowBands(level.height, [&](int firstRow, int lastRow) {
+        std::vector<Moments> row(std::size_t(width), Moments{});
+        for (int y = firstRow; y < lastRow; ++y) {
+            const Footprint down = footprint(y, level.height, height);
+            for (int fy = down.first; fy <= down.last; ++fy) {
+                rowOf(fy, row);
+                for (int x = 0; x < level.width; ++x) {
+                    const Footprint across = footprint(x, level.width, width);
+                    Moments& sum = level.texels[std::size_t(y) * std::size_t(level.width) + std::size_t(x)];
+                    for (int fx = across.first; fx <= across.last; ++fx)
+                        sum.add(row[std::size_t(fx)], across.weight(fx) * down.weight(fy));
+                }
+            }
+        }
+    });
+    return level;
+}
+
+double roughnessOf(const Moments& m, const MipSettings& s)
+{
+    if (!(m.share > 0))
+        return s.roughness;
+    if (s.model != SpreadModel::lean)
+        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / double(m.share)), s.model);
+    const double bx = double(m.bx / m.share), by = double(m.by / m.share), bb = double(m.bb / m.share);
+    return roughnessFromVariance(s.roughness, std::max(0.0, bb - bx * bx - by * by));
+}
+
+// rowOf: as for smaller().
+template<class RowOf> MipLevel encoded(int width, int height, const MipSettings& s, RowOf rowOf)
+{
+    MipLevel out{makeImage(width, height, s.type), makeImage(width, height, s.type)};
+    std::vector<double> lengths(std::size_t(height), 0), roughness(std::size_t(height), 0), counts(std::size_t(height), 0);
+    forRowBands(height, [&](int first, int last) {
+        std::vector<Moments> row(std::size_t(width), Moments{});
+        std::vector<glm::vec4> normals(row.size()), rough(row.size());
+        for (int y = first; y < last; ++y) {
+            rowOf(y, row);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                const Moments& m = row[x];
+                const glm::vec3 mean = m.share > 0 ? m.normal / m.share : glm::vec3(0);
+                normals[x] = encodeTexel(mean, s.to, s.keepLengths);
+                const double r = roughnessOf(m, s);
+                rough[x] = glm::vec4(float(r), float(r), float(r), 1);
+                roughness[std::size_t(y)] += r;
+                if (m.share > 0)
+                    lengths[std::size_t(y)] += double(glm::length(mean)), counts[std::size_t(y)] += 1;
+            }
+            storeRow(out.normals, y, normals);
+            storeRow(out.roughness, y, rough);
+        }
+    });
+    double length = 0, sum = 0, count = 0;
+    for (std::size_t y = 0; y < lengths.size(); ++y)
+        length += lengths[y], sum += roughness[y], count += counts[y];
+    out.meanLength = count > 0 ? length / count : 0;
+    out.meanRoughness = sum / (double(width) * height);
+    return out;
+}
+
+} // namespace
+
+double roughnessFromLength(double roughness, double length, SpreadModel model)
+{
+    const double alpha2 = std::pow(roughness, 4), r = std::clamp(length, 1e-6, 1.0);
+    double result = alpha2;
+    if (model == SpreadModel::toksvig) {
+        const double exponent = 2 / std::max(alpha2, 1e-9) - 2; // Blinn-Phong's of the same width
+        const double spread = (1 - r) / r;
+        result = 2 / (exponent / (1 + exponent * spread) + 2);
+    } else if (r < 1) {
+        // A lobe exp(kappa (cos - 1)) is as wide as alpha^2 = 2/kappa; widths of lobes add.
+        result = alpha2 + 2 * (1 - r * r) / (3 * r - r * r * r);
+    }
+    return std::pow(std::clamp(result, alpha2, 1.0), 0.25);
+}
+
+double roughnessFromVariance(double roughness, double variance)
+{
+    // Beckmann's alpha^2 is twice the variance along one axis: the sum of both.
+    return std::pow(std::min(1.0, std::pow(roughness, 4) + variance), 0.25);
+}
+
+std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
+{
+    std::vector<MipLevel> chain;
+    const auto fromMap = [&](int y, std::vector<Moments>& row) {
+        thread_local std::vector<glm::vec3> normals;
+        normals.resize(row.size());
+        decodeRow(map, y, settings.from, normals);
+        std::ranges::transform(normals, row.begin(), momentsOf);
+    };
+    chain.push_back(encoded(map.width, map.height, settings, fromMap));
+    Level level;
+    for (int width = map.width, height = map.height; width > 1 || height > 1;
+         width = level.width, height = level.height) {
+        const Level larger = std::move(level);
+        const auto fromLevel = [&](int y, std::vector<Moments>& row) {
+            std::copy_n(larger.texels.begin() + std::ptrdiff_t(y) * larger.width, row.size(), row.begin());
+        };
+        level = chain.size() == 1 ? smaller(width, height, fromMap) : smaller(width, height, fromLevel);
+        const auto fromThis = [&](int y, std::vector<Moments>& row) {
+            std::copy_n(level.texels.begin() + std::ptrdiff_t(y) * level.width, row.size(), row.begin());
+        };
+        chain.push_back(encoded(level.width, level.height, settings, fromThis));
+    }
+    return chain;
+}
+
+} // namespace cotan::maps

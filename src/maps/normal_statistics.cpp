@@ -1,0 +1,271 @@
+#include "cotan/maps/normal_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace cotan::maps {
+
+namespace {
+
+constexpr float kShortest = 0.1f;
+constexpr double kConstant = 3.0 / 255; // a channel whose range is less is constant
+
+// Sums over a band of rows; bands are added in their order, so that threads do not matter.
+struct Sums {
+    std::size_t finite = 0, grey = 0;
+    std::array<double, 4> lowest{1e30, 1e30, 1e30, 1e30}, highest{-1e30, -1e30, -1e30, -1e30};
+    std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
+    std::array<std::size_t, 4> counted{};
+    std::size_t signedUnit = 0; // length within 0.1 of 1 as stored
+
+    void add(const Sums& o)
+    {
+        finite += o.finite;
+        grey += o.grey;
+        signedUnit += o.signedUnit;
+        for (std::size_t i = 0; i < 4; ++i) {
+            lowest[i] = std::min(lowest[i], o.lowest[i]);
+            highest[i] = std::max(highest[i], o.highest[i]);
+            error2[i] += o.error2[i];
+            counted[i] += o.counted[i];
+        }
+    }
+};
+
+float fromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float toSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+
+// A function of stored values through a table: exact for 8 bits, enough for a decision otherwise.
+struct Curve {
+    std::array<float, 256> table{};
+    explicit Curve(float (*f)(float))
+    {
+        for (std::size_t i = 0; i < 256; ++i)
+            table[i] = f(float(i) / 255);
+    }
+    float operator()(float c) const { return table[std::size_t(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f)]; }
+};
+
+bool finite(const glm::vec4& t)
+{
+    return std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z) && std::isfinite(t.w);
+}
+
+template<class Band, class Work> Band sumBands(const Image& image, Work work)
+{
+    std::vector<Band> bands(std::size_t(image.height + 15) / 16);
+    forRowBands(image.height, [&](int first, int last) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        for (int y = first; y < last; ++y) {
+            loadRow(image, y, row);
+            for (const glm::vec4& t : row)
+                work(bands[std::size_t(first) / 16], t);
+        }
+    });
+    Band all;
+    for (const Band& band : bands)
+        all.add(band);
+    return all;
+}
+
+Sums storedValues(const Image& image)
+{
+    static const Curve decoded(fromSrgb), encoded(toSrgb);
+    return sumBands<Sums>(image, [](Sums& s, const glm::vec4& t) {
+        if (!finite(t))
+            return;
+        ++s.finite;
+        s.grey += std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
+        for (int c = 0; c < 4; ++c) {
+            s.lowest[std::size_t(c)] = std::min(s.lowest[std::size_t(c)], double(t[c]));
+            s.highest[std::size_t(c)] = std::max(s.highest[std::size_t(c)], double(t[c]));
+        }
+        const glm::vec3 v(t);
+        s.signedUnit += std::abs(glm::length(v) - 1) < 0.1f;
+        const glm::vec3 readings[] = {(v * 255.0f - 128.0f) / 127.0f, v * 2.0f - 1.0f,
+                                      glm::vec3(decoded(v.x), decoded(v.y), decoded(v.z)) * 2.0f - 1.0f,
+                                      glm::vec3(encoded(v.x), encoded(v.y), encoded(v.z)) * 2.0f - 1.0f};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double length = glm::length(readings[i]);
+            s.error2[i] += (length - 1) * (length - 1);
+            ++s.counted[i];
+        }
+    });
+}
+
+double rms(const Sums& s, std::size_t reading)
+{
+    return s.counted[reading] ? std::sqrt(s.error2[reading] / double(s.counted[reading])) : 0;
+}
+
+// sRGB bends every length; the reading that makes vectors unit is the true one.
+Transfer transferOf(const Sums& s)
+{
+    const double stored = std::min(rms(s, 0), rms(s, 1));
+    if (stored < 0.05)
+        return Transfer::linear;
+    if (rms(s, 2) < 0.4 * stored && rms(s, 2) <= rms(s, 3))
+        return Transfer::srgb;
+    return rms(s, 3) < 0.4 * stored ? Transfer::linearised : Transfer::linear;
+}
+
+// Rounding alone leaves 0.0023 to 0.004 at 8 bits under the right centre; the wrong one adds up to 0.004.
+// Maps whose lengths vary for other reasons do not tell.
+Centre centreOf(const Sums& s)
+{
+    const double exact = rms(s, 0), biased = rms(s, 1);
+    if (std::min(exact, biased) > 0.01 || std::max(exact, biased) < 1e-6)
+        return Centre::unknown;
+    if (exact < 0.95 * biased)
+        return Centre::exact;
+    return biased < 0.95 * exact ? Centre::biased : Centre::unknown;
+}
+
+struct Directions {
+    std::size_t valid = 0, below = 0, outside = 0, shortened = 0;
+    double length = 0, error2 = 0, tilt = 0;
+    std::array<double, 3> sum{};
+    std::array<std::size_t, 9> histogram{};
+
+    void add(const Directions& o)
+    {
+        valid += o.valid, below += o.below, outside += o.outside, shortened += o.shortened;
+        length += o.length, error2 += o.error2, tilt += o.tilt;
+        for (std::size_t i = 0; i < 3; ++i)
+            sum[i] += o.sum[i];
+        for (std::size_t i = 0; i < 9; ++i)
+            histogram[i] += o.histogram[i];
+    }
+};
+
+Directions directions(const Image& image, const Convention& convention, Transfer transfer)
+{
+    static const Curve decoded(fromSrgb), encoded(toSrgb);
+    return sumBands<Directions>(image, [&](Directions& d, glm::vec4 t) {
+        if (transfer != Transfer::linear && finite(t)) {
+            const Curve& curve = transfer == Transfer::srgb ? decoded : encoded;
+            t = {curve(t.x), curve(t.y), curve(t.z), t.w};
+        }
+        const glm::vec3 n = decodeTexel(t, convention);
+        const float length = glm::length(n);
+        if (!(length >= kShortest))
+            return;
+        ++d.valid;
+        d.below += n.z < -0.02f;
+        d.outside += n.x * n.x + n.y * n.y > 1.02f;
+        d.shortened += length < 0.9f;
+        d.length += length;
+        d.error2 += (length - 1.0) * (length - 1.0);
+        const double tilt = std::atan2(double(std::hypot(n.x, n.y)), double(n.z)) * 180 / std::numbers::pi;
+        d.tilt += tilt;
+        ++d.histogram[std::size_t(std::clamp(tilt / 10, 0.0, 8.0))];
+        for (int c = 0; c < 3; ++c)
+            d.sum[std::size_t(c)] += n[c];
+    });
+}
+
+double share(std::size_t part, std::size_t whole) { return whole ? double(part) / double(whole) : 0; }
+
+Content twoChannelContent(const NormalStatistics& s)
+{
+    return s.outsideDisc > 0.005 ? Content::slopes : Content::twoChannel;
+}
+
+Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue, bool constantAll)
+{
+    if (sums.finite == 0)
+        return Content::other;
+    if (constantAll)
+        return Content::flat;
+    if (s.swizzle != Swizzle::rg || constantBlue)
+        return twoChannelContent(s);
+    if (share(sums.grey, sums.finite) > 0.97)
+        return Content::grey;
+    if (s.belowHorizon > 0.1)
+        return s.lengthSpread < 0.2 ? Content::objectSpace : Content::other;
+    return s.lengthSpread < 0.25 ? Content::tangentSpace : Content::other;
+}
+
+} // namespace
+
+NormalStatistics statisticsOfMap(const Image& image)
+{
+    NormalStatistics s;
+    s.texels = image.pixelCount();
+    s.swizzle = swizzleOf(image);
+    const Sums sums = storedValues(image);
+    std::array<double, 4> range{};
+    for (std::size_t c = 0; c < 4; ++c)
+        range[c] = sums.finite ? sums.highest[c] - sums.lowest[c] : 0;
+    for (std::size_t c = 0; c < 3 && sums.finite; ++c) {
+        s.lowest[c] = sums.lowest[c];
+        s.highest[c] = sums.highest[c];
+    }
+    const bool two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
+    const bool constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant
+        && range[3] <= kConstant;
+    const bool isSigned = image.type == PixelType::float32 && sums.finite
+        && (std::min(s.lowest[0], s.lowest[1]) < -0.01
+            || (!two && share(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
+    s.signedStored = isSigned;
+    if (!two && !isSigned && !constantAll) {
+        s.rmsExact = rms(sums, 0);
+        s.rmsBiased = rms(sums, 1);
+        s.transfer = transferOf(sums);
+        if (s.transfer == Transfer::linear)
+            s.centre = centreOf(sums);
+    }
+
+    Convention read{.expansion = s.centre == Centre::biased || s.transfer != Transfer::linear
+                        ? Expansion::biased
+                        : Expansion::exact};
+    if (isSigned)
+        read.expansion = Expansion::signedValues;
+    Image moved;
+    if (s.swizzle != Swizzle::rg) {
+        moved = image;
+        unswizzle(moved, s.swizzle);
+    }
+    if (two && !constantAll)
+        read.channels = Channels::orthographic;
+    const Directions d = directions(s.swizzle == Swizzle::rg ? image : moved, read, s.transfer);
+    s.invalid = 1 - share(d.valid, s.texels);
+    s.belowHorizon = share(d.below, d.valid);
+    s.outsideDisc = share(d.outside, d.valid);
+    s.shortened = share(d.shortened, d.valid);
+    if (d.valid) {
+        const double n = double(d.valid);
+        s.meanLength = d.length / n;
+        s.lengthSpread = std::sqrt(d.error2 / n);
+        s.meanTilt = d.tilt / n;
+        for (std::size_t i = 0; i < 3; ++i)
+            s.mean[i] = d.sum[i] / n;
+        for (std::size_t i = 0; i < 9; ++i)
+            s.tilt[i] = share(d.histogram[i], d.valid);
+    }
+    s.content = contentOf(s, sums, two, constantAll);
+    if (isSigned && s.content == Content::tangentSpace)
+        s.content = Content::signedValues;
+    return s;
+}
+
+std::string describe(Content content)
+{
+    switch (content) {
+    case Content::tangentSpace: return "tangent space";
+    case Content::objectSpace: return "object space (directions on both sides)";
+    case Content::twoChannel: return "two channels (x and y; z is to be rebuilt)";
+    case Content::slopes: return "two channels outside the unit disc: a slope map";
+    case Content::signedValues: return "tangent space, stored signed";
+    case Content::flat: return "one value everywhere";
+    case Content::grey: return "grey: a height map, not a normal map";
+    case Content::other: break;
+    }
+    return "not a normal map: lengths far from 1";
+}
+
+} // namespace cotan::maps

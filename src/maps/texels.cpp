@@ -1,0 +1,177 @@
+#include "cotan/maps/texels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace cotan::maps {
+
+namespace {
+
+// Any of these is enough to tell a shape apart; three codes of 8 bits.
+constexpr float kSame = 3.0f / 255;
+constexpr float kShortest = 1e-3f;
+
+bool finite(const glm::vec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// cotan_decode with "along v" read as "up the picture".
+f32::cotan_normal_format pictureFormat(const Convention& c)
+{
+    f32::cotan_normal_format format = toFormat<f32::cotan_normal_format>(c);
+    format.green = c.greenUp ? 1.0f : -1.0f;
+    return format;
+}
+
+glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
+{
+    const bool two = format.channels != COTAN_CHANNELS_XYZ;
+    const glm::vec3 stored(t.x, t.y, two ? 0.5f : t.z);
+    if (!finite(stored))
+        return glm::vec3(0);
+    const glm::vec3 m = f32::cotan_decode(stored, format);
+    const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
+    return length2 >= kShortest * kShortest && length2 < 1e30f ? m : glm::vec3(0);
+}
+
+template<class T> T quantise(float value, float most)
+{
+    if (!(value > 0))
+        return 0;
+    return static_cast<T>(std::min(value, 1.0f) * most + 0.5f);
+}
+
+} // namespace
+
+Swizzle swizzleOf(const Image& image)
+{
+    std::vector<glm::vec4> row(std::size_t(image.width));
+    glm::vec4 lowest(INFINITY), highest(-INFINITY);
+    bool grey = true;
+    for (int y = 0; y < image.height; ++y) {
+        loadRow(image, y, row);
+        for (const glm::vec4& t : row) {
+            lowest = glm::min(lowest, t);
+            highest = glm::max(highest, t);
+            grey = grey && t.x == t.y && t.x == t.z;
+        }
+    }
+    const glm::vec4 range = highest - lowest;
+    if (!(range.w > kSame))
+        return Swizzle::rg;
+    if (grey)
+        return Swizzle::greyAlpha;
+    return range.x <= kSame && range.y > kSame ? Swizzle::alphaGreen : Swizzle::rg;
+}
+
+void unswizzle(Image& image, Swizzle from)
+{
+    if (from == Swizzle::rg)
+        return;
+    forRowBands(image.height, [&](int first, int last) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        for (int y = first; y < last; ++y) {
+            loadRow(image, y, row);
+            for (glm::vec4& t : row)
+                t = from == Swizzle::greyAlpha ? glm::vec4(t.x, t.w, 0.5f, 1) : glm::vec4(t.w, t.y, 0.5f, 1);
+            storeRow(image, y, row);
+        }
+    });
+}
+
+void loadRow(const Image& image, int row, std::span<glm::vec4> texels)
+{
+    const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
+    float* out = &texels[0].x;
+    const std::size_t count = texels.size() * 4;
+    if (image.type == PixelType::unorm8) {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = float(image.bytes8()[start + i]) * (1.0f / 255);
+    } else if (image.type == PixelType::unorm16) {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = float(image.words()[start + i]) * (1.0f / 65535);
+    } else {
+        std::copy_n(image.floats() + start, count, out);
+    }
+}
+
+void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
+{
+    const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
+    const float* in = &texels[0].x;
+    const std::size_t count = texels.size() * 4;
+    if (image.type == PixelType::unorm8) {
+        for (std::size_t i = 0; i < count; ++i)
+            image.bytes8()[start + i] = quantise<std::uint8_t>(in[i], 255);
+    } else if (image.type == PixelType::unorm16) {
+        for (std::size_t i = 0; i < count; ++i)
+            image.words()[start + i] = quantise<std::uint16_t>(in[i], 65535);
+    } else {
+        for (std::size_t i = 0; i < count; ++i)
+            image.floats()[start + i] = std::isfinite(in[i]) ? in[i] : 0.0f;
+    }
+}
+
+glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention)
+{
+    return decode(texel, pictureFormat(convention));
+}
+
+void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals)
+{
+    thread_local std::vector<glm::vec4> texels;
+    texels.resize(normals.size());
+    loadRow(image, row, texels);
+    const auto format = pictureFormat(convention);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        normals[i] = decode(texels[i], format);
+}
+
+glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, bool keepLength)
+{
+    if (!finite(normal) || glm::dot(normal, normal) < kShortest * kShortest)
+        normal = glm::vec3(0, 0, 1);
+    const auto format = pictureFormat(convention);
+    if (keepLength && convention.channels == Channels::xyz) {
+        const int e = format.expansion;
+        return {f32::cotan_compress(normal.x, e), f32::cotan_compress(normal.y * format.green, e),
+                f32::cotan_compress(normal.z, e), 1.0f};
+    }
+    return {f32::cotan_encode_texel(glm::normalize(normal), format), 1.0f};
+}
+
+void forRowBands(int height, const std::function<void(int first, int last)>& work)
+{
+    constexpr int kBand = 16;
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, (height + kBand - 1) / kBand, 1),
+                              [&](const auto& bands) {
+                                  for (int band = bands.begin(); band < bands.end(); ++band)
+                                      work(band * kBand, std::min(height, (band + 1) * kBand));
+                              });
+}
+
+double quantisationDegrees(const Convention& convention, int bits, double tilt)
+{
+    // Half a step in each stored component, as a signed number.
+    const double scale = convention.expansion == Expansion::exact ? 255.0 / 127 : 2.0;
+    const double half = bits >= 32 ? 3e-7 : 0.5 * scale / (std::pow(2.0, bits) - 1);
+    const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
+    // Tangential part of the error, to first order:
+    double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst
+    if (convention.channels == Channels::orthographic)
+        error = half * std::sqrt(2.0) / z; // steepest direction: d(tilt) = d(sin)/cos
+    if (convention.channels == Channels::stereographic)
+        error = half * std::sqrt(2.0) * 2; // |dn/dp| = 2/(1+p^2) <= 2
+    if (convention.channels == Channels::slope)
+        error = half * std::sqrt(2.0); // |d atan(s)/ds| <= 1
+    return error * 180 / std::numbers::pi;
+}
+
+} // namespace cotan::maps

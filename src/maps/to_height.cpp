@@ -1,0 +1,281 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "cotan/maps/height.hpp"
+#include "cotan/maps/texels.hpp"
+#include "fft.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+constexpr float kSteepest = 128;
+// A frequency of which a kernel has left less than this share of the slope's power is not rebuilt.
+constexpr double kLeast = 0.02;
+
+// Slopes of one row per texel of width: rightwards and DOWN the picture; heights in texel widths.
+std::size_t loadSlopes(const Image& map, int row, const ToHeightSettings& s, std::vector<glm::vec3>& normals,
+                       std::vector<glm::vec2>& slopes)
+{
+    decodeRow(map, row, s.from, normals);
+    std::size_t invalid = 0;
+    for (std::size_t x = 0; x < normals.size(); ++x) {
+        const glm::vec3 n = normals[x];
+        invalid += n == glm::vec3(0);
+        const float z = std::max({n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepest, 1e-20f});
+        slopes[x] = n == glm::vec3(0) ? glm::vec2(0) : glm::vec2(-n.x / z, n.y / z * float(s.aspect));
+    }
+    return invalid;
+}
+
+// The response of a kernel to the frequency (x, y), radians per texel: of its x part, then its y part.
+std::array<Complex, 2> response(Kernel kernel, double x, double y)
+{
+    const Complex i(0, 1);
+    const auto spectral = [&](double w) { return std::abs(w) > std::numbers::pi - 1e-9 ? 0.0 : w; };
+    const auto across = [&](double w) {
+        return kernel == Kernel::sobel ? (1 + std::cos(w)) / 2 : kernel == Kernel::scharr ? (5 + 3 * std::cos(w)) / 8 : 1.0;
+    };
+    if (kernel == Kernel::spectral)
+        return {i * spectral(x), i * spectral(y)};
+    if (kernel == Kernel::forward) // downwards: this minus the one above would look up; see difference()
+        return {std::polar(1.0, x) - 1.0, 1.0 - std::polar(1.0, -y)};
+    return {i * std::sin(x) * across(y), i * std::sin(y) * across(x)};
+}
+
+double frequency(std::size_t k, std::size_t n)
+{
+    const double signedK = 2 * k <= n ? double(k) : double(k) - double(n);
+    return 2 * std::numbers::pi * signedK / double(n);
+}
+
+using Grid = std::vector<std::complex<float>>; // stored in single precision, transformed in double
+
+void transformRows(Grid& grid, int width, int height, bool inverse)
+{
+    const Fft fft{std::size_t(width)};
+    forRowBands(height, [&](int first, int last) {
+        std::vector<Complex> row(std::size_t(width), 0);
+        for (int y = first; y < last; ++y) {
+            const auto at = grid.begin() + std::ptrdiff_t(y) * width;
+            std::copy_n(at, width, row.begin());
+            inverse ? fft.inverse(row) : fft.forward(row);
+            std::ranges::transform(row, at, [](Complex c) { return std::complex<float>(c); });
+        }
+    });
+}
+
+// Calls work(column as doubles) for every column of a grid, several at a time for the cache's sake.
+template<class Stored, class Number, class Work>
+void eachColumn(std::vector<Stored>& grid, int width, int height, Work work)
+{
+    forRowBands(width, [&](int first, int last) {
+        const std::size_t count = std::size_t(last - first), rows = std::size_t(height);
+        std::vector<Number> columns(count * rows);
+        for (std::size_t y = 0; y < rows; ++y)
+            for (std::size_t x = 0; x < count; ++x)
+                columns[x * rows + y] = Number(grid[y * std::size_t(width) + std::size_t(first) + x]);
+        for (std::size_t x = 0; x < count; ++x)
+            work(std::span(columns).subspan(x * rows, rows));
+        for (std::size_t y = 0; y < rows; ++y)
+            for (std::size_t x = 0; x < count; ++x)
+                grid[y * std::size_t(width) + std::size_t(first) + x] = Stored(columns[x * rows + y]);
+    });
+}
+
+void transformColumns(Grid& grid, int width, int height, bool inverse)
+{
+    const Fft fft{std::size_t(height)};
+    eachColumn<std::complex<float>, Complex>(
+        grid, width, height, [&](std::span<Complex> column) { inverse ? fft.inverse(column) : fft.forward(column); });
+}
+
+struct Power {
+    double slope = 0, residual = 0;
+};
+
+// In place: the transform of p + i q becomes that of the height; k and -k together, as both are
+// needed to part P from Q.
+Power solve(Grid& grid, std::size_t width, std::size_t height, Kernel kernel)
+{
+    std::vector<Power> rows(height / 2 + 1);
+    forRowBands(int(rows.size()), [&](int first, int last) {
+        for (std::size_t y = std::size_t(first); y < std::size_t(last); ++y) {
+            const std::size_t minusY = (height - y) % height;
+            // A row that is its own mirror: half of it is done with the other half.
+            const std::size_t end = y == minusY ? width / 2 + 1 : width;
+            for (std::size_t x = 0; x < end; ++x) {
+                const std::size_t minusX = (width - x) % width;
+                std::complex<float>&a = grid[y * width + x], &b = grid[minusY * width + minusX];
+                const Complex za(a), zb = std::conj(Complex(b));
+                const Complex p = 0.5 * (za + zb), q = Complex(0, -0.5) * (za - zb);
+                const double wx = frequency(x, width), wy = frequency(y, height);
+                const auto [dx, dy] = response(kernel, wx, wy);
+                const double power = std::norm(dx) + std::norm(dy);
+                const bool usable = power > kLeast * (wx * wx + wy * wy) && power > 0;
+                const Complex h = usable ? (std::conj(dx) * p + std::conj(dy) * q) / power : Complex(0);
+                const double twice = &a == &b ? 1 : 2;
+                rows[y].slope += twice * (std::norm(p) + std::norm(q));
+                rows[y].residual += twice * (std::norm(p - dx * h) + std::norm(q - dy * h));
+                a = std::complex<float>(h);
+                b = std::complex<float>(std::conj(h));
+            }
+        }
+    });
+    Power all;
+    for (const Power& row : rows)
+        all.slope += row.slope, all.residual += row.residual;
+    return all;
+}
+
+void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
+{
+    const int width = map.width, height = map.height;
+    Grid grid(map.pixelCount());
+    std::atomic<std::size_t> invalid = 0;
+    forRowBands(height, [&](int first, int last) {
+        std::vector<glm::vec3> normals(std::size_t(width), glm::vec3(0));
+        std::vector<glm::vec2> slopes(normals.size());
+        for (int y = first; y < last; ++y) {
+            invalid += loadSlopes(map, y, s, normals, slopes);
+            for (std::size_t x = 0; x < slopes.size(); ++x)
+                grid[std::size_t(y) * slopes.size() + x] = {slopes[x].x, slopes[x].y};
+        }
+    });
+    result.invalid = invalid;
+    transformRows(grid, width, height, false);
+    transformColumns(grid, width, height, false);
+    const double n = double(map.pixelCount());
+    result.meanTilt = std::atan(double(std::abs(grid[0])) / n) * 180 / std::numbers::pi;
+    const Power power = solve(grid, std::size_t(width), std::size_t(height), s.kernel);
+    result.slope = std::sqrt(power.slope) / n; // Parseval: sum |x|^2 = sum |X|^2 / N
+    result.residual = std::sqrt(power.residual) / n;
+    transformColumns(grid, width, height, true);
+    transformRows(grid, width, height, true);
+    result.texels.resize(grid.size());
+    std::ranges::transform(grid, result.texels.begin(), [](std::complex<float> c) { return c.real(); });
+}
+
+void transformCosine(std::vector<float>& grid, int width, int height, bool inverse)
+{
+    const Fft across{std::size_t(width)}, down{std::size_t(height)};
+    const auto one = [inverse](const Fft& fft, std::span<double> x) {
+        inverse ? cosineInverse(fft, x) : cosineForward(fft, x);
+    };
+    forRowBands(height, [&](int first, int last) {
+        std::vector<double> row(std::size_t(width), 0);
+        for (int y = first; y < last; ++y) {
+            const auto at = grid.begin() + std::ptrdiff_t(y) * width;
+            std::copy_n(at, width, row.begin());
+            one(across, row);
+            std::ranges::transform(row, at, [](double v) { return float(v); });
+        }
+    });
+    eachColumn<float, double>(grid, width, height, [&](std::span<double> column) { one(down, column); });
+}
+
+// Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run side by
+// side, so work may write to what belongs to row y only. The difference that a map asks for between
+// neighbours is the mean of their slopes.
+template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSettings& s, Work work)
+{
+    std::atomic<std::size_t> invalid = 0;
+    forRowBands(map.height, [&](int first, int last) {
+        const std::size_t width = std::size_t(map.width);
+        std::vector<glm::vec3> normals(width);
+        std::vector<glm::vec2> above(width), here(width), below(width);
+        if (first > 0)
+            loadSlopes(map, first - 1, s, normals, above);
+        invalid += loadSlopes(map, first, s, normals, here);
+        for (int y = first; y < last; ++y) {
+            if (y + 1 < map.height) {
+                const std::size_t bad = loadSlopes(map, y + 1, s, normals, below);
+                invalid += y + 1 < last ? bad : 0;
+            }
+            for (std::size_t x = 0; x < width; ++x)
+                work(x, y, above, here, below);
+            above.swap(here);
+            here.swap(below);
+        }
+    });
+    return invalid;
+}
+
+void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
+{
+    using Row = std::vector<glm::vec2>;
+    const std::size_t width = std::size_t(map.width), height = std::size_t(map.height);
+    std::vector<float>& h = result.texels;
+    h.resize(map.pixelCount());
+    // The divergence of the wanted differences; none across the border.
+    result.invalid = eachSlope(map, s, [&](std::size_t x, int y, const Row& above, const Row& here, const Row& below) {
+        float d = 0;
+        d += x + 1 < width ? 0.5f * (here[x].x + here[x + 1].x) : 0;
+        d -= x > 0 ? 0.5f * (here[x - 1].x + here[x].x) : 0;
+        d += std::size_t(y) + 1 < height ? 0.5f * (here[x].y + below[x].y) : 0;
+        d -= y > 0 ? 0.5f * (above[x].y + here[x].y) : 0;
+        h[std::size_t(y) * width + x] = d;
+    });
+    transformCosine(h, map.width, map.height, false);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const double eigenvalue = 2 * std::cos(std::numbers::pi * double(x) / double(width))
+                + 2 * std::cos(std::numbers::pi * double(y) / double(height)) - 4;
+            float& v = h[y * width + x];
+            v = x == 0 && y == 0 ? 0.0f : float(double(v) / eigenvalue);
+        }
+    transformCosine(h, map.width, map.height, true);
+
+    std::vector<Power> rows(height);
+    std::vector<glm::dvec2> sums(height, glm::dvec2(0));
+    eachSlope(map, s, [&](std::size_t x, int y, const Row&, const Row& here, const Row& below) {
+        const float* at = h.data() + std::size_t(y) * width + x;
+        Power& power = rows[std::size_t(y)];
+        if (x + 1 < width)
+            power.residual += std::pow(double(at[1] - at[0] - 0.5f * (here[x].x + here[x + 1].x)), 2);
+        if (std::size_t(y) + 1 < height)
+            power.residual += std::pow(double(at[width] - at[0] - 0.5f * (here[x].y + below[x].y)), 2);
+        power.slope += double(glm::dot(here[x], here[x]));
+        sums[std::size_t(y)] += glm::dvec2(here[x]);
+    });
+    Power all;
+    glm::dvec2 sum(0);
+    for (std::size_t y = 0; y < height; ++y) {
+        all.slope += rows[y].slope, all.residual += rows[y].residual;
+        sum += sums[y];
+    }
+    const double n = double(map.pixelCount());
+    result.slope = std::sqrt(all.slope / n);
+    result.residual = std::sqrt(all.residual / n);
+    result.meanTilt = std::atan(glm::length(sum) / n) * 180 / std::numbers::pi;
+}
+
+} // namespace
+
+Heights heightFromNormals(const Image& map, const ToHeightSettings& settings)
+{
+    Heights result;
+    if (settings.boundary == Boundary::periodic)
+        solvePeriodic(map, settings, result);
+    else
+        solveFree(map, settings, result);
+    const auto [lowest, highest] = std::ranges::minmax(result.texels);
+    result.lowest = lowest;
+    result.highest = highest;
+    return result;
+}
+
+std::size_t heightWorkBytes(int width, int height, Boundary boundary)
+{
+    return std::size_t(width) * std::size_t(height) * (boundary == Boundary::periodic ? 12 : 4);
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,242 @@
+// `cotan map` as a process: reports, exit codes, files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/shapes.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+nlohmann::json reportOf(const ToolRun& run)
+{
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(run.out, nullptr, false);
+}
+
+void expectRefused(const ToolRun& run, int code, const TemporaryFolder& folder, const std::string& output)
+{
+    EXPECT_EQ(run.code, code) << run.err;
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+    EXPECT_FALSE(fs::exists(folder / output));
+}
+
+TEST(MapCommand, detects_every_texture_of_the_collection)
+{
+    const fs::path textures = fs::path(COTAN_SHARED_DATA) / "textures";
+    std::ifstream list(textures / "CONVENTIONS.tsv");
+    if (!list)
+        GTEST_SKIP() << textures << " is not here";
+    std::string line;
+    std::getline(list, line); // names of the columns
+    int seen = 0;
+    TemporaryFolder folder;
+    while (std::getline(list, line)) {
+        const std::string file = line.substr(0, line.find('\t'));
+        const std::string truth = line.substr(file.size() + 1, 2);
+        const auto report = reportOf(runTool({"map", "detect", (textures / file).string(), "--json", "-"}, folder.path()));
+        EXPECT_EQ(report["green"], truth == "+Y" ? "up" : truth == "-Y" ? "down" : "undecidable") << file;
+        EXPECT_NE(report["exchanged"], "yes") << file;
+        ++seen;
+    }
+    EXPECT_GT(seen, 0);
+}
+
+TEST(MapCommand, conversion_there_and_back_is_within_rounding)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 96)));
+    for (const char* words : {"directx", "unreal", "unity", "opengl,stereographic"}) {
+        const std::string to = words;
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", to, "--bits", "16", "-o", "there.png"},
+                          folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "convert", "there.png", "--from", to, "--to", "gltf,exact", "--bits", "16", "-o", "back.png"},
+                          folder.path()).code, 0);
+        const auto report = reportOf(runTool({"map", "diff", "map.png", "back.png", "--json", "-"}, folder.path()));
+        // Steps of 1/32767, two roundings, a slope of 0.92 at most (1/cos = 1.36): 0.005 degrees.
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.01) << to << report;
+    }
+}
+
+TEST(MapCommand, float_formats_keep_signed_values)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    for (const char* name : {"there.exr", "there.tif"}) {
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,signed", "--bits", "float",
+                           "-o", name}, folder.path()).code, 0);
+        const auto report = reportOf(runTool({"map", "diff", "map.png", name, "--to", "gltf,signed", "--json", "-"}, folder.path()));
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 1e-4) << name; // float rounding
+    }
+}
+
+TEST(MapCommand, heights_come_back_from_normals_within_rounding)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 96)));
+    const auto heights = reportOf(runTool({"map", "to-height", "map.png", "--size", "2", "-o", "height.png", "--kernel", "central",
+                                           "--json", "-"}, folder.path()));
+    const std::string range = std::to_string(heights["highest"].get<double>() - heights["lowest"].get<double>());
+    ASSERT_EQ(runTool({"map", "from-height", "height.png", "--size", "2", "--range", range, "-o", "again.png"}, folder.path()).code, 0);
+    const auto report = reportOf(runTool({"map", "diff", "map.png", "again.png", "--json", "-"}, folder.path()));
+    // The map's 8 bits: 0.4 degrees at worst (sqrt(3)/2 steps of 1/127); the heights' 16 bits: half a step of
+    // range 9 texels/65535 is a slope of 1e-4.
+    EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.6) << report;
+    EXPECT_LT(heights["residual_share"].get<double>(), 0.02); // rounding of 1/127/sqrt(12) beside slopes of 0.2
+}
+
+TEST(MapCommand, free_borders_follow_a_map_that_leans)
+{
+    TemporaryFolder folder;
+    Image slope = makeImage(40, 20, PixelType::unorm8);
+    for (std::size_t i = 0; i < slope.pixelCount(); ++i) {
+        const std::uint8_t texel[4] = {192, 128, 238, 255}; // falls to the right, by 64/110 a texel
+        std::copy_n(texel, 4, slope.bytes8() + 4 * i);
+    }
+    ASSERT_TRUE(writeImage(folder / "map.png", slope));
+    const auto h = reportOf(runTool({"map", "to-height", "map.png", "--free", "-o", "height.exr", "--json", "-"}, folder.path()));
+    EXPECT_NEAR(h["highest"].get<double>() - h["lowest"].get<double>(), 39 * 64.0 / 110, 1e-3);
+    const auto flat = reportOf(runTool({"map", "to-height", "map.png", "-o", "flat.exr", "--json", "-"}, folder.path()));
+    EXPECT_NEAR(flat["highest"].get<double>(), 0, 1e-3);
+    EXPECT_NEAR(flat["mean_tilt_degrees"].get<double>(), std::atan(64.0 / 110) * 180 / 3.14159265, 1e-3);
+}
+
+TEST(MapCommand, blending_with_a_flat_map_keeps_the_base_within_rounding)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "base.png", makeReliefMap(Relief::domes, 64)));
+    Image flat = makeImage(8, 8, PixelType::unorm8);
+    for (std::size_t i = 0; i < flat.pixelCount(); ++i) {
+        const std::uint8_t texel[4] = {128, 128, 255, 255};
+        std::copy_n(texel, 4, flat.bytes8() + 4 * i);
+    }
+    ASSERT_TRUE(writeImage(folder / "flat.png", flat));
+    for (const std::string mode : {"reoriented", "whiteout", "udn", "slopes"}) {
+        ASSERT_EQ(runTool({"map", "blend", "base.png", "flat.png", "--mode", mode, "--tiles", "3x5", "--bits", "16", "-o", "out.png"},
+                          folder.path()).code, 0);
+        const auto report = reportOf(runTool({"map", "diff", "base.png", "out.png", "--json", "-"}, folder.path()));
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.003) << mode; // sqrt(3)/2 steps of 1/32767, and floats
+    }
+}
+
+TEST(MapCommand, mips_come_as_a_dds_that_others_read_and_as_files)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::bricks, 32)));
+    const auto report = reportOf(runTool({"map", "mips", "map.png", "-o", "chain.dds", "--json", "-"}, folder.path()));
+    EXPECT_EQ(report["levels"].size(), 6u);
+    EXPECT_EQ(fs::file_size(folder / "chain.dds"), 128u + 4 * (1024 + 256 + 64 + 16 + 4 + 1));
+    ASSERT_EQ(runTool({"map", "mips", "map.png", "-o", "level.png"}, folder.path()).code, 0);
+    const auto dds = readImage(folder / "chain.dds"), file = readImage(folder / "level_0.png");
+    ASSERT_TRUE(dds && file);
+    ASSERT_EQ(dds->type, PixelType::unorm8);
+    for (std::size_t i = 0; i < dds->pixelCount(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_EQ(dds->bytes8()[4 * i + c], file->bytes8()[4 * i + c]);
+    EXPECT_TRUE(fs::exists(folder / "level_5.png"));
+    EXPECT_TRUE(fs::exists(folder / "level_roughness_5.png"));
+}
+
+TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    std::ofstream(folder / "text.png") << "not a picture";
+    std::ofstream(folder / "empty.png").flush();
+    const auto convert = [&](const std::string& file, const std::string& to, const std::string& out, const std::string& bits) {
+        return runTool({"map", "convert", file, "--from", "gltf", "--to", to, "-o", out, "--bits", bits}, folder.path());
+    };
+    expectRefused(convert("text.png", "directx", "out.png", "auto"), 2, folder, "out.png");
+    expectRefused(convert("empty.png", "directx", "out.png", "auto"), 2, folder, "out.png");
+    expectRefused(convert("missing.png", "directx", "out.png", "auto"), 2, folder, "out.png");
+    expectRefused(convert("map.png", "directy", "out.png", "auto"), 1, folder, "out.png");
+    expectRefused(convert("map.png", "", "out.png", "auto"), 1, folder, "out.png");
+    expectRefused(convert("map.png", "directx,signed", "out.png", "auto"), 1, folder, "out.png");
+    expectRefused(convert("map.png", "directx", "out.png", "float"), 1, folder, "out.png");
+    expectRefused(convert("map.png", "directx", "out.jpg", "16"), 1, folder, "out.jpg");
+    expectRefused(convert("map.png", "directx", "out.xyz", "auto"), 1, folder, "out.xyz");
+    expectRefused(convert("map.png", "directx", "none/out.png", "auto"), 4, folder, "none");
+    const auto refused = [&](std::vector<std::string> words, int code) {
+        words.insert(words.begin(), "map");
+        words.insert(words.end(), {"-o", "none.png"});
+        expectRefused(runTool(words, folder.path()), code, folder, "none.png");
+    };
+    refused({"from-height", "map.png", "--size", "2"}, 1);
+    refused({"from-height", "map.png", "--size", "2y", "--range", "1"}, 1);
+    refused({"from-height", "map.png", "--kernel", "spectral"}, 1);
+    refused({"from-height", "map.png", "--wrap", "border"}, 1);
+    refused({"to-height", "map.png", "--size", "0x1"}, 1);
+    refused({"to-height", "text.png"}, 2);
+    refused({"blend", "map.png", "map.png", "--mode", "multiply"}, 1);
+    refused({"blend", "map.png", "map.png", "--tiles", "0"}, 1);
+    refused({"blend", "map.png", "missing.png"}, 2);
+    refused({"mips", "map.png", "--roughness", "2"}, 1);
+    refused({"mips", "map.png", "--model", "magic"}, 1);
+    expectRefused(runTool({"map"}, folder.path()), 1, folder, "none");
+    expectRefused(runTool({"map", "diff", "map.png", "map.png", "--from", "nobody"}, folder.path()), 1, folder, "none");
+}
+
+TEST(MapCommand, refuses_pictures_over_the_memory_limit_before_taking_it)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 600))); // 1.4 MB
+    const ToolRun run = runTool({"map", "info", "map.png", "--memory", "1"}, folder.path());
+    expectRefused(run, 2, folder, "none");
+    EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+}
+
+TEST(MapCommand, odd_pictures_behave)
+{
+    TemporaryFolder folder;
+    Image one = makeImage(1, 1, PixelType::unorm8), wide = makeImage(301, 1, PixelType::unorm16);
+    Image nan = makeImage(7, 5, PixelType::float32);
+    std::fill_n(nan.floats(), 7 * 5 * 4, std::numeric_limits<float>::quiet_NaN());
+    ASSERT_TRUE(writeImage(folder / "one.png", one));
+    ASSERT_TRUE(writeImage(folder / "wide.png", wide));
+    ASSERT_TRUE(writeImage(folder / "nan.exr", nan));
+    for (const std::string file : {"one.png", "wide.png", "nan.exr"}) {
+        EXPECT_EQ(runTool({"map", "info", file}, folder.path()).code, 0) << file;
+        const auto report = reportOf(runTool({"map", "detect", file, "--json", "-"}, folder.path()));
+        EXPECT_EQ(report["green"], "undecidable") << file;
+        EXPECT_EQ(runTool({"map", "convert", file, "--from", "gltf", "--to", "directx", "--bits", "8", "-o", file + ".png"},
+                          folder.path()).code, 0) << file;
+        EXPECT_EQ(runTool({"map", "diff", file, file, "-o", "heat.png"}, folder.path()).code, 0) << file;
+        for (const std::vector<std::string>& words : {std::vector<std::string>{"from-height", file}, {"to-height", file},
+                                                      {"to-height", file, "--free"}, {"blend", file, file}, {"mips", file}}) {
+            std::vector<std::string> all{"map"};
+            all.insert(all.end(), words.begin(), words.end());
+            all.insert(all.end(), {"-o", "out.png"});
+            const ToolRun run = runTool(all, folder.path());
+            EXPECT_EQ(run.code, 0) << words[0] << " " << file << " " << run.err;
+        }
+    }
+}
+
+TEST(MapCommand, the_same_bytes_for_any_number_of_threads)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::bricks, 128)));
+    for (const std::string threads : {"1", "2", "5"}) {
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "unreal,stereographic", "--dither",
+                           "--threads", threads, "-o", threads + ".png"}, folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "detect", "map.png", "--threads", threads, "--json", threads + ".json"}, folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "to-height", "map.png", "--threads", threads, "-o", "height" + threads + ".png"}, folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "mips", "map.png", "--threads", threads, "-o", "mips" + threads + ".dds"}, folder.path()).code, 0);
+        EXPECT_EQ(readWhole(folder / ("height" + threads + ".png")), readWhole(folder / "height1.png"));
+        EXPECT_EQ(readWhole(folder / ("mips" + threads + ".dds")), readWhole(folder / "mips1.dds"));
+        EXPECT_EQ(readWhole(folder / (threads + ".png")), readWhole(folder / "1.png"));
+        EXPECT_EQ(readWhole(folder / (threads + ".json")), readWhole(folder / "1.json"));
+    }
+}
+
+} // namespace
+} // namespace cotan
