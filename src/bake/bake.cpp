@@ -132,7 +132,7 @@ public:
         rays_ = 0;
         for (std::size_t sub = 0; sub < samples; ++sub) {
             const std::size_t line = std::size_t(y) * samples + sub;
-            raster_.row(int(line), true, row_);
+            raster_.row(int(line), UvReach::gaps, row_);
             for (std::size_t x = 0; x + 1 < row_.first.size(); ++x)
                 if (row_.first[x] < row_.first[x + 1])
                     add(x, x / samples, std::uint32_t(x) * 7919u + std::uint32_t(line) * 104729u);
