@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cotan/asset/gltf_edit.hpp"
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/load.hpp"
 #include "cotan/asset/shapes.hpp"
@@ -178,6 +179,82 @@ TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
     EXPECT_NE(scene->images[std::size_t(material.normalMap.image)].data, makeReliefMap(Relief::waves, 128).data);
 }
 
+// A second material with a map of its own, which KHR_materials_variants may put in the first one's place.
+void addVariant(Made& m)
+{
+    m.root["extensionsUsed"] = {"KHR_materials_variants"};
+    m.root["extensions"]["KHR_materials_variants"]["variants"] = json::array({{{"name", "other"}}});
+    m.root["materials"].push_back({{"name", "variant"}, {"normalTexture", {{"index", 1}}}});
+    m.root["textures"].push_back({{"source", 1}});
+    m.root["images"].push_back({{"uri", "variant.png"}});
+    m.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] =
+        json::array({{{"material", 1}, {"variants", {0}}}});
+}
+
+TEST(ConvertCommand, theMapsOfVariantsAreConvertedToo)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    addVariant(m);
+    write(m, folder.path());
+    std::filesystem::copy_file(folder / "waves.png", folder / "variant.png");
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    ASSERT_EQ(r["maps"].size(), 2u);
+    const auto before = openGltfDocument(folder / "quad.gltf"), after = openGltfDocument(folder / "out.glb");
+    ASSERT_TRUE(before && after);
+    const auto old = gltfImageBytes(*before, 1), own = gltfImageBytes(*after, 0), variant = gltfImageBytes(*after, 1);
+    ASSERT_TRUE(old && own && variant);
+    EXPECT_EQ(*own, *variant); // the same map on the same triangles
+    EXPECT_NE(*variant, *old);
+}
+
+// Readers that know the extension would take its image, which is for the old frame.
+TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["extensionsUsed"] = {"EXT_texture_webp"};
+    m.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    m.root["textures"][0]["extensions"]["VENDOR_other"]["keep"] = 1;
+    m.root["images"].push_back({{"uri", "waves.webp"}});
+    write(m, folder.path());
+    std::ofstream(folder / "waves.webp") << "RIFF\x10\x01\x01\x01WEBPVP8 ";
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_NE(r["notes"].dump().find("EXT_texture_webp taken out"), std::string::npos) << r["notes"];
+    const json extensions = jsonOfGlb(folder / "out.glb")["textures"][0]["extensions"];
+    EXPECT_FALSE(extensions.contains("EXT_texture_webp"));
+    EXPECT_EQ(extensions["VENDOR_other"]["keep"], 1);
+}
+
+TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["extensionsUsed"] = {"KHR_texture_basisu"};
+    m.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    m.root["images"][0] = {{"uri", "waves.ktx2"}};
+    write(m, folder.path());
+    std::ofstream(folder / "waves.ktx2") << "\xabKTX 20\xbb and more";
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_TRUE(r["maps"].empty());
+    EXPECT_NE(r["notes"].dump().find("TANGENT stays"), std::string::npos) << r["notes"];
+    EXPECT_TRUE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+}
+
+TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
+{
+    TemporaryFolder folder;
+    Made m = quad(1);
+    write(m, folder.path());
+    EXPECT_EQ(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "one.glb"})["notes"].dump().find("no one map"),
+              std::string::npos);
+    m.root["nodes"].push_back({{"mesh", 0}, {"scale", {4, 1, 1}}}); // the same texels, stretched here
+    m.root["scenes"][0]["nodes"] = {0, 1};
+    write(m, folder.path());
+    EXPECT_NE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "two.glb"})["notes"].dump().find("no one map"),
+              std::string::npos);
+}
+
 TEST(ConvertCommand, reversedTangentsAreFollowedOrLeftAsideAsAsked)
 {
     TemporaryFolder folder;
@@ -245,6 +322,7 @@ TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
         {{"broken/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
         {{"quad.gltf", "--to", "cotangent", "-o", "no/such/folder/out.glb"}, 4},
         {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "waves.png"}, 4},
+        {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "no such device"}, 3},
     };
     for (const auto& c : cases) {
         std::vector<std::string> words = c.words;

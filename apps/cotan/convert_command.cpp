@@ -1,11 +1,15 @@
 #include "commands.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "convert_gltf.hpp"
 #include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
 #include "cotan/lint/texel.hpp"
+#include "gltf_open.hpp"
+#include "painter.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "verify.hpp"
@@ -14,6 +18,7 @@ namespace cotan::app {
 
 namespace {
 
+constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
 constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
 struct Options {
@@ -57,12 +62,10 @@ Result<FramePair> checkUsage(const Options& o)
     const auto to = frameFor("--to", o.to);
     if (!to)
         return to.error();
-    const auto extension = o.common.output.extension();
-    if (extension != ".glb" && extension != ".gltf")
-        return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", o.common.output.string()));
-    const std::string input = std::filesystem::path(o.model).extension().string();
-    if (input != ".glb" && input != ".gltf")
-        return usageError(fmt::format("{}: expected a .gltf or .glb model", o.model));
+    if (o.common.output.empty())
+        return usageError("convert: expected -o FILE; found none");
+    if (Status names = checkGltfNames(o.model, o.common.output); !names)
+        return names.error();
     std::error_code ignored;
     if (std::filesystem::equivalent(o.model, o.common.output, ignored))
         return usageError(fmt::format("-o: {} is the model itself; expected another file", o.common.output.string()));
@@ -98,7 +101,7 @@ nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size
 
 // Converts one image and puts it back.
 Status convertMap(const Options& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
-                  nlohmann::ordered_json& report)
+                  std::vector<std::string>& notes, nlohmann::ordered_json& report)
 {
     const auto bytes = gltfImageBytes(document, job.image);
     if (!bytes)
@@ -116,9 +119,14 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
     if (!png)
         return png.error();
     const std::size_t before = bytes->size(), after = png->size();
-    replaceMap(document, job, std::move(*png));
+    replaceMap(document, job, std::move(*png), notes);
     sayMap(o, job, r, before, after);
     report["maps"].push_back(describe(job, r, before, after));
+    const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
+    if (share * r.disagreement.mean > kSeen)
+        notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
+                                    "on average at the worst of them: no one map fits; give such parts texels of their own",
+                                    job.name, 100 * share, r.disagreement.mean));
     return Done{};
 }
 
@@ -129,7 +137,7 @@ Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& d
         const auto given = giveTangents(document, frames.to);
         if (!given)
             return given.error();
-        say(o.common, fmt::format("{} primitives got TANGENT for {}", *given, o.to));
+        say(o.common, fmt::format("{} got TANGENT for {}", counted(*given, "primitive"), o.to));
         report["tangents"] = {{"given_primitives", *given}};
         return Done{};
     }
@@ -143,7 +151,7 @@ Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& d
         return dropped.error();
     const double each = dropped->vertices > 0 ? double(dropped->bytes) / double(dropped->vertices) : 0;
     say(o.common, dropped->bytes > 0
-                      ? fmt::format("TANGENT dropped from {} primitives: {:.3g} bytes a vertex, {} vertices, {} bytes", dropped->primitives,
+                      ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes", counted(dropped->primitives, "primitive"),
                                     each, dropped->vertices, dropped->bytes)
                       : "no TANGENT to drop");
     report["tangents"] = {{"dropped_primitives", dropped->primitives}, {"bytes_per_vertex", each},
@@ -160,7 +168,10 @@ Status writeModel(const Options& o, const GltfDocument& document, nlohmann::orde
         warn(o.common, note);
     report["bytes_before"] = written->bytesBefore;
     report["bytes_after"] = written->bytesAfter;
-    say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(), written->bytesAfter, written->bytesBefore));
+    const double before = double(written->bytesBefore), after = double(written->bytesAfter);
+    say(o.common, fmt::format("{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", o.common.output.string(), written->bytesAfter,
+                              written->bytesBefore, std::abs(before - after), 100 * std::abs(before - after) / std::max(before, 1.0),
+                              after > before ? "more" : "less"));
     return Done{};
 }
 
@@ -170,17 +181,17 @@ Status run(const Options& o)
     if (!frames)
         return frames.error();
     Stopwatch watch;
-    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
-    const auto scene = loadGltf(o.model);
-    if (!scene)
-        return scene.error();
-    for (const std::string& line : scene->warnings)
-        warn(o.common, line);
-    auto document = openGltfDocument(o.model);
-    if (!document)
-        return document.error();
+    if (!o.verify.empty()) { // before anything is done
+        std::string note;
+        if (const auto painter = openPainter(o.device, o.common.threads, note); !painter)
+            return painter.error();
+    }
+    auto opened = openGltfToEdit(o.model, o.common);
+    if (!opened)
+        return opened.error();
+    GltfDocument& document = opened->document;
     std::vector<std::string> notes;
-    const auto jobs = mapJobs(*document, notes);
+    const auto jobs = mapJobs(document, notes);
     if (!jobs)
         return jobs.error();
     nlohmann::ordered_json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
@@ -194,14 +205,14 @@ Status run(const Options& o)
     else
         say(o.common, "three figures are: mean / 95 % / maximum, over texels");
     for (const MapJob& job : *jobs)
-        if (Status converted = convertMap(o, *frames, *document, job, report); !converted)
+        if (Status converted = convertMap(o, *frames, document, job, notes, report); !converted)
             return converted;
-    if (Status handled = handleTangents(o, *frames, *document, notes, report); !handled)
+    if (Status handled = handleTangents(o, *frames, document, notes, report); !handled)
         return handled;
     if (!jobs->empty() && frames->to != Frame::mikktspace)
         notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
                                     "glTF asks, will show them wrongly", o.to));
-    if (Status written = writeModel(o, *document, report); !written)
+    if (Status written = writeModel(o, document, report); !written)
         return written;
     for (const std::string& note : notes)
         warn(o.common, note);

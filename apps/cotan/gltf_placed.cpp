@@ -90,11 +90,14 @@ std::vector<std::vector<glm::dmat3>> placings(const Json& root)
     return result;
 }
 
+// Of a unit vector's length in float. Quantised normals are up to 0.007 off.
+constexpr double kRounding = 2e-6;
+
 void makeUnit(std::vector<glm::vec3>& normals)
 {
     for (glm::vec3& n : normals) {
         const double length = glm::length(glm::dvec3(n));
-        if (length > 0 && std::abs(length - 1) > 1e-5)
+        if (length > 0 && std::abs(length - 1) > kRounding)
             n = glm::vec3(glm::dvec3(n) / length);
     }
 }
