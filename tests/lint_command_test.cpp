@@ -95,6 +95,15 @@ TEST(LintCommand, flightHelmetAndBoomBoxCanBeReadAsTheyAre)
     }
 }
 
+// Every sphere of this model is anisotropic, and no material has a normal map.
+TEST(LintCommand, anisotropyKeepsItsTangents)
+{
+    COTAN_NEEDS("models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb");
+    const std::string text = lintJson("models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb")["recommendation"];
+    EXPECT_NE(text.find("KHR_materials_anisotropy"), std::string::npos) << text;
+    EXPECT_EQ(text.find("can be dropped"), std::string::npos) << text;
+}
+
 TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
 {
     COTAN_NEEDS("synthetic/uv_cases.gltf");
@@ -125,6 +134,7 @@ TEST(LintCommand, badInputGetsOneClearLine)
         {{"lint", model, "--distance", "-1"}, 1},
         {{"lint", model, "--distance", "nan"}, 1},
         {{"lint", model, "--limit", "inf"}, 1},
+        {{"lint", model, "--limit-area", "101"}, 1},
         {{"lint", model, "-o", "out"}, 1},
         {{"lint", model, "--quiet", "--json", "no/such/folder/r.json"}, 4},
     };

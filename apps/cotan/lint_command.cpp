@@ -37,7 +37,8 @@ std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share);
 std::string nameOf(const PrimitiveLint& p, std::size_t index)
 {
     const std::string mesh = p.mesh.empty() ? fmt::format("primitive {}", index) : p.mesh;
-    return p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
+    const std::string name = p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
+    return p.placings == 1 ? name : fmt::format("{}, stretched by its nodes in {} ways, number {}", name, p.placings, p.placing + 1);
 }
 
 void sayPrimitive(const Options& o, const LintReport& report, std::size_t index)
@@ -86,7 +87,8 @@ void sayMap(const Options& o, const GreenEvidence& g)
 
 nlohmann::ordered_json describe(const PrimitiveLint& p)
 {
-    nlohmann::ordered_json j = {{"mesh", p.mesh}, {"material", p.material}, {"normal_map", p.image},
+    nlohmann::ordered_json j = {{"mesh", p.mesh}, {"material", p.material}, {"placing", p.placing}, {"placings", p.placings},
+                                {"normal_map", p.image}, {"tangents_for", p.tangentsFor},
                                 {"triangles", p.triangles}, {"has_uv", p.hasUv}};
     j["uv"] = {{"area", p.uv.area}, {"degenerate", p.uv.degenerate}, {"mirrored", p.uv.mirrored},
                {"overlapping", p.uv.overlapping}, {"overlapping_mirrored", p.uv.overlappingMirrored},
@@ -166,9 +168,11 @@ Status checkUsage(const Options& o)
         return usageError("lint writes no files but --json FILE; leave out -o");
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
-    for (double limit : {o.limitDegrees, o.limitArea})
-        if (!(limit == -1 || (limit >= 0 && limit <= 180)))
-            return usageError(fmt::format("--limit, --limit-area: expected a number from 0 to 180; found {}", limit));
+    const auto outside = [](double limit, double most) { return !(limit == -1 || (limit >= 0 && limit <= most)); };
+    if (outside(o.limitDegrees, 180))
+        return usageError(fmt::format("--limit: expected degrees from 0 to 180; found {}", o.limitDegrees));
+    if (outside(o.limitArea, 100))
+        return usageError(fmt::format("--limit-area: expected percent from 0 to 100; found {}", o.limitArea));
     if (o.strict && o.limitDegrees < 0 && o.limitArea < 0)
         return usageError("--strict: expected --limit DEGREES or --limit-area PERCENT; found neither");
     return Done{};
