@@ -152,7 +152,8 @@ bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std:
     sum = glm::vec3(0);
     for (const std::uint32_t c : group) {
         const glm::vec3 u(contributions[c]);
-        inOneHalf &= (glm::dot(firstU, u) > 0) & (glm::dot(firstV, projected(t.alongV[c / 3], n)) > 0);
+        inOneHalf &= glm::dot(firstU, u) > 0;
+        inOneHalf &= glm::dot(firstV, projected(t.alongV[c / 3], n)) > 0;
         sum += u;
     }
     return inOneHalf;

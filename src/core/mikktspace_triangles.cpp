@@ -30,7 +30,8 @@ inline glm::vec3 select(bool condition, glm::vec3 v)
 // dP/du and dP/dv up to length, and whether uv keep the orientation. c0, c1, c2: uv of the corners.
 inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::vec2 c0, glm::vec2 c1, glm::vec2 c2)
 {
-    const bool degenerate = equal(p0, p1) | equal(p0, p2) | equal(p1, p2);
+    const bool equal01 = equal(p0, p1), equal02 = equal(p0, p2), equal12 = equal(p1, p2);
+    const bool degenerate = equal01 | equal02 | equal12;
     const glm::vec3 d1 = p1 - p0, d2 = p2 - p0;
     const glm::vec2 e1 = c1 - c0, e2 = c2 - c0;
     const float area = e1.x * e2.y - e1.y * e2.x, size = std::abs(area);
