@@ -12,6 +12,7 @@
 #include "painter.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "spread_report.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
@@ -31,13 +32,6 @@ struct Options {
     std::filesystem::path verify;
     std::string device = "auto";
 };
-
-std::string triple(const Spread& s) { return fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum); }
-
-nlohmann::ordered_json json(const Spread& s)
-{
-    return {{"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
-}
 
 bool needsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
 
@@ -78,13 +72,13 @@ void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t
     const double texels = double(r.image.pixelCount());
     say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surface{}; read with {} as it is, off by {} degrees", job.name, r.image.width,
                               r.image.height, 100 * double(r.covered) / texels, job.uses.size(), job.uses.size() == 1 ? "" : "s", o.to,
-                              triple(r.unconverted)));
+                              toText(r.unconverted)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
                                   r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
-                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", triple(r.disagreement)) : ""));
+                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
     say(o.common, fmt::format("  converted and rounded to {} bits{} off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
-                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", triple(r.error), r.padded, after, before));
+                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", toText(r.error), r.padded, after, before));
     if (r.belowHorizon > 0)
         say(o.common, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
 }
@@ -94,8 +88,8 @@ nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size
     return {{"image", job.image}, {"name", job.name}, {"surfaces", job.uses.size()}, {"size", {r.image.width, r.image.height}},
             {"bits", r.image.type == PixelType::unorm16 ? 16 : 8}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
             {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
-            {"disagreement_degrees", json(r.disagreement)}, {"moved_degrees", json(r.moved)},
-            {"degrees_unconverted", json(r.unconverted)}, {"degrees_after_rounding", json(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
+            {"disagreement_degrees", toJson(r.disagreement)}, {"moved_degrees", toJson(r.moved)},
+            {"degrees_unconverted", toJson(r.unconverted)}, {"degrees_after_rounding", toJson(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
             {"bytes_before", before}, {"bytes_after", after}};
 }
 

@@ -7,6 +7,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
 #include "parse.hpp"
+#include "spread_report.hpp"
 
 namespace cotan::app {
 
@@ -21,16 +22,6 @@ struct Options {
     double limitArea = -1;
     std::string frame = "cotangent";
 };
-
-std::string triple(const Spread& s)
-{
-    return fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum);
-}
-
-nlohmann::ordered_json json(const Spread& s)
-{
-    return {{"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
-}
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
@@ -56,15 +47,15 @@ void sayPrimitive(const Options& o, const LintReport& report, std::size_t index)
                        percent(p.uv.degenerate), percent(p.uv.mirrored), percent(p.uv.overlapping),
                        percent(p.uv.overlappingMirrored), kStretched, percent(p.uv.stretched), kSheared,
                        percent(p.uv.sheared)));
-    say(c, fmt::format("  stretch {}, shear {} degrees", triple(p.uv.stretch), triple(p.uv.shear)));
+    say(c, fmt::format("  stretch {}, shear {} degrees", toText(p.uv.stretch), toText(p.uv.shear)));
     say(c, fmt::format("  steps at {} interior edges, texel tilted {:.0f} degrees: cotangent {}, orthonormal {}", p.steps.edges,
-                       kTestTilt, triple(p.steps.cotangent), triple(p.steps.orthonormal)));
+                       kTestTilt, toText(p.steps.cotangent), toText(p.steps.orthonormal)));
     if (p.stored.present)
         say(c, fmt::format("  stored tangents: w against the uv on {}, turned over {:.0f} degrees on {} of the area; "
                            "{} degrees from dP/du",
-                           percent(p.stored.reversedW), kTurned, percent(p.stored.turned), triple(p.stored.angle)));
+                           percent(p.stored.reversedW), kTurned, percent(p.stored.turned), toText(p.stored.angle)));
     for (const Reading& r : p.readings)
-        say(c, fmt::format("  made for MikkTSpace, read with {}: {}", r.name, triple(r.error)));
+        say(c, fmt::format("  made for MikkTSpace, read with {}: {}", r.name, toText(r.error)));
     say(c, fmt::format("  rounding at distance {:.3g}: {:.2g} degrees; half a degree at {:.2g}", report.distance, p.precision,
                        p.closest));
 }
@@ -92,15 +83,15 @@ nlohmann::ordered_json describe(const PrimitiveLint& p)
                                 {"triangles", p.triangles}, {"has_uv", p.hasUv}};
     j["uv"] = {{"area", p.uv.area}, {"degenerate", p.uv.degenerate}, {"mirrored", p.uv.mirrored},
                {"overlapping", p.uv.overlapping}, {"overlapping_mirrored", p.uv.overlappingMirrored},
-               {"stretched", p.uv.stretched}, {"sheared", p.uv.sheared}, {"stretch", json(p.uv.stretch)},
-               {"shear_degrees", json(p.uv.shear)}, {"gradient", p.uv.gradient}, {"largest_uv", p.uv.largestUv}};
-    j["edge_steps"] = {{"edges", p.steps.edges}, {"cotangent", json(p.steps.cotangent)},
-                       {"orthonormal", json(p.steps.orthonormal)}};
+               {"stretched", p.uv.stretched}, {"sheared", p.uv.sheared}, {"stretch", toJson(p.uv.stretch)},
+               {"shear_degrees", toJson(p.uv.shear)}, {"gradient", p.uv.gradient}, {"largest_uv", p.uv.largestUv}};
+    j["edge_steps"] = {{"edges", p.steps.edges}, {"cotangent", toJson(p.steps.cotangent)},
+                       {"orthonormal", toJson(p.steps.orthonormal)}};
     if (p.stored.present)
         j["stored_tangents"] = {{"reversed_w", p.stored.reversedW}, {"turned", p.stored.turned},
-                                {"degrees_from_dpdu", json(p.stored.angle)}};
+                                {"degrees_from_dpdu", toJson(p.stored.angle)}};
     for (const Reading& r : p.readings)
-        j["read_with"][r.name] = json(r.error);
+        j["read_with"][r.name] = toJson(r.error);
     j["rounding_degrees"] = p.precision;
     j["half_a_degree_at"] = p.closest;
     return j;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
@@ -33,8 +34,7 @@ std::vector<glm::vec2> uvOfMap(const Mesh& mesh, const Texture& map)
     if (uv.size() != mesh.vertexCount())
         return {};
     for (glm::vec2& c : uv) {
-        if (map.present())
-            c = {map.uRow.x * c.x + map.uRow.y * c.y + map.uRow.z, map.vRow.x * c.x + map.vRow.y * c.y + map.vRow.z};
+        c = textureUv(map, c);
         c = {float(finiteOrZero(c.x)), float(finiteOrZero(c.y))};
     }
     return uv;
