@@ -193,6 +193,21 @@ TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
     EXPECT_TRUE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
 }
 
+// Square uv: the new map would be the old one but for rounding.
+TEST(ConvertCommand, aMapThatFitsAsItIsStaysToTheByte)
+{
+    TemporaryFolder folder;
+    write(quad(1), folder.path());
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_TRUE(r["maps"][0]["kept"].get<bool>());
+    EXPECT_EQ(r["notes"].dump().find("show them wrongly"), std::string::npos) << r["notes"];
+    const auto before = openGltfDocument(folder / "quad.gltf"), after = openGltfDocument(folder / "out.glb");
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(*gltfImageBytes(*before, 0), *gltfImageBytes(*after, 0));
+    EXPECT_FALSE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+    EXPECT_FALSE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "16.glb"})["maps"][0]["kept"].get<bool>());
+}
+
 TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
 {
     TemporaryFolder folder;

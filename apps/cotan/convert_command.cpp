@@ -20,6 +20,7 @@ namespace cotan::app {
 namespace {
 
 constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
+constexpr double kAsRounding = 0.3; // degrees, 95 %: what writing a map anew in 8 bits costs by itself
 constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
 struct Options {
@@ -67,11 +68,19 @@ Result<FramePair> checkUsage(const Options& o)
                      TangentOrigin::generated};
 }
 
+void sayKept(const Options& o, const MapJob& job, const Reencoded& r)
+{
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; stays as it is: read with {} it is off by {} degrees, no more than "
+                              "rounding a new one costs", job.name, r.image.width, r.image.height,
+                              100 * double(r.covered) / double(r.image.pixelCount()), counted(job.uses.size(), "surface"), o.to,
+                              toText(r.unconverted)));
+}
+
 void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
 {
     const double texels = double(r.image.pixelCount());
-    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surface{}; read with {} as it is, off by {} degrees", job.name, r.image.width,
-                              r.image.height, 100 * double(r.covered) / texels, job.uses.size(), job.uses.size() == 1 ? "" : "s", o.to,
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", job.name, r.image.width,
+                              r.image.height, 100 * double(r.covered) / texels, counted(job.uses.size(), "surface"), o.to,
                               toText(r.unconverted)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
@@ -109,13 +118,23 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
     const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
     Progress progress(o.common, std::size_t(map->height), "rows of " + job.name);
     const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
+    const std::size_t before = bytes->size();
+    // Where the old map serves as well as a rounded new one, it stays, byte for byte.
+    const bool kept = o.bits == 0 && r.unconverted.percentile95 <= kAsRounding;
+    if (kept) {
+        sayKept(o, job, r);
+        report["maps"].push_back(describe(job, r, before, before));
+        report["maps"].back()["kept"] = true;
+        return Done{};
+    }
     auto png = encodePng(r.image);
     if (!png)
         return png.error();
-    const std::size_t before = bytes->size(), after = png->size();
+    const std::size_t after = png->size();
     replaceMap(document, job, std::move(*png), notes);
     sayMap(o, job, r, before, after);
     report["maps"].push_back(describe(job, r, before, after));
+    report["maps"].back()["kept"] = false;
     const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
     if (share * r.disagreement.mean > kSeen)
         notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
@@ -203,7 +222,9 @@ Status run(const Options& o)
             return converted;
     if (Status handled = handleTangents(o, *frames, document, notes, report); !handled)
         return handled;
-    if (!jobs->empty() && frames->to != Frame::mikktspace)
+    const auto& maps = report["maps"];
+    const bool changed = std::any_of(maps.begin(), maps.end(), [](const auto& m) { return !m["kept"].template get<bool>(); });
+    if (changed && frames->to != Frame::mikktspace)
         notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
                                     "glTF asks, will show them wrongly", o.to));
     if (Status written = writeModel(o, document, report); !written)
@@ -236,7 +257,7 @@ Command addConvertCommand(CLI::App& app)
     command->add_option("--tangents", options->tangents, "for --from mikktspace or vertex: stored (as in the file, generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
     command->add_flag("--keep-tangents", options->keepTangents, "leave TANGENT where it is");
-    command->add_option("--bits", options->bits, "of the new maps: 8 or 16 (default: as the old ones)")
+    command->add_option("--bits", options->bits, "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)")
         ->check(CLI::IsMember({8, 16}))->type_name("N");
     command->add_option("--verify", options->verify, "folder: draw both models from five sides, compare normals, write the pictures")
         ->type_name("FOLDER");

@@ -227,8 +227,8 @@ Command addTangentsCommand(CLI::App& app)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "tangents", "write tangents into a glTF model, or compare those in it; without -o nothing "
-                    "is written");
+        "tangents", "write tangents into a glTF model; without -o say of those in it whether they equal "
+                    "MikkTSpace, w is inverted, half of them are turned, or how far off they are");
     addCommonOptions(*command, options->common, "the model with tangents, .glb or .gltf");
     command->add_option("MODEL", options->model, "glTF or GLB file")->required();
     command->add_option("--frame", options->frame,

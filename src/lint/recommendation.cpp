@@ -147,7 +147,7 @@ void recommend(LintReport& report)
         report.advice = Advice::readOrthonormal;
         report.recommendation = notes
             + fmt::format("If the maps were made for MikkTSpace, they can be read without tangents with the frame orthonormal, "
-                          "{:.2f} degrees off on average{}. The command drops the tangents and makes the maps fit that frame.",
+                          "{:.2f} degrees off on average{}. The command drops the tangents and fits those maps to that frame that gain by it.",
                           orthonormal.mean, worstReading(report, "orthonormal"))
             + otherReaders(report);
         return;
