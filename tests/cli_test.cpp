@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "cotan/asset/image_file.hpp"
 #include "run_tool.hpp"
@@ -62,6 +63,24 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
         EXPECT_EQ(lines(run.err), 1) << all << run.err;
         EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << all;
     }
+}
+
+// As /dev/null would be: a file that took its place would be a surprise to everybody else.
+TEST(CommandLine, aReportGoesIntoAPipeAndDoesNotReplaceIt)
+{
+    TemporaryFolder folder;
+    const std::filesystem::path pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = ::open(pipe.c_str(), O_RDWR); // writers wait for nobody
+    ASSERT_GE(reader, 0);
+    const ToolRun run = runTool(with({"render", "-o", "a.png", "--json", "pipe", "--quiet"}, kSmall), folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    char first = 0;
+    EXPECT_EQ(::fcntl(reader, F_SETFL, O_NONBLOCK), 0);
+    EXPECT_EQ(::read(reader, &first, 1), 1);
+    EXPECT_EQ(first, '{');
+    ::close(reader);
 }
 
 TEST(CommandLine, missingModelExitsTwoAndNamesIt)

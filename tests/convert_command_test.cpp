@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cotan/asset/gltf_edit.hpp"
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/load.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "quad_model.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {
@@ -19,54 +20,6 @@ using namespace test;
 using nlohmann::json;
 
 std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
-
-// A grid of a unit square in xy, written with TANGENT and a map of waves beside it.
-struct Made {
-    json root;
-    std::string bytes;
-    int add(const std::vector<float>& values, const char* type, int width)
-    {
-        const std::size_t offset = bytes.size();
-        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(float)}});
-        root["accessors"].push_back({{"bufferView", int(root["bufferViews"].size()) - 1}, {"componentType", 5126}, {"type", type},
-                                     {"count", values.size() / std::size_t(width)}});
-        return int(root["accessors"].size()) - 1;
-    }
-};
-
-// stretch: how much wider than high what the unit square of uv covers. uvScale: in the vertices.
-Made quad(float stretch, float uvScale = 1)
-{
-    Made m;
-    m.root = {{"asset", {{"version", "2.0"}, {"extras", {{"keep", "me"}}}}}, {"scene", 0}};
-    const std::vector<float> positions = {0, 0, 0, stretch, 0, 0, stretch, 1, 0, 0, 0, 0, stretch, 1, 0, 0, 1, 0};
-    std::vector<float> normals, tangents;
-    const float u = uvScale;
-    const std::vector<float> uv = {0, u, u, u, u, 0, 0, u, u, 0, 0, 0};
-    for (int i = 0; i < 6; ++i) {
-        normals.insert(normals.end(), {0, 0, 1});
-        tangents.insert(tangents.end(), {1, 0, 0, 1});
-    }
-    const int p = m.add(positions, "VEC3", 3), n = m.add(normals, "VEC3", 3), t = m.add(tangents, "VEC4", 4), c = m.add(uv, "VEC2", 2);
-    m.root["accessors"][std::size_t(p)]["min"] = {0, 0, 0};
-    m.root["accessors"][std::size_t(p)]["max"] = {stretch, 1, 0};
-    m.root["meshes"] = json::array({{{"name", "quad"}, {"primitives", json::array({{{"attributes", {{"POSITION", p}, {"NORMAL", n}, {"TANGENT", t}, {"TEXCOORD_0", c}}}, {"material", 0}}})}}});
-    m.root["nodes"] = json::array({{{"mesh", 0}}});
-    m.root["scenes"] = json::array({{{"nodes", {0}}}});
-    m.root["materials"] = json::array({{{"name", "relief"}, {"normalTexture", {{"index", 0}}}, {"extras", {{"mine", 7}}}}});
-    m.root["textures"] = json::array({{{"source", 0}}});
-    m.root["images"] = json::array({{{"uri", "waves.png"}}});
-    return m;
-}
-
-void write(Made m, const std::filesystem::path& folder)
-{
-    std::ofstream(folder / "quad.bin", std::ios::binary) << m.bytes;
-    m.root["buffers"] = json::array({{{"byteLength", m.bytes.size()}, {"uri", "quad.bin"}}});
-    std::ofstream(folder / "quad.gltf") << m.root.dump();
-    ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, 128)));
-}
 
 json jsonOfGlb(const std::filesystem::path& file)
 {
@@ -178,6 +131,97 @@ TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
     EXPECT_NE(scene->images[std::size_t(material.normalMap.image)].data, makeReliefMap(Relief::waves, 128).data);
 }
 
+// A second material with a map of its own, which KHR_materials_variants may put in the first one's place.
+void addVariant(Made& m)
+{
+    m.root["extensionsUsed"] = {"KHR_materials_variants"};
+    m.root["extensions"]["KHR_materials_variants"]["variants"] = json::array({{{"name", "other"}}});
+    m.root["materials"].push_back({{"name", "variant"}, {"normalTexture", {{"index", 1}}}});
+    m.root["textures"].push_back({{"source", 1}});
+    m.root["images"].push_back({{"uri", "variant.png"}});
+    m.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] =
+        json::array({{{"material", 1}, {"variants", {0}}}});
+}
+
+TEST(ConvertCommand, theMapsOfVariantsAreConvertedToo)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    addVariant(m);
+    write(m, folder.path());
+    std::filesystem::copy_file(folder / "waves.png", folder / "variant.png");
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    ASSERT_EQ(r["maps"].size(), 2u);
+    const auto before = openGltfDocument(folder / "quad.gltf"), after = openGltfDocument(folder / "out.glb");
+    ASSERT_TRUE(before && after);
+    const auto old = gltfImageBytes(*before, 1), own = gltfImageBytes(*after, 0), variant = gltfImageBytes(*after, 1);
+    ASSERT_TRUE(old && own && variant);
+    EXPECT_EQ(*own, *variant); // the same map on the same triangles
+    EXPECT_NE(*variant, *old);
+}
+
+// Readers that know the extension would take its image, which is for the old frame.
+TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["extensionsUsed"] = {"EXT_texture_webp"};
+    m.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    m.root["textures"][0]["extensions"]["VENDOR_other"]["keep"] = 1;
+    m.root["images"].push_back({{"uri", "waves.webp"}});
+    write(m, folder.path());
+    std::ofstream(folder / "waves.webp") << "RIFF\x10\x01\x01\x01WEBPVP8 ";
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_NE(r["notes"].dump().find("EXT_texture_webp taken out"), std::string::npos) << r["notes"];
+    const json extensions = jsonOfGlb(folder / "out.glb")["textures"][0]["extensions"];
+    EXPECT_FALSE(extensions.contains("EXT_texture_webp"));
+    EXPECT_EQ(extensions["VENDOR_other"]["keep"], 1);
+}
+
+TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["extensionsUsed"] = {"KHR_texture_basisu"};
+    m.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    m.root["images"][0] = {{"uri", "waves.ktx2"}};
+    write(m, folder.path());
+    std::ofstream(folder / "waves.ktx2") << "\xabKTX 20\xbb and more";
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_TRUE(r["maps"].empty());
+    EXPECT_NE(r["notes"].dump().find("TANGENT stays"), std::string::npos) << r["notes"];
+    EXPECT_TRUE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+}
+
+// Square uv: the new map would be the old one but for rounding.
+TEST(ConvertCommand, aMapThatFitsAsItIsStaysToTheByte)
+{
+    TemporaryFolder folder;
+    write(quad(1), folder.path());
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_TRUE(r["maps"][0]["kept"].get<bool>());
+    EXPECT_EQ(r["notes"].dump().find("show them wrongly"), std::string::npos) << r["notes"];
+    const auto before = openGltfDocument(folder / "quad.gltf"), after = openGltfDocument(folder / "out.glb");
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(*gltfImageBytes(*before, 0), *gltfImageBytes(*after, 0));
+    EXPECT_FALSE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
+    EXPECT_FALSE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "16.glb"})["maps"][0]["kept"].get<bool>());
+}
+
+TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
+{
+    TemporaryFolder folder;
+    Made m = quad(1);
+    write(m, folder.path());
+    EXPECT_EQ(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "one.glb"})["notes"].dump().find("no one map"),
+              std::string::npos);
+    m.root["nodes"].push_back({{"mesh", 0}, {"scale", {4, 1, 1}}}); // the same texels, stretched here
+    m.root["scenes"][0]["nodes"] = {0, 1};
+    write(m, folder.path());
+    EXPECT_NE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "two.glb"})["notes"].dump().find("no one map"),
+              std::string::npos);
+}
+
 TEST(ConvertCommand, reversedTangentsAreFollowedOrLeftAsideAsAsked)
 {
     TemporaryFolder folder;
@@ -245,6 +289,7 @@ TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
         {{"broken/quad.gltf", "--to", "cotangent", "-o", "out.glb"}, 2},
         {{"quad.gltf", "--to", "cotangent", "-o", "no/such/folder/out.glb"}, 4},
         {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "waves.png"}, 4},
+        {{"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "no such device"}, 3},
     };
     for (const auto& c : cases) {
         std::vector<std::string> words = c.words;

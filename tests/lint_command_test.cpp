@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "quad_model.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {
@@ -95,6 +96,23 @@ TEST(LintCommand, flightHelmetAndBoomBoxCanBeReadAsTheyAre)
     }
 }
 
+TEST(LintCommand, anExtensionThatReadsTangentsKeepsThem)
+{
+    const char* const cases[][2] = {{"KHR_materials_anisotropy", R"({"anisotropyStrength":1})"},
+                                    {"KHR_materials_clearcoat", R"({"clearcoatNormalTexture":{"index":0}})"}};
+    for (const auto& [name, content] : cases) {
+        TemporaryFolder folder;
+        Made m = quad(1);
+        m.root["extensionsUsed"] = {name};
+        m.root["materials"][0].erase("normalTexture");
+        m.root["materials"][0]["extensions"][name] = json::parse(content);
+        write(m, folder.path());
+        const std::string text = json::parse(runTool({"lint", "quad.gltf", "--json", "-"}, folder.path()).out)["recommendation"];
+        EXPECT_NE(text.find(name), std::string::npos) << text;
+        EXPECT_EQ(text.find("can be dropped"), std::string::npos) << text;
+    }
+}
+
 TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
 {
     COTAN_NEEDS("synthetic/uv_cases.gltf");
@@ -111,6 +129,57 @@ TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
     EXPECT_EQ(runTool({"lint", model, "--strict", "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
 }
 
+// The mean over the pixels of one view, in degrees, between MikkTSpace and another frame; nearest texels, since
+// lint looks at the map itself.
+double measured(const std::string& model, const std::string& frame, const std::filesystem::path& folder)
+{
+    const ToolRun run = runTool({"compare", model, "--frames", "mikktspace," + frame, "--tangents", "generated", "--point-sampled",
+                                 "--samples", "1", "--no-shadows", "--size", "160x160", "--device", "reference", "-o", "seen", "--json", "-",
+                                 "--quiet"},
+                                folder, 120);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out)["normals"]["mean_degrees"].get<double>();
+}
+
+TEST(LintCommand, whatItPredictsForAFlatPatchIsWhatCompareMeasures)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const ToolRun run = runTool({"lint", "quad.gltf", "--json", "-", "--quiet"}, folder.path());
+    const double predicted = json::parse(run.out)["primitives"][0]["read_with"]["cotangent"]["mean"].get<double>();
+    // All of it is seen at one distance: the same mean, from 4096 points and from some 10^4 pixels.
+    EXPECT_NEAR(measured("quad.gltf", "cotangent", folder.path()) / predicted, 1, 0.03);
+}
+
+// One view sees a part of a model, and what it sees foreshortened: a factor of two either way, three where half
+// of the model is seen from behind only. The error itself ranges over a factor of 80 between these.
+TEST(LintCommand, whatItPredictsForModelsIsWhatCompareMeasures)
+{
+    const struct {
+        const char *file, *frame;
+        double factor;
+    } cases[] = {{"models/FlightHelmet/FlightHelmet.gltf", "orthonormal", 2},
+                 {"models/BoomBox/BoomBox.gltf", "cotangent", 2},
+                 {"models/SketchfabCat/scene.gltf", "cotangent", 2},
+                 {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "cotangent", 3}};
+    for (const auto& [file, frame, factor] : cases) {
+        if (!std::filesystem::exists(shared(file)))
+            GTEST_SKIP() << file << " is missing";
+        double area = 0, sum = 0;
+        const json report = lintJson(file);
+        for (const json& p : report["primitives"])
+            if (p.contains("read_with")) {
+                area += p["uv"]["area"].get<double>();
+                sum += p["uv"]["area"].get<double>() * p["read_with"][frame]["mean"].get<double>();
+            }
+        TemporaryFolder folder;
+        const double ratio = measured(shared(file), frame, folder.path()) / (sum / area);
+        EXPECT_GT(ratio, 1 / factor) << file;
+        EXPECT_LT(ratio, factor) << file;
+        RecordProperty(file, fmt::format("{:.3f}", ratio));
+    }
+}
+
 TEST(LintCommand, badInputGetsOneClearLine)
 {
     TemporaryFolder folder;
@@ -125,6 +194,7 @@ TEST(LintCommand, badInputGetsOneClearLine)
         {{"lint", model, "--distance", "-1"}, 1},
         {{"lint", model, "--distance", "nan"}, 1},
         {{"lint", model, "--limit", "inf"}, 1},
+        {{"lint", model, "--limit-area", "101"}, 1},
         {{"lint", model, "-o", "out"}, 1},
         {{"lint", model, "--quiet", "--json", "no/such/folder/r.json"}, 4},
     };

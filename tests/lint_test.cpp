@@ -268,6 +268,54 @@ TEST(Lint, theAdviceFollowsTheNumbers)
     EXPECT_EQ(lintScene(Scene{}).advice, Advice::nothing);
 }
 
+TEST(Lint, instancesThatStretchAMeshDifferentlyAreReportedApartAndOthersAreNot)
+{
+    Scene scene = sceneOf({makePatch(1, 0, false, 4)});
+    glm::mat4 larger(3), turned(1), wide(1);
+    larger[3][3] = 1;
+    turned[0] = {0, 1, 0, 0};
+    turned[1] = {1, 0, 0, 0}; // mirrors as well
+    wide[0][0] = 2;
+    for (const glm::mat4& m : {larger, turned, wide, wide})
+        scene.instances.push_back({"", 0, m});
+    const LintReport r = lintScene(scene);
+    ASSERT_EQ(r.primitives.size(), 2u);
+    EXPECT_NEAR(r.primitives[0].uv.stretch.mean, 1, kFloat);
+    EXPECT_NEAR(r.primitives[1].uv.stretch.mean, 2, kFloat);
+    EXPECT_EQ(r.primitives[1].placing, 1u);
+    EXPECT_EQ(r.primitives[1].placings, 2u);
+    EXPECT_EQ(r.primitives[1].uv.overlapping, 0); // of itself elsewhere: not what overlapping uv are
+    for (int k = 0; k < 20; ++k) {
+        wide[0][0] = 3 + float(k);
+        scene.instances.push_back({"", 0, wide});
+    }
+    EXPECT_EQ(lintScene(scene).primitives.size(), kMostPlacings);
+    EXPECT_EQ(lintScene(scene).primitives[0].placings, 22u);
+}
+
+TEST(Lint, tangentsThatAnExtensionReadsAreNotCalledUnused)
+{
+    Scene scene = sceneOf({makePatch(1, 0, false, 4)});
+    scene.materials[0].name = "hair";
+    scene.materials[0].tangentsFor = "KHR_materials_anisotropy";
+    EXPECT_NE(lintScene(scene).recommendation.find("hair (KHR_materials_anisotropy)"), std::string::npos);
+    scene.materials[0].normalMap.image = -1;
+    const std::string text = lintScene(scene).recommendation;
+    EXPECT_NE(text.find("hair (KHR_materials_anisotropy)"), std::string::npos) << text;
+    EXPECT_EQ(text.find("can be dropped"), std::string::npos) << text;
+}
+
+TEST(Lint, aPrimitiveThatIsFarOffIsNamedEvenWhereTheWholeModelIsNot)
+{
+    Mesh sphere = makeSphere(1, 16), plane = makePatch(1, 0, false, 4);
+    sphere.name = "coarse";
+    for (glm::vec3& p : plane.positions)
+        p *= 100.0f; // outweighs the sphere
+    const LintReport r = lintScene(sceneOf({plane, sphere}, makeReliefMap(Relief::domes, 128)));
+    EXPECT_EQ(r.advice, Advice::readOrthonormal);
+    EXPECT_NE(r.recommendation.find("most in coarse"), std::string::npos) << r.recommendation;
+}
+
 TEST(Lint, hostileNumbersGiveNoNaN)
 {
     Mesh mesh = makePatch(1, 0, false, 4);

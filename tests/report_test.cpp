@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cotan/report/angles.hpp"
+#include "cotan/report/tangent_difference.hpp"
 
 namespace cotan {
 namespace {
@@ -36,6 +37,26 @@ TEST(Statistics, ofNothingAreZero)
 {
     EXPECT_EQ(statisticsOf({}).count, 0u);
     EXPECT_EQ(statisticsOf({}).maximum, 0);
+}
+
+TangentDifference difference(std::vector<float> degrees, std::size_t handedness)
+{
+    TangentDifference d;
+    d.corners = degrees.size();
+    d.degrees = std::move(degrees);
+    d.handedness = handedness;
+    return d;
+}
+
+TEST(TangentDifferenceText, saysInWordsWhatIsWrongAndPrintsNoRounding)
+{
+    const auto text = [](const TangentDifference& d) { return toText(d, "MikkTSpace"); };
+    EXPECT_EQ(text(difference({0, 1e-6f}, 0)), "equal to MikkTSpace (max under 0.001 degrees)");
+    EXPECT_EQ(text(difference({0, 1e-13f, 0, 0}, 1)), "directions equal to MikkTSpace; w different on 1 of 4 corners");
+    EXPECT_NE(text(difference({0, 0, 0}, 3)).find("w inverted against MikkTSpace on 100.0 %"), std::string::npos);
+    EXPECT_NE(text(difference({0, 180, 0, 180}, 0)).find("half of them turned against MikkTSpace"), std::string::npos);
+    EXPECT_NE(text(difference({0, 7, 8, 9}, 0)).find("off MikkTSpace by mean 6"), std::string::npos);
+    EXPECT_EQ(text(difference({}, 0)), "nothing to compare");
 }
 
 TEST(Angles, areMeasuredWhereBothPicturesHaveADirection)

@@ -99,12 +99,15 @@ TEST(TangentsCommand, refusesWithOneLine)
 {
     TemporaryFolder folder;
     const std::string model = writeTriangle(folder);
+    std::ofstream(folder / "model.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::vector<std::pair<std::vector<std::string>, int>> cases = {
         {{model, "--frame", "smooth", "-o", "out.glb"}, 1},
         {{model, "--frame", "gradient"}, 1},
         {{model, "--replace"}, 1},
         {{model, "-o", "out.obj"}, 1},
         {{"missing.gltf"}, 2},
+        {{"model.obj"}, 1}, // its content is not taken for JSON
+        {{model, "-o", "out.GLB"}, 1},
         {{model, "-o", "no-such-folder/out.glb"}, 4},
     };
     for (auto [words, code] : cases) {
@@ -113,7 +116,16 @@ TEST(TangentsCommand, refusesWithOneLine)
         EXPECT_EQ(run.code, code) << run.err;
         EXPECT_EQ(lines(run.err), 1) << run.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+        EXPECT_EQ(run.err.find("json.exception"), std::string::npos) << run.err;
     }
+}
+
+TEST(TangentsCommand, takesAModelWhoseNameIsInCapitals)
+{
+    TemporaryFolder folder;
+    std::filesystem::rename(writeTriangle(folder), folder / "MODEL.GLTF");
+    const ToolRun run = runTool({"tangents", "MODEL.GLTF"}, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
 }
 
 TEST(TangentsCommand, bytesDoNotDependOnTheNumberOfThreads)

@@ -47,6 +47,11 @@ void warn(const CommonOptions& options, const std::string& line)
         fmt::print(stderr, "cotan: warning: {}\n", line);
 }
 
+std::string counted(std::size_t number, const std::string& noun)
+{
+    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 Status makeFolder(const std::filesystem::path& folder)
 {
     std::error_code error;

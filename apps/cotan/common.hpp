@@ -54,6 +54,9 @@ void say(const CommonOptions& options, const std::string& line);
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);
 
+// "1 primitive", "2 primitives".
+std::string counted(std::size_t number, const std::string& noun);
+
 // Makes a folder and those above it. Errors: ErrorKind::output.
 Status makeFolder(const std::filesystem::path& folder);
 

@@ -26,10 +26,9 @@ Result<std::array<Frame, 2>> parsePair(const std::string& text)
         return usageError(fmt::format("--frames: expected two names A,B; found '{}'", text));
     const auto a = parseFrame(text.substr(0, comma));
     const auto b = parseFrame(text.substr(comma + 1));
-    if (!a)
-        return a.error();
-    if (!b)
-        return b.error();
+    for (const auto* frame : {&a, &b})
+        if (!*frame)
+            return usageError("--frames: " + frame->error().message);
     return std::array{*a, *b};
 }
 

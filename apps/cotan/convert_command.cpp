@@ -1,19 +1,26 @@
 #include "commands.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "convert_gltf.hpp"
 #include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
 #include "cotan/lint/texel.hpp"
+#include "gltf_open.hpp"
+#include "painter.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "spread_report.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
 
 namespace {
 
+constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
+constexpr double kAsRounding = 0.3; // degrees, 95 %: what writing a map anew in 8 bits costs by itself
 constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
 struct Options {
@@ -26,13 +33,6 @@ struct Options {
     std::filesystem::path verify;
     std::string device = "auto";
 };
-
-std::string triple(const Spread& s) { return fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum); }
-
-nlohmann::ordered_json json(const Spread& s)
-{
-    return {{"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
-}
 
 bool needsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
 
@@ -57,12 +57,10 @@ Result<FramePair> checkUsage(const Options& o)
     const auto to = frameFor("--to", o.to);
     if (!to)
         return to.error();
-    const auto extension = o.common.output.extension();
-    if (extension != ".glb" && extension != ".gltf")
-        return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", o.common.output.string()));
-    const std::string input = std::filesystem::path(o.model).extension().string();
-    if (input != ".glb" && input != ".gltf")
-        return usageError(fmt::format("{}: expected a .gltf or .glb model", o.model));
+    if (o.common.output.empty())
+        return usageError("convert: expected -o FILE; found none");
+    if (Status names = checkGltfNames(o.model, o.common.output); !names)
+        return names.error();
     std::error_code ignored;
     if (std::filesystem::equivalent(o.model, o.common.output, ignored))
         return usageError(fmt::format("-o: {} is the model itself; expected another file", o.common.output.string()));
@@ -70,18 +68,26 @@ Result<FramePair> checkUsage(const Options& o)
                      TangentOrigin::generated};
 }
 
+void sayKept(const Options& o, const MapJob& job, const Reencoded& r)
+{
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; stays as it is: read with {} it is off by {} degrees, no more than "
+                              "rounding a new one costs", job.name, r.image.width, r.image.height,
+                              100 * double(r.covered) / double(r.image.pixelCount()), counted(job.uses.size(), "surface"), o.to,
+                              toText(r.unconverted)));
+}
+
 void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
 {
     const double texels = double(r.image.pixelCount());
-    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {} surface{}; read with {} as it is, off by {} degrees", job.name, r.image.width,
-                              r.image.height, 100 * double(r.covered) / texels, job.uses.size(), job.uses.size() == 1 ? "" : "s", o.to,
-                              triple(r.unconverted)));
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", job.name, r.image.width,
+                              r.image.height, 100 * double(r.covered) / texels, counted(job.uses.size(), "surface"), o.to,
+                              toText(r.unconverted)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
                                   r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
-                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", triple(r.disagreement)) : ""));
+                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
     say(o.common, fmt::format("  converted and rounded to {} bits{} off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
-                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", triple(r.error), r.padded, after, before));
+                              r.image.type == PixelType::unorm16 ? 16 : 8, r.disagreeing > 0 ? ", elsewhere" : "", toText(r.error), r.padded, after, before));
     if (r.belowHorizon > 0)
         say(o.common, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
 }
@@ -91,14 +97,14 @@ nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size
     return {{"image", job.image}, {"name", job.name}, {"surfaces", job.uses.size()}, {"size", {r.image.width, r.image.height}},
             {"bits", r.image.type == PixelType::unorm16 ? 16 : 8}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
             {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
-            {"disagreement_degrees", json(r.disagreement)}, {"moved_degrees", json(r.moved)},
-            {"degrees_unconverted", json(r.unconverted)}, {"degrees_after_rounding", json(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
+            {"disagreement_degrees", toJson(r.disagreement)}, {"moved_degrees", toJson(r.moved)},
+            {"degrees_unconverted", toJson(r.unconverted)}, {"degrees_after_rounding", toJson(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
             {"bytes_before", before}, {"bytes_after", after}};
 }
 
 // Converts one image and puts it back.
 Status convertMap(const Options& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
-                  nlohmann::ordered_json& report)
+                  std::vector<std::string>& notes, nlohmann::ordered_json& report)
 {
     const auto bytes = gltfImageBytes(document, job.image);
     if (!bytes)
@@ -112,13 +118,28 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
     const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
     Progress progress(o.common, std::size_t(map->height), "rows of " + job.name);
     const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
+    const std::size_t before = bytes->size();
+    // Where the old map serves as well as a rounded new one, it stays, byte for byte.
+    const bool kept = o.bits == 0 && r.unconverted.percentile95 <= kAsRounding;
+    if (kept) {
+        sayKept(o, job, r);
+        report["maps"].push_back(describe(job, r, before, before));
+        report["maps"].back()["kept"] = true;
+        return Done{};
+    }
     auto png = encodePng(r.image);
     if (!png)
         return png.error();
-    const std::size_t before = bytes->size(), after = png->size();
-    replaceMap(document, job, std::move(*png));
+    const std::size_t after = png->size();
+    replaceMap(document, job, std::move(*png), notes);
     sayMap(o, job, r, before, after);
     report["maps"].push_back(describe(job, r, before, after));
+    report["maps"].back()["kept"] = false;
+    const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
+    if (share * r.disagreement.mean > kSeen)
+        notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
+                                    "on average at the worst of them: no one map fits; give such parts texels of their own",
+                                    job.name, 100 * share, r.disagreement.mean));
     return Done{};
 }
 
@@ -129,7 +150,7 @@ Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& d
         const auto given = giveTangents(document, frames.to);
         if (!given)
             return given.error();
-        say(o.common, fmt::format("{} primitives got TANGENT for {}", *given, o.to));
+        say(o.common, fmt::format("{} got TANGENT for {}", counted(*given, "primitive"), o.to));
         report["tangents"] = {{"given_primitives", *given}};
         return Done{};
     }
@@ -143,7 +164,7 @@ Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& d
         return dropped.error();
     const double each = dropped->vertices > 0 ? double(dropped->bytes) / double(dropped->vertices) : 0;
     say(o.common, dropped->bytes > 0
-                      ? fmt::format("TANGENT dropped from {} primitives: {:.3g} bytes a vertex, {} vertices, {} bytes", dropped->primitives,
+                      ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes", counted(dropped->primitives, "primitive"),
                                     each, dropped->vertices, dropped->bytes)
                       : "no TANGENT to drop");
     report["tangents"] = {{"dropped_primitives", dropped->primitives}, {"bytes_per_vertex", each},
@@ -160,7 +181,10 @@ Status writeModel(const Options& o, const GltfDocument& document, nlohmann::orde
         warn(o.common, note);
     report["bytes_before"] = written->bytesBefore;
     report["bytes_after"] = written->bytesAfter;
-    say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(), written->bytesAfter, written->bytesBefore));
+    const double before = double(written->bytesBefore), after = double(written->bytesAfter);
+    say(o.common, fmt::format("{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", o.common.output.string(), written->bytesAfter,
+                              written->bytesBefore, std::abs(before - after), 100 * std::abs(before - after) / std::max(before, 1.0),
+                              after > before ? "more" : "less"));
     return Done{};
 }
 
@@ -170,17 +194,17 @@ Status run(const Options& o)
     if (!frames)
         return frames.error();
     Stopwatch watch;
-    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
-    const auto scene = loadGltf(o.model);
-    if (!scene)
-        return scene.error();
-    for (const std::string& line : scene->warnings)
-        warn(o.common, line);
-    auto document = openGltfDocument(o.model);
-    if (!document)
-        return document.error();
+    if (!o.verify.empty()) { // before anything is done
+        std::string note;
+        if (const auto painter = openPainter(o.device, o.common.threads, note); !painter)
+            return painter.error();
+    }
+    auto opened = openGltfToEdit(o.model, o.common);
+    if (!opened)
+        return opened.error();
+    GltfDocument& document = opened->document;
     std::vector<std::string> notes;
-    const auto jobs = mapJobs(*document, notes);
+    const auto jobs = mapJobs(document, notes);
     if (!jobs)
         return jobs.error();
     nlohmann::ordered_json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
@@ -194,14 +218,16 @@ Status run(const Options& o)
     else
         say(o.common, "three figures are: mean / 95 % / maximum, over texels");
     for (const MapJob& job : *jobs)
-        if (Status converted = convertMap(o, *frames, *document, job, report); !converted)
+        if (Status converted = convertMap(o, *frames, document, job, notes, report); !converted)
             return converted;
-    if (Status handled = handleTangents(o, *frames, *document, notes, report); !handled)
+    if (Status handled = handleTangents(o, *frames, document, notes, report); !handled)
         return handled;
-    if (!jobs->empty() && frames->to != Frame::mikktspace)
+    const auto& maps = report["maps"];
+    const bool changed = std::any_of(maps.begin(), maps.end(), [](const auto& m) { return !m["kept"].template get<bool>(); });
+    if (changed && frames->to != Frame::mikktspace)
         notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
                                     "glTF asks, will show them wrongly", o.to));
-    if (Status written = writeModel(o, *document, report); !written)
+    if (Status written = writeModel(o, document, report); !written)
         return written;
     for (const std::string& note : notes)
         warn(o.common, note);
@@ -231,7 +257,7 @@ Command addConvertCommand(CLI::App& app)
     command->add_option("--tangents", options->tangents, "for --from mikktspace or vertex: stored (as in the file, generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
     command->add_flag("--keep-tangents", options->keepTangents, "leave TANGENT where it is");
-    command->add_option("--bits", options->bits, "of the new maps: 8 or 16 (default: as the old ones)")
+    command->add_option("--bits", options->bits, "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)")
         ->check(CLI::IsMember({8, 16}))->type_name("N");
     command->add_option("--verify", options->verify, "folder: draw both models from five sides, compare normals, write the pictures")
         ->type_name("FOLDER");

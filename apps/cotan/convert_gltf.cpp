@@ -20,13 +20,41 @@ std::string fieldOf(std::size_t mesh, std::size_t primitive)
     return fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
 }
 
-// The texture that a primitive's material reads as normal map; null if none.
-const Json* normalTextureOf(const Json& root, const Json& primitive)
+// The materials that a primitive is seen with: its own, then those of KHR_materials_variants.
+std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 {
-    if (!primitive.contains("material"))
-        return nullptr;
-    const Json& material = root["materials"][primitive["material"].get<std::size_t>()];
-    return material.contains("normalTexture") ? &material["normalTexture"] : nullptr;
+    std::vector<std::size_t> materials;
+    const auto add = [&](const Json& object) {
+        if (!object.is_object() || !object.contains("material") || !object["material"].is_number_unsigned())
+            return;
+        const std::size_t m = object["material"].get<std::size_t>();
+        if (m < countOf(root, "materials") && std::find(materials.begin(), materials.end(), m) == materials.end())
+            materials.push_back(m);
+    };
+    add(primitive);
+    const Json* at = &primitive; // of an extension nothing has been checked
+    for (const char* member : {"extensions", "KHR_materials_variants", "mappings"}) {
+        if (!at->is_object() || !at->contains(member))
+            return materials;
+        at = &(*at)[member];
+    }
+    for (const Json& mapping : *at)
+        add(mapping);
+    return materials;
+}
+
+// The texture that a material reads as normal map; null if none.
+const Json* normalTextureOf(const Json& root, std::size_t material)
+{
+    const Json& m = root["materials"][material];
+    return m.contains("normalTexture") ? &m["normalTexture"] : nullptr;
+}
+
+// Whether a material's normal map is in a format that is not read here.
+bool isForeign(const Json& root, std::size_t material)
+{
+    const Json* info = normalTextureOf(root, material);
+    return info && !root["textures"][(*info)["index"].get<std::size_t>()].contains("source");
 }
 
 Wrap wrapOf(const Json& root, const Json& texture, const char* axis)
@@ -66,6 +94,23 @@ bool readElsewhere(const Json& root, std::size_t image)
     });
 }
 
+// Takes the images that extensions name in place of a texture's source.
+void dropOtherForms(Json& texture, std::size_t index, std::vector<std::string>& notes)
+{
+    if (!texture.contains("extensions") || !texture["extensions"].is_object())
+        return;
+    Json kept = Json::object();
+    for (const auto& [name, value] : texture["extensions"].items())
+        if (value.is_object() && value.contains("source"))
+            notes.push_back(fmt::format("textures[{}]: {} taken out, its image is not converted", index, name));
+        else
+            kept[name] = value;
+    if (kept.empty())
+        texture.erase("extensions");
+    else
+        texture["extensions"] = std::move(kept);
+}
+
 template<class Visit> Status forEachPrimitive(const Json& root, const Visit& visit)
 {
     for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)
@@ -77,46 +122,63 @@ template<class Visit> Status forEachPrimitive(const Json& root, const Visit& vis
 
 } // namespace
 
+namespace {
+
+// One primitive with one of its materials, added to the job of that material's normal map.
+// document: with the material in the primitive's place, for its uv.
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material,
+              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs, std::vector<std::string>& notes)
+{
+    const Json& root = document.root;
+    const Json* info = normalTextureOf(root, material);
+    if (!info)
+        return Done{};
+    if (isForeign(root, material)) {
+        notes.push_back(fieldOf(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
+        return Done{};
+    }
+    auto geometry = gltfGeometry(document, m, p);
+    if (!geometry)
+        return geometry.error();
+    if (geometry->texcoords.empty() || geometry->indices.empty()) {
+        notes.push_back(fieldOf(m, p) + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
+                        + "; its normal map is not converted for it");
+        return Done{};
+    }
+    const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
+    const std::size_t image = texture["source"].get<std::size_t>();
+    MapJob& job = jobs[image];
+    job.image = image;
+    job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+    if (job.name.empty() || job.name.starts_with("data:"))
+        job.name = fmt::format("image {}", image);
+    if (std::find(job.materials.begin(), job.materials.end(), material) == job.materials.end())
+        job.materials.push_back(material);
+    const Mesh mesh = meshOf(std::move(*geometry));
+    for (const glm::dmat3& linear : placed) {
+        MapUse use;
+        use.surface = makeSurface(mesh, Texture{}, linear);
+        use.format = {0, 0, -1.0, info->value("scale", 1.0)}; // glTF: exact, xyz, green against +v
+        use.wrapU = wrapOf(root, texture, "wrapS");
+        use.wrapV = wrapOf(root, texture, "wrapT");
+        job.uses.push_back(std::move(use));
+    }
+    return Done{};
+}
+
+} // namespace
+
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
 {
     const Json& root = document.root;
     const auto placed = placings(root);
     std::map<std::size_t, MapJob> jobs;
+    GltfDocument seen = document; // each primitive with the material it is seen with
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
-        const Json& primitive = root["meshes"][m]["primitives"][p];
-        const Json* info = normalTextureOf(root, primitive);
-        if (!info)
-            return Done{};
-        const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
-        if (!texture.contains("source")) {
-            notes.push_back(fieldOf(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
-            return Done{};
-        }
-        auto geometry = gltfGeometry(document, m, p);
-        if (!geometry)
-            return geometry.error();
-        if (geometry->texcoords.empty() || geometry->indices.empty()) {
-            notes.push_back(fieldOf(m, p) + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
-                            + "; its normal map is not converted for it");
-            return Done{};
-        }
-        const std::size_t image = texture["source"].get<std::size_t>();
-        MapJob& job = jobs[image];
-        job.image = image;
-        job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
-        if (job.name.empty() || job.name.starts_with("data:"))
-            job.name = fmt::format("image {}", image);
-        const std::size_t material = primitive["material"].get<std::size_t>();
-        if (std::find(job.materials.begin(), job.materials.end(), material) == job.materials.end())
-            job.materials.push_back(material);
-        const Mesh mesh = meshOf(std::move(*geometry));
-        for (const glm::dmat3& linear : placed[m]) {
-            MapUse use;
-            use.surface = makeSurface(mesh, Texture{}, linear);
-            use.format = {0, 0, -1.0, info->value("scale", 1.0)}; // glTF: exact, xyz, green against +v
-            use.wrapU = wrapOf(root, texture, "wrapS");
-            use.wrapV = wrapOf(root, texture, "wrapT");
-            job.uses.push_back(std::move(use));
+        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
+            seen.root["meshes"][m]["primitives"][p]["material"] = material;
+            if (Status added = addUse(seen, m, p, material, placed[m], jobs, notes); !added)
+                return added;
         }
         return Done{};
     });
@@ -130,10 +192,15 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     return result;
 }
 
-void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png)
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes)
 {
     if (!job.alsoElsewhere) {
         replaceGltfImage(document, job.image, std::move(png), "image/png");
+        for (std::size_t t = 0; t < countOf(document.root, "textures"); ++t) {
+            Json& texture = document.root["textures"][t];
+            if (texture.contains("source") && texture["source"].get<std::size_t>() == job.image)
+                dropOtherForms(texture, t, notes);
+        }
         return;
     }
     const std::size_t image = addGltfImage(document, std::move(png), "image/png", job.name);
@@ -146,6 +213,23 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     }
 }
 
+namespace {
+
+// What of a material reads tangents and is not converted; empty if nothing.
+std::string whyTangentsStay(const Json& root, std::size_t material)
+{
+    if (isForeign(root, material))
+        return "its normal map, neither PNG nor JPEG,";
+    const Json& extensions = root["materials"][material].value("extensions", Json::object());
+    if (extensions.contains("KHR_materials_anisotropy"))
+        return "KHR_materials_anisotropy reads tangents and";
+    if (extensions.contains("KHR_materials_clearcoat") && extensions["KHR_materials_clearcoat"].contains("clearcoatNormalTexture"))
+        return "KHR_materials_clearcoat reads tangents and";
+    return {};
+}
+
+} // namespace
+
 Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
@@ -155,18 +239,13 @@ Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::strin
         const Json& primitive = root["meshes"][m]["primitives"][p];
         if (!primitive["attributes"].contains("TANGENT"))
             return Done{};
-        if (primitive.contains("material")) {
-            const std::size_t material = primitive["material"].get<std::size_t>();
-            const Json& extensions = root["materials"][material].value("extensions", Json::object());
-            for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_anisotropy"}) {
-                const bool reads = extensions.contains(name)
-                    && (name == std::string("KHR_materials_anisotropy") || extensions[name].contains("clearcoatNormalTexture"));
-                if (!reads)
-                    continue;
-                if (told.insert(material).second)
-                    notes.push_back(fmt::format("materials[{}]: {} reads tangents and is not converted; TANGENT stays", material, name));
-                return Done{};
-            }
+        for (const std::size_t material : materialsOf(root, primitive)) {
+            const std::string reason = whyTangentsStay(root, material);
+            if (reason.empty())
+                continue;
+            if (told.insert(material).second)
+                notes.push_back(fmt::format("materials[{}]: {} is not converted; TANGENT stays", material, reason));
+            return Done{};
         }
         auto count = [&](const Json& attributes, bool base) {
             if (!attributes.contains("TANGENT"))
@@ -199,7 +278,9 @@ Result<std::size_t> giveTangents(GltfDocument& document, Frame frame)
 {
     std::vector<GltfCornerTangents> all;
     const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
-        if (!normalTextureOf(document.root, document.root["meshes"][m]["primitives"][p]))
+        const Json& root = document.root;
+        const auto materials = materialsOf(root, root["meshes"][m]["primitives"][p]);
+        if (std::none_of(materials.begin(), materials.end(), [&](std::size_t k) { return normalTextureOf(root, k); }))
             return Done{};
         auto geometry = gltfGeometry(document, m, p);
         if (!geometry)

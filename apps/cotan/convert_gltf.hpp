@@ -20,12 +20,14 @@ struct MapJob {
 };
 
 // The jobs of a file, in the order of its images. A mesh that nodes show under several maps that are not
-// rotations and uniform scales of one another is several surfaces. What is left out goes to `notes`.
+// rotations and uniform scales of one another is several surfaces; so is one that KHR_materials_variants
+// gives several materials. What is left out goes to `notes`.
 // Errors (ErrorKind::input): compressed geometry.
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
 
-// Puts a job's new image in place of the old one where normal maps read it.
-void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png);
+// Puts a job's new image in place of the old one where normal maps read it. Other forms of the old one
+// (EXT_texture_webp, KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes);
 
 struct TangentBytes {
     std::size_t vertices = 0; // that had TANGENT
@@ -33,8 +35,8 @@ struct TangentBytes {
     std::size_t primitives = 0;
 };
 
-// Takes TANGENT from all primitives but those whose material has a map in an extension that is not
-// converted and needs it (`notes` says so).
+// Takes TANGENT from all primitives but those whose materials need it for something that is not converted,
+// a map in an extension or a normal map that is neither PNG nor JPEG (`notes` says so).
 Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes);
 
 // Generates tangents of that frame (mikktspace or vertex) for all primitives with a normal map. Returns

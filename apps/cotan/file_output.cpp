@@ -10,18 +10,25 @@ namespace cotan::app {
 
 Status writeFileWhole(const std::filesystem::path& file, const std::string& text)
 {
-    std::filesystem::path beside = file;
-    beside += fmt::format(".{}.part", ::getpid());
     std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    const bool special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)
+        && !std::filesystem::is_directory(status);
+    std::filesystem::path beside = file;
+    if (!special) // a pipe or a device is written to, not replaced
+        beside += fmt::format(".{}.part", ::getpid());
     {
         std::ofstream stream(beside, std::ios::binary);
         stream.write(text.data(), std::streamsize(text.size()));
         stream.close();
         if (!stream) {
-            std::filesystem::remove(beside, error);
+            if (!special)
+                std::filesystem::remove(beside, error);
             return outputError(fmt::format("{}: cannot write", file.string()));
         }
     }
+    if (special)
+        return Done{};
     std::filesystem::rename(beside, file, error);
     if (error) {
         std::error_code ignored;

@@ -8,7 +8,7 @@
 
 namespace cotan::app {
 
-// Writes text to a file: beside its place first, then renamed. Errors: ErrorKind::output.
+// Writes text to a file: beside its place first, then renamed; pipes and devices are written to. Errors: ErrorKind::output.
 Status writeFileWhole(const std::filesystem::path& file, const std::string& text);
 
 } // namespace cotan::app

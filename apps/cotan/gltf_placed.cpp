@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
+#include "cotan/lint/surface.hpp"
 #include "cotan/portable.hpp"
 
 namespace cotan::app {
@@ -44,18 +44,6 @@ glm::dmat3 linearOf(const Json& node)
     return m;
 }
 
-// Whether the two differ by a rotation, a mirroring and a uniform scale only: all frames go along with these.
-bool alike(const glm::dmat3& a, const glm::dmat3& b)
-{
-    const glm::dmat3 ga = glm::transpose(a) * a, gb = glm::transpose(b) * b;
-    const double ta = ga[0][0] + ga[1][1] + ga[2][2], tb = gb[0][0] + gb[1][1] + gb[2][2];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (!(std::abs(ga[i][j] * tb - gb[i][j] * ta) <= 1e-5 * ta * tb))
-                return false;
-    return true;
-}
-
 } // namespace
 
 std::vector<std::vector<glm::dmat3>> placings(const Json& root)
@@ -81,7 +69,7 @@ std::vector<std::vector<glm::dmat3>> placings(const Json& root)
             continue;
         auto& known = result[node["mesh"].get<std::size_t>()];
         const glm::dmat3 placed = node.contains("skin") ? glm::dmat3(1) : here; // a skin replaces the node
-        if (std::none_of(known.begin(), known.end(), [&, p = placed](const glm::dmat3& k) { return alike(k, p); }))
+        if (std::none_of(known.begin(), known.end(), [&, p = placed](const glm::dmat3& k) { return alikeForFrames(k, p); }))
             known.push_back(placed);
     }
     for (auto& known : result)
@@ -90,11 +78,14 @@ std::vector<std::vector<glm::dmat3>> placings(const Json& root)
     return result;
 }
 
+// Of a unit vector's length in float. Quantised normals are up to 0.007 off.
+constexpr double kRounding = 2e-6;
+
 void makeUnit(std::vector<glm::vec3>& normals)
 {
     for (glm::vec3& n : normals) {
         const double length = glm::length(glm::dvec3(n));
-        if (length > 0 && std::abs(length - 1) > 1e-5)
+        if (length > 0 && std::abs(length - 1) > kRounding)
             n = glm::vec3(glm::dvec3(n) / length);
     }
 }

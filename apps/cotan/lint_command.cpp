@@ -7,6 +7,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
 #include "parse.hpp"
+#include "spread_report.hpp"
 
 namespace cotan::app {
 
@@ -22,22 +23,13 @@ struct Options {
     std::string frame = "cotangent";
 };
 
-std::string triple(const Spread& s)
-{
-    return fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum);
-}
-
-nlohmann::ordered_json json(const Spread& s)
-{
-    return {{"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
-}
-
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 std::string nameOf(const PrimitiveLint& p, std::size_t index)
 {
     const std::string mesh = p.mesh.empty() ? fmt::format("primitive {}", index) : p.mesh;
-    return p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
+    const std::string name = p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
+    return p.placings == 1 ? name : fmt::format("{}, stretched by its nodes in {} ways, number {}", name, p.placings, p.placing + 1);
 }
 
 void sayPrimitive(const Options& o, const LintReport& report, std::size_t index)
@@ -55,15 +47,15 @@ void sayPrimitive(const Options& o, const LintReport& report, std::size_t index)
                        percent(p.uv.degenerate), percent(p.uv.mirrored), percent(p.uv.overlapping),
                        percent(p.uv.overlappingMirrored), kStretched, percent(p.uv.stretched), kSheared,
                        percent(p.uv.sheared)));
-    say(c, fmt::format("  stretch {}, shear {} degrees", triple(p.uv.stretch), triple(p.uv.shear)));
+    say(c, fmt::format("  stretch {}, shear {} degrees", toText(p.uv.stretch), toText(p.uv.shear)));
     say(c, fmt::format("  steps at {} interior edges, texel tilted {:.0f} degrees: cotangent {}, orthonormal {}", p.steps.edges,
-                       kTestTilt, triple(p.steps.cotangent), triple(p.steps.orthonormal)));
+                       kTestTilt, toText(p.steps.cotangent), toText(p.steps.orthonormal)));
     if (p.stored.present)
         say(c, fmt::format("  stored tangents: w against the uv on {}, turned over {:.0f} degrees on {} of the area; "
                            "{} degrees from dP/du",
-                           percent(p.stored.reversedW), kTurned, percent(p.stored.turned), triple(p.stored.angle)));
+                           percent(p.stored.reversedW), kTurned, percent(p.stored.turned), toText(p.stored.angle)));
     for (const Reading& r : p.readings)
-        say(c, fmt::format("  made for MikkTSpace, read with {}: {}", r.name, triple(r.error)));
+        say(c, fmt::format("  made for MikkTSpace, read with {}: {}", r.name, toText(r.error)));
     say(c, fmt::format("  rounding at distance {:.3g}: {:.2g} degrees; half a degree at {:.2g}", report.distance, p.precision,
                        p.closest));
 }
@@ -86,19 +78,20 @@ void sayMap(const Options& o, const GreenEvidence& g)
 
 nlohmann::ordered_json describe(const PrimitiveLint& p)
 {
-    nlohmann::ordered_json j = {{"mesh", p.mesh}, {"material", p.material}, {"normal_map", p.image},
+    nlohmann::ordered_json j = {{"mesh", p.mesh}, {"material", p.material}, {"placing", p.placing}, {"placings", p.placings},
+                                {"normal_map", p.image}, {"tangents_for", p.tangentsFor},
                                 {"triangles", p.triangles}, {"has_uv", p.hasUv}};
     j["uv"] = {{"area", p.uv.area}, {"degenerate", p.uv.degenerate}, {"mirrored", p.uv.mirrored},
                {"overlapping", p.uv.overlapping}, {"overlapping_mirrored", p.uv.overlappingMirrored},
-               {"stretched", p.uv.stretched}, {"sheared", p.uv.sheared}, {"stretch", json(p.uv.stretch)},
-               {"shear_degrees", json(p.uv.shear)}, {"gradient", p.uv.gradient}, {"largest_uv", p.uv.largestUv}};
-    j["edge_steps"] = {{"edges", p.steps.edges}, {"cotangent", json(p.steps.cotangent)},
-                       {"orthonormal", json(p.steps.orthonormal)}};
+               {"stretched", p.uv.stretched}, {"sheared", p.uv.sheared}, {"stretch", toJson(p.uv.stretch)},
+               {"shear_degrees", toJson(p.uv.shear)}, {"gradient", p.uv.gradient}, {"largest_uv", p.uv.largestUv}};
+    j["edge_steps"] = {{"edges", p.steps.edges}, {"cotangent", toJson(p.steps.cotangent)},
+                       {"orthonormal", toJson(p.steps.orthonormal)}};
     if (p.stored.present)
         j["stored_tangents"] = {{"reversed_w", p.stored.reversedW}, {"turned", p.stored.turned},
-                                {"degrees_from_dpdu", json(p.stored.angle)}};
+                                {"degrees_from_dpdu", toJson(p.stored.angle)}};
     for (const Reading& r : p.readings)
-        j["read_with"][r.name] = json(r.error);
+        j["read_with"][r.name] = toJson(r.error);
     j["rounding_degrees"] = p.precision;
     j["half_a_degree_at"] = p.closest;
     return j;
@@ -166,9 +159,11 @@ Status checkUsage(const Options& o)
         return usageError("lint writes no files but --json FILE; leave out -o");
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
-    for (double limit : {o.limitDegrees, o.limitArea})
-        if (!(limit == -1 || (limit >= 0 && limit <= 180)))
-            return usageError(fmt::format("--limit, --limit-area: expected a number from 0 to 180; found {}", limit));
+    const auto outside = [](double limit, double most) { return !(limit == -1 || (limit >= 0 && limit <= most)); };
+    if (outside(o.limitDegrees, 180))
+        return usageError(fmt::format("--limit: expected degrees from 0 to 180; found {}", o.limitDegrees));
+    if (outside(o.limitArea, 100))
+        return usageError(fmt::format("--limit-area: expected percent from 0 to 100; found {}", o.limitArea));
     if (o.strict && o.limitDegrees < 0 && o.limitArea < 0)
         return usageError("--strict: expected --limit DEGREES or --limit-area PERCENT; found neither");
     return Done{};

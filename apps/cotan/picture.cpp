@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-
 #include <fmt/format.h>
 
 #include "cotan/asset/geometry.hpp"
@@ -90,6 +89,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
                             std::initializer_list<Frame> frames)
 {
     Stopwatch watch;
+    if (const auto size = parseSize(options.size); !size) // before a large model is loaded
+        return size.error();
     Picture picture;
     if (options.model.empty()) {
         picture.scene = builtinScene();

@@ -1,13 +1,11 @@
 #include "commands.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
-#include "cotan/asset/gltf_edit.hpp"
 #include "cotan/report/tangent_difference.hpp"
 #include "cotan/tangents.hpp"
+#include "gltf_open.hpp"
+#include "gltf_placed.hpp"
 #include "progress.hpp"
 #include "smooth_report.hpp"
 
@@ -34,17 +32,6 @@ struct Entry {
         return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices};
     }
 };
-
-// Unit normals. Those that are unit up to rounding keep their bits, on which MikkTSpace's welding
-// depends; quantised ones are up to 0.007 off.
-void makeUnit(std::vector<glm::vec3>& normals)
-{
-    for (glm::vec3& n : normals) {
-        const double length = glm::length(glm::dvec3(n));
-        if (length > 0 && std::abs(length - 1) > 2e-6)
-            n = glm::vec3(glm::dvec3(n) / length);
-    }
-}
 
 std::string whyNot(const GltfGeometry& geometry)
 {
@@ -128,7 +115,7 @@ void compare(const Options& o, const std::vector<Entry>& entries, nlohmann::orde
     if (all.corners > 0)
         verdict = toText(all, referenceName(o));
     if (all.corners > 0 && without > 0)
-        verdict += fmt::format("; {} primitives without TANGENT", without);
+        verdict += fmt::format("; {} without TANGENT", counted(without, "primitive"));
     report["model_verdict"] = verdict;
     if (all.corners > 0)
         report["whole"] = toJson(all);
@@ -179,8 +166,8 @@ Status write(const Options& o, GltfDocument& document, const std::vector<Entry>&
     report["bytes_after"] = written->bytesAfter;
     report["files"] = files;
     report["notes"] = written->notes;
-    say(o.common, fmt::format("{} primitives got {} tangents, {} kept theirs, {} can have none; "
-                              "{} vertices added", tangents.size(), o.frame, kept, skipped, *added));
+    say(o.common, fmt::format("{} got {} tangents, {} kept theirs, {} can have none; "
+                              "{} vertices added", counted(tangents.size(), "primitive"), o.frame, kept, skipped, *added));
     say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(),
                               written->bytesAfter, written->bytesBefore));
     return Done{};
@@ -196,11 +183,7 @@ Status checkUsage(const Options& o)
                           "out -o for its statistics");
     if (o.replace && o.common.output.empty())
         return usageError("--replace: expected -o FILE to write to; found none");
-    const auto extension = o.common.output.extension();
-    if (!o.common.output.empty() && extension != ".glb" && extension != ".gltf")
-        return usageError(fmt::format("{}: expected a name that ends in .glb or .gltf",
-                                      o.common.output.string()));
-    return Done{};
+    return checkGltfNames(o.model, o.common.output);
 }
 
 Status run(const Options& o)
@@ -208,22 +191,16 @@ Status run(const Options& o)
     if (Status usage = checkUsage(o); !usage)
         return usage;
     Stopwatch watch;
-    // Everything in the file is looked at, images too: what cannot be shown is not rewritten.
-    const auto scene = loadGltf(o.model);
-    if (!scene)
-        return scene.error();
-    for (const std::string& line : scene->warnings)
-        warn(o.common, line);
-    auto document = openGltfDocument(o.model);
-    if (!document)
-        return document.error();
-    const auto entries = readEntries(*document);
+    auto opened = openGltfToEdit(o.model, o.common);
+    if (!opened)
+        return opened.error();
+    const auto entries = readEntries(opened->document);
     if (!entries)
         return entries.error();
     nlohmann::ordered_json report = {{"command", "tangents"},
                                      {"model", o.model},
                                      {"frame", o.frame},
-                                     {"warnings", scene->warnings},
+                                     {"warnings", opened->warnings},
                                      {"primitives", nlohmann::ordered_json::array()}};
     const double load = watch.lap();
     if (o.frame == "smooth") {
@@ -237,7 +214,7 @@ Status run(const Options& o)
         }
     } else if (o.common.output.empty()) {
         compare(o, *entries, report);
-    } else if (Status written = write(o, *document, *entries, report); !written) {
+    } else if (Status written = write(o, opened->document, *entries, report); !written) {
         return written;
     }
     report["seconds"] = {{"load", load}, {"work", watch.lap()}};
@@ -250,8 +227,8 @@ Command addTangentsCommand(CLI::App& app)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "tangents", "write tangents into a glTF model, or compare those in it; without -o nothing "
-                    "is written");
+        "tangents", "write tangents into a glTF model; without -o say of those in it whether they equal "
+                    "MikkTSpace, w is inverted, half of them are turned, or how far off they are");
     addCommonOptions(*command, options->common, "the model with tangents, .glb or .gltf");
     command->add_option("MODEL", options->model, "glTF or GLB file")->required();
     command->add_option("--frame", options->frame,

@@ -1,5 +1,6 @@
 #include "vertex_frames.hpp"
 
+#include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan::app {
@@ -10,10 +11,8 @@ namespace {
 std::vector<glm::vec2> normalMapUv(const Mesh& mesh, const Texture& map)
 {
     std::vector<glm::vec2> uv = mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)];
-    if (map.present())
-        for (glm::vec2& c : uv)
-            c = {map.uRow.x * c.x + map.uRow.y * c.y + map.uRow.z,
-                 map.vRow.x * c.x + map.vRow.y * c.y + map.vRow.z};
+    for (glm::vec2& c : uv)
+        c = textureUv(map, c);
     return uv;
 }
 

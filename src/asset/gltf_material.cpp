@@ -95,12 +95,23 @@ float emissiveStrength(const tinygltf::Material& material)
         : static_cast<float>(numberOr(found->second, "emissiveStrength", 1));
 }
 
+// The extension of a material, of those that are not drawn here, that reads tangents.
+std::string tangentReader(const tinygltf::Material& material)
+{
+    if (material.extensions.contains("KHR_materials_anisotropy"))
+        return "KHR_materials_anisotropy";
+    const auto coat = material.extensions.find("KHR_materials_clearcoat");
+    const bool normals = coat != material.extensions.end() && coat->second.Has("clearcoatNormalTexture");
+    return normals ? "KHR_materials_clearcoat" : "";
+}
+
 // The factors of a material: everything but its textures.
 Material makeFactors(const tinygltf::Material& source)
 {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material material;
     material.name = source.name;
+    material.tangentsFor = tangentReader(source);
     for (int i = 0; i < 4; ++i)
         material.baseColor[i] = unitRange(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
     material.metallic = unitRange(pbr.metallicFactor);

@@ -4,268 +4,159 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
-#include "tangents_mesh.hpp"
+#include "mikktspace_triangles.hpp"
 
 namespace cotan {
 
 namespace {
 
+using namespace mikktspace;
 using tangents::kNone;
 using tangents::normalizeOrZero;
 using tangents::projectedUnit;
 
-// One byte of state a triangle.
-enum Flag : std::uint8_t {
-    kPreserving = 1, // positive signed area in uv (v upwards or downwards, as given)
-    kJoinsAny = 2,   // no usable direction: joins the first group that reaches it
-    kDegenerate = 4, // two equal positions: takes part in nothing
+// The corners at each welded vertex, in order; those of degenerate triangles are left out.
+struct CornersAt {
+    std::vector<std::uint32_t> start; // per vertex, and one more at the end
+    std::unique_ptr<std::uint32_t[]> corners;
+
+    std::span<const std::uint32_t> operator[](std::size_t vertex) const
+    {
+        return {corners.get() + start[vertex], start[vertex + 1] - start[vertex]};
+    }
 };
 
-struct Triangles {
-    const MeshView& mesh;
-    std::vector<std::uint32_t> vertices;   // welded, three a triangle
-    std::vector<std::uint8_t> flags;       // of Flag, one a triangle
-    std::vector<std::uint8_t> taken;       // 1 for corners that belong to a group
-    std::vector<glm::vec3> alongU, alongV; // unit dP/du, dP/dv, or zero
-    std::vector<std::uint32_t> neighbours; // per edge k = (corner k, corner k+1): triangle or kNone
-
-    std::size_t count() const { return flags.size(); }
-    glm::vec3 position(std::size_t corner) const { return mesh.positions[vertices[corner]]; }
-    glm::vec2 texcoord(std::size_t corner) const { return mesh.texcoords[vertices[corner]]; }
-};
-
-std::vector<std::uint32_t> weldedIndices(const MeshView& mesh, std::size_t threads)
+CornersAt cornersByVertex(const Triangles& t, std::size_t threads)
 {
-    const std::vector<std::uint32_t> first = tangents::weld(mesh, threads);
-    std::vector<std::uint32_t> vertices(mesh.indices.size());
-    runParts(vertices.size(), threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c)
-            vertices[c] = first[mesh.indices[c]];
-    });
-    return vertices;
-}
-
-// dP/du and dP/dv up to length, and whether uv keep the orientation.
-void deriveTriangle(Triangles& t, std::size_t f)
-{
-    const glm::vec3 p0 = t.position(3 * f), p1 = t.position(3 * f + 1), p2 = t.position(3 * f + 2);
-    if (p0 == p1 || p0 == p2 || p1 == p2) {
-        t.flags[f] = kDegenerate | kJoinsAny;
-        return;
-    }
-    const glm::vec3 d1 = p1 - p0, d2 = p2 - p0;
-    const glm::vec2 e1 = t.texcoord(3 * f + 1) - t.texcoord(3 * f);
-    const glm::vec2 e2 = t.texcoord(3 * f + 2) - t.texcoord(3 * f);
-    const float area = e1.x * e2.y - e1.y * e2.x;
-    const bool preserving = area > 0;
-    t.flags[f] = static_cast<std::uint8_t>(kJoinsAny | (preserving ? kPreserving : 0));
-    if (!(std::abs(area) > FLT_MIN))
-        return;
-    const float sign = preserving ? 1.0f : -1.0f;
-    const glm::vec3 u = d1 * e2.y - d2 * e1.y, v = d2 * e1.x - d1 * e2.x;
-    const float lengthU = std::sqrt(glm::dot(u, u)), lengthV = std::sqrt(glm::dot(v, v));
-    if (lengthU > FLT_MIN)
-        t.alongU[f] = u * (sign / lengthU);
-    if (lengthV > FLT_MIN)
-        t.alongV[f] = v * (sign / lengthV);
-    if (lengthU / std::abs(area) > FLT_MIN && lengthV / std::abs(area) > FLT_MIN)
-        t.flags[f] &= static_cast<std::uint8_t>(~kJoinsAny);
-}
-
-// Pairs the edges of one bucket, sorted by (far vertex, corner). Of the edges between the same two
-// vertices the k-th that runs one way meets the k-th that runs the other way.
-void pairEdges(Triangles& t, std::span<const std::uint64_t> edges)
-{
-    const auto farVertex = [](std::uint64_t e) { return static_cast<std::uint32_t>(e >> 32); };
-    const auto corner = [](std::uint64_t e) { return static_cast<std::uint32_t>(e); };
-    for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-        end = begin + 1;
-        while (end < edges.size() && farVertex(edges[end]) == farVertex(edges[begin]))
-            ++end;
-        const auto forward = [&](std::size_t i) { // from the smaller vertex to the larger
-            return t.vertices[corner(edges[i])] != farVertex(edges[begin]);
-        };
-        std::size_t f = begin, b = begin;
-        for (;; ++f, ++b) {
-            while (f < end && !forward(f))
-                ++f;
-            while (b < end && forward(b))
-                ++b;
-            if (f >= end || b >= end)
-                break;
-            t.neighbours[corner(edges[f])] = corner(edges[b]) / 3;
-            t.neighbours[corner(edges[b])] = corner(edges[f]) / 3;
-        }
-    }
-}
-
-constexpr std::size_t nextCorner(std::size_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
-constexpr std::size_t previousCorner(std::size_t corner)
-{
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
-
-// Neighbours across shared edges. The edges are put into one bucket per smaller vertex, as
-// (larger vertex, corner at which the edge starts).
-void findNeighbours(Triangles& t, std::size_t threads)
-{
-    std::vector<std::uint32_t> start(t.mesh.positions.size() + 1);
-    const auto forEdges = [&](const auto& each) { // each(smaller vertex, larger vertex, corner)
-        for (std::uint32_t f = 0; f < t.count(); ++f) {
-            if ((t.flags[f] & kDegenerate) != 0)
-                continue;
-            const std::uint32_t c = 3 * f, v0 = t.vertices[c], v1 = t.vertices[c + 1],
-                                v2 = t.vertices[c + 2];
-            each(std::min(v0, v1), std::max(v0, v1), c);
-            each(std::min(v1, v2), std::max(v1, v2), c + 1);
-            each(std::min(v2, v0), std::max(v2, v0), c + 2);
-        }
-    };
-    forEdges([&](std::uint32_t smaller, std::uint32_t, std::uint32_t) { ++start[smaller + 1]; });
-    for (std::size_t i = 1; i < start.size(); ++i)
-        start[i] += start[i - 1];
-    const std::size_t count = start.back();
-    const auto edges = std::make_unique_for_overwrite<std::uint64_t[]>(count);
-    // start[i + 1] ends bucket i and moves down to its begin.
-    forEdges([&](std::uint32_t smaller, std::uint64_t larger, std::uint32_t corner) {
-        edges[--start[smaller + 1]] = larger << 32 | corner;
-    });
-    t.neighbours.assign(t.vertices.size(), kNone);
-    // An edge is in one bucket, so threads write to different neighbours.
-    runParts(t.mesh.positions.size(), threads, [&](std::size_t firstVertex, std::size_t last) {
-        for (std::size_t i = firstVertex + 1; i <= last; ++i) {
-            const std::size_t begin = start[i];
-            const std::size_t end = i + 1 < start.size() ? start[i + 1] : count;
-            const std::span<std::uint64_t> bucket(edges.get() + begin, end - begin);
-            std::sort(bucket.begin(), bucket.end());
-            pairEdges(t, bucket);
-        }
-    });
-}
-
-// Marks the corner as taken and says so, if its triangle may join a group of that orientation.
-bool join(Triangles& t, std::size_t corner, bool preserving)
-{
-    if (t.taken[corner] != 0)
-        return false;
-    std::uint8_t& flags = t.flags[corner / 3];
-    const std::uint8_t* const taken = t.taken.data() + corner / 3 * 3;
-    // The first group to reach a triangle without a direction decides its orientation.
-    if ((flags & kJoinsAny) != 0 && (taken[0] | taken[1] | taken[2]) == 0)
-        flags = static_cast<std::uint8_t>((flags & ~kPreserving) | (preserving ? kPreserving : 0));
-    if (((flags & kPreserving) != 0) != preserving)
-        return false;
-    t.taken[corner] = 1;
-    return true;
-}
-
-// Groups, one after the other.
-struct Groups {
-    std::vector<std::uint32_t> corners;
-    std::vector<std::uint32_t> starts{0}; // into corners; one more at the end
-};
-
-// Adds all corners at the vertex of `seed` that hang together through edges. pending: scratch.
-void collectGroup(Triangles& t, std::uint32_t seed, std::vector<std::uint32_t>& pending,
-                  Groups& groups)
-{
-    const std::uint32_t vertex = t.vertices[seed];
-    const bool preserving = (t.flags[seed / 3] & kPreserving) != 0;
-    pending.assign(1, seed / 3);
-    while (!pending.empty()) {
-        const std::uint32_t first = pending.back() * 3; // corner
-        pending.pop_back();
-        const std::uint32_t k = t.vertices[first] == vertex ? 0
-            : t.vertices[first + 1] == vertex               ? 1
-                                                            : 2;
-        if (!join(t, first + k, preserving))
-            continue;
-        groups.corners.push_back(first + k);
-        const std::uint32_t right = t.neighbours[first + (k == 0 ? 2 : k - 1)];
-        const std::uint32_t left = t.neighbours[first + k];
-        if (right != kNone)
-            pending.push_back(right);
-        if (left != kNone) // on top: visited first, with all that lies behind it
-            pending.push_back(left);
-    }
-    groups.starts.push_back(static_cast<std::uint32_t>(groups.corners.size()));
-}
-
-// The groups in parts, each of consecutive vertices. The corners of a group are all at one vertex,
-// so the parts have nothing in common, unless there are triangles without a direction: which group
-// those join depends on the order of the corners, so that all is one part then.
-std::vector<Groups> collectGroups(Triangles& t, std::size_t threads)
-{
-    const bool ordered = std::any_of(t.flags.begin(), t.flags.end(),
-                                     [](auto f) { return (f & kJoinsAny) != 0; });
-    std::vector<Groups> parts(ordered ? 1 : threads);
     const std::size_t vertices = t.mesh.positions.size();
-    runTasks(parts.size(), threads, [&](std::size_t part) {
-        const std::size_t begin = vertices * part / parts.size();
-        const std::size_t end = vertices * (part + 1) / parts.size();
-        Groups& groups = parts[part];
-        groups.corners.reserve(t.vertices.size() / parts.size());
-        groups.starts.reserve(t.vertices.size() / parts.size() / 4);
-        std::vector<std::uint32_t> pending;
-        for (std::uint32_t c = 0; c < t.vertices.size(); ++c)
-            if (t.vertices[c] >= begin && t.vertices[c] < end && t.taken[c] == 0
-                && (t.flags[c / 3] & kJoinsAny) == 0)
-                collectGroup(t, c, pending, groups);
-    });
-    return parts;
+    // Each thread reads all corners and writes those of its own vertices. each(vertex, corner), from the last.
+    const auto forCorners = [&](const auto& each) {
+        runTasks(threads, threads, [&](std::size_t part) {
+            const std::size_t begin = vertices * part / threads, size = vertices * (part + 1) / threads - begin;
+            for (auto c = static_cast<std::uint32_t>(t.corners()); c-- > 0;)
+                if (const std::size_t v = t.vertices[c]; v - begin < size && !t.has(c / 3, kDegenerate))
+                    each(v, c);
+        });
+    };
+    CornersAt at{std::vector<std::uint32_t>(vertices + 1), nullptr};
+    forCorners([&](std::size_t v, std::uint32_t) { ++at.start[v]; });
+    std::uint32_t end = 0;
+    for (std::uint32_t& start : at.start) // to where each vertex's corners end
+        start = end += start;
+    at.corners = std::make_unique_for_overwrite<std::uint32_t[]>(end);
+    forCorners([&](std::size_t v, std::uint32_t c) { at.corners[--at.start[v]] = c; });
+    return at;
 }
 
-// One group while it is averaged.
-struct Scratch {
-    std::span<const std::uint32_t> group;  // corners
-    std::vector<glm::vec3> alongU, alongV; // of their triangles, in the vertex's plane
-    std::vector<float> angles;
+// Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
+// and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
+// As indices into the list of corners. Of the edges between the same two vertices the k-th that runs one
+// way meets the k-th that runs the other way.
+struct Ring {
+    std::vector<std::uint32_t> left, right;
+
+    void make(const Triangles& t, std::span<const std::uint32_t> corners)
+    {
+        count = static_cast<std::uint32_t>(corners.size());
+        if (left.size() < count)
+            for (auto* list : {&leaving, &coming, &left, &right})
+                list->resize(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            leaving[i] = t.vertices[nextCorner(corners[i])];
+            coming[i] = t.vertices[previousCorner(corners[i])];
+            left[i] = right[i] = kNone;
+        }
+        if (count <= kFew)
+            pairFew();
+        else
+            pairMany();
+    }
+
+private:
+    static constexpr std::uint32_t kFew = 16;
+    std::uint32_t count = 0; // of corners; the lists are as long as the longest needed so far
+    std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
+    std::vector<std::uint32_t> byLeaving, byComing;
+
+    void join(std::uint32_t i, std::uint32_t j)
+    {
+        left[i] = j;
+        right[j] = i;
+    }
+
+    void pairFew()
+    {
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t j = 0; j < count; ++j)
+                if (coming[j] == leaving[i] && right[j] == kNone) {
+                    join(i, j);
+                    break;
+                }
+    }
+
+    // The same in time n log n.
+    void pairMany()
+    {
+        const auto sorted = [this](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
+            order.resize(count);
+            for (std::uint32_t i = 0; i < order.size(); ++i)
+                order[i] = i;
+            std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return std::pair(others[a], a) < std::pair(others[b], b);
+            });
+        };
+        sorted(leaving, byLeaving);
+        sorted(coming, byComing);
+        for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
+            const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
+            if (a == b)
+                join(byLeaving[i], byComing[j]);
+            i += a <= b;
+            j += b <= a;
+        }
+    }
 };
+
+// The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in
+// order, to the left first.
+template<class Take>
+void walk(std::uint32_t seed, std::span<const std::uint32_t> left, std::span<const std::uint32_t> right,
+          const Take& take)
+{
+    std::uint32_t i = seed;
+    while (i != kNone && take(i))
+        i = left[i];
+    i = right[seed];
+    while (i != kNone && take(i))
+        i = right[i];
+}
+
+// ---- averages -------------------------------------------------------------------------------
+
+// With the threshold of 180 degrees two triangles are still kept apart where their directions are
+// exactly opposite: member by member then. Large groups, which only a mesh made for the purpose
+// has, are averaged whole, so that the time stays linear.
+constexpr std::size_t kLargeGroup = 256;
 
 glm::vec3 projected(glm::vec3 v, glm::vec3 n) { return v - n * glm::dot(n, v); }
 
-inline float weightOf(const Triangles& t, std::size_t c, glm::vec3 n)
-{
-    if ((t.flags[c / 3] & kJoinsAny) != 0)
-        return 0;
-    return tangents::projectedAngle(t.position(c), t.position(previousCorner(c)),
-                                    t.position(nextCorner(c)), n);
-}
-
 // The whole group's weighted sum, and whether no two directions in it can be opposite: all within
 // 90 degrees of the first. That is the usual case, and then every member has this sum.
-bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, glm::vec3 n,
-                  glm::vec3& sum)
+bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> contributions,
+                  glm::vec3 n, glm::vec3& sum)
 {
-    const glm::vec3 firstU = projected(t.alongU[group[0] / 3], n);
-    const glm::vec3 firstV = projected(t.alongV[group[0] / 3], n);
+    const glm::vec3 firstU(contributions[group[0]]), firstV = projected(t.alongV[group[0] / 3], n);
     bool inOneHalf = true;
     sum = glm::vec3(0);
     for (const std::uint32_t c : group) {
-        const glm::vec3 u = projectedUnit(t.alongU[c / 3], n);
-        const glm::vec3 v = projected(t.alongV[c / 3], n);
-        const bool any = (t.flags[c / 3] & kJoinsAny) != 0;
-        inOneHalf = inOneHalf && !any && glm::dot(firstU, u) > 0 && glm::dot(firstV, v) > 0;
-        sum += u * weightOf(t, c, n);
+        const glm::vec3 u(contributions[c]);
+        inOneHalf &= glm::dot(firstU, u) > 0;
+        inOneHalf &= glm::dot(firstV, projected(t.alongV[c / 3], n)) > 0;
+        sum += u;
     }
     return inOneHalf;
-}
-
-void projectGroup(const Triangles& t, glm::vec3 n, Scratch& s)
-{
-    s.alongU.clear();
-    s.alongV.clear();
-    s.angles.clear();
-    for (const std::size_t c : s.group) {
-        s.alongU.push_back(projectedUnit(t.alongU[c / 3], n));
-        s.alongV.push_back(projectedUnit(t.alongV[c / 3], n));
-        s.angles.push_back(weightOf(t, c, n));
-    }
 }
 
 glm::vec4 storedTangent(glm::vec3 sum, glm::vec3 n, bool preserving)
@@ -276,74 +167,156 @@ glm::vec4 storedTangent(glm::vec3 sum, glm::vec3 n, bool preserving)
     return {unit, preserving ? -1.0f : 1.0f}; // v runs down, glTF's bitangent up
 }
 
-// With the threshold of 180 degrees two triangles are still kept apart where their directions are
-// exactly opposite: member by member then. Large groups, which only a mesh made for the purpose
-// has, are averaged whole, so that the time stays linear.
-constexpr std::size_t kLargeGroup = 256;
+// One group while it is averaged member by member.
+struct Members {
+    std::vector<glm::vec3> alongU, alongV; // of the triangles, in the vertex's plane
+    std::vector<glm::vec3> contributions;
 
-// Starting a thread takes as long as some thousands of triangles.
-constexpr std::size_t kTrianglesPerThread = 8192;
+    void project(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> all, glm::vec3 n)
+    {
+        alongU.clear();
+        alongV.clear();
+        contributions.clear();
+        for (const std::size_t c : group) {
+            contributions.emplace_back(all[c]);
+            alongU.push_back(projectedUnit(mikktspace::alongU(t, c / 3), n));
+            alongV.push_back(projectedUnit(t.alongV[c / 3], n));
+        }
+    }
 
-glm::vec3 sumFor(const Triangles& t, const Scratch& s, std::size_t member)
+    glm::vec3 sumFor(const Triangles& t, std::span<const std::uint32_t> group, std::size_t member) const
+    {
+        const auto any = [&](std::size_t i) { return t.has(group[i] / 3, kJoinsAny); };
+        glm::vec3 sum(0);
+        for (std::size_t i = 0; i < group.size(); ++i)
+            if (i == member || any(i) || any(member)
+                || (glm::dot(alongU[member], alongU[i]) > -1 && glm::dot(alongV[member], alongV[i]) > -1))
+                sum += contributions[i];
+        return sum;
+    }
+};
+
+// out: the contributions of the corners; those of the group become tangents.
+void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Members& members, std::span<glm::vec4> out)
 {
-    const auto any = [&](std::size_t i) { return (t.flags[s.group[i] / 3] & kJoinsAny) != 0; };
-    glm::vec3 sum(0);
-    for (std::size_t i = 0; i < s.group.size(); ++i)
-        if (i == member || any(i) || any(member)
-            || (glm::dot(s.alongU[member], s.alongU[i]) > -1
-                && glm::dot(s.alongV[member], s.alongV[i]) > -1))
-            sum += s.alongU[i] * s.angles[i];
-    return sum;
-}
-
-void averageGroup(const Triangles& t, Scratch& s, std::vector<glm::vec4>& out)
-{
-    const glm::vec3 n = t.mesh.normals[t.vertices[s.group[0]]];
-    const bool preserving = (t.flags[s.group[0] / 3] & kPreserving) != 0;
+    const glm::vec3 n = t.normal(group[0]);
+    const bool preserving = t.has(group[0] / 3, kPreserving);
     glm::vec3 sum;
-    if (sumInOneHalf(t, s.group, n, sum) || s.group.size() > kLargeGroup) {
+    if (sumInOneHalf(t, group, out, n, sum) || group.size() > kLargeGroup) {
         const glm::vec4 tangent = storedTangent(sum, n, preserving);
-        for (const std::uint32_t c : s.group)
+        for (const std::uint32_t c : group)
             out[c] = tangent;
         return;
     }
-    projectGroup(t, n, s);
-    for (std::size_t i = 0; i < s.group.size(); ++i)
-        out[s.group[i]] = storedTangent(sumFor(t, s, i), n, preserving);
+    members.project(t, group, out, n);
+    for (std::size_t i = 0; i < group.size(); ++i)
+        out[group[i]] = storedTangent(members.sumFor(t, group, i), n, preserving);
 }
 
-void averageGroups(const Triangles& t, const Groups& groups, std::size_t threads,
-                   std::vector<glm::vec4>& out)
+// ---- groups ---------------------------------------------------------------------------------
+
+// Where every triangle has a direction, the groups of a vertex are nobody else's business.
+void averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, std::span<glm::vec4> out)
 {
-    runParts(groups.starts.size() - 1, threads, [&](std::size_t begin, std::size_t end) {
-        Scratch scratch;
-        for (std::size_t g = begin; g < end; ++g) {
-            scratch.group = std::span(groups.corners)
-                                .subspan(groups.starts[g], groups.starts[g + 1] - groups.starts[g]);
-            averageGroup(t, scratch, out);
+    runParts(t.mesh.positions.size(), threads, [&](std::size_t begin, std::size_t end) {
+        Ring ring;
+        Members members;
+        std::vector<std::uint32_t> group;
+        std::vector<std::uint8_t> taken;
+        for (std::size_t v = begin; v < end; ++v) {
+            const std::span<const std::uint32_t> corners = at[v];
+            if (corners.empty()) // welded to another
+                continue;
+            ring.make(t, corners);
+            taken.assign(corners.size(), 0);
+            for (std::uint32_t seed = 0; seed < corners.size(); ++seed) {
+                if (taken[seed] != 0)
+                    continue;
+                const bool preserving = t.has(corners[seed] / 3, kPreserving);
+                group.clear();
+                walk(seed, ring.left, ring.right, [&](std::uint32_t i) {
+                    if (taken[i] != 0 || t.has(corners[i] / 3, kPreserving) != preserving)
+                        return false;
+                    taken[i] = 1;
+                    group.push_back(corners[i]);
+                    return true;
+                });
+                averageGroup(t, group, members, out);
+            }
         }
     });
 }
 
-void fillUngrouped(const Triangles& t, std::vector<glm::vec4>& out)
+// left and right by corner: Ring for all vertices.
+std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> allRings(const Triangles& t, const CornersAt& at)
 {
+    std::vector<std::uint32_t> left(t.corners(), kNone), right(t.corners(), kNone);
+    Ring ring;
+    for (std::size_t v = 0; v < t.mesh.positions.size(); ++v) {
+        const std::span<const std::uint32_t> corners = at[v];
+        ring.make(t, corners);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            left[corners[i]] = ring.left[i] == kNone ? kNone : corners[ring.left[i]];
+            right[corners[i]] = ring.right[i] == kNone ? kNone : corners[ring.right[i]];
+        }
+    }
+    return {std::move(left), std::move(right)};
+}
+
+// Marks the corner as taken and says so, if its triangle may join a group of that orientation.
+bool join(Triangles& t, std::vector<std::uint8_t>& taken, std::size_t corner, bool preserving)
+{
+    if (taken[corner] != 0)
+        return false;
+    std::uint8_t& flags = t.flags[corner / 3];
+    const std::uint8_t* const those = taken.data() + corner / 3 * 3;
+    // The first group to reach a triangle without a direction decides its orientation.
+    if ((flags & kJoinsAny) != 0 && (those[0] | those[1] | those[2]) == 0)
+        flags = static_cast<std::uint8_t>((flags & ~kPreserving) | (preserving ? kPreserving : 0));
+    if (((flags & kPreserving) != 0) != preserving)
+        return false;
+    taken[corner] = 1;
+    return true;
+}
+
+// Which group a triangle without a direction joins depends on the order of the corners: one after the
+// other. What no group reaches gets any tangent.
+void averageInOrder(Triangles& t, const CornersAt& at, std::span<glm::vec4> out)
+{
+    const auto [left, right] = allRings(t, at);
+    std::vector<std::uint8_t> taken(t.corners());
+    std::vector<std::uint32_t> group, groups, starts{0};
+    for (std::uint32_t c = 0; c < t.corners(); ++c) {
+        if (taken[c] != 0 || t.has(c / 3, kJoinsAny))
+            continue;
+        const bool preserving = t.has(c / 3, kPreserving);
+        walk(c, left, right, [&](std::uint32_t i) {
+            const bool joined = join(t, taken, i, preserving);
+            if (joined)
+                groups.push_back(i);
+            return joined;
+        });
+        starts.push_back(static_cast<std::uint32_t>(groups.size()));
+    }
+    Members members;
+    for (std::size_t g = 0; g + 1 < starts.size(); ++g)
+        averageGroup(t, std::span(groups).subspan(starts[g], starts[g + 1] - starts[g]), members, out);
     for (std::size_t c = 0; c < out.size(); ++c)
-        if (t.taken[c] == 0)
-            out[c] = {tangents::anyPerpendicular(t.mesh.normals[t.vertices[c]]), 1};
+        if (taken[c] == 0)
+            out[c] = {tangents::anyPerpendicular(t.normal(c)), 1};
 }
 
 // A triangle with two equal positions takes over what the first sound triangle at each vertex has.
-void inheritAtDegenerate(const Triangles& t, std::vector<glm::vec4>& out)
+void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm::vec4> out)
 {
-    const auto degenerate = [&](std::size_t c) { return (t.flags[c / 3] & kDegenerate) != 0; };
-    std::vector<std::uint32_t> donor(t.mesh.positions.size(), kNone);
-    for (std::size_t c = out.size(); c-- > 0;)
-        if (!degenerate(c))
-            donor[t.vertices[c]] = static_cast<std::uint32_t>(c);
     for (std::size_t c = 0; c < out.size(); ++c)
-        if (degenerate(c) && donor[t.vertices[c]] != kNone)
-            out[c] = out[donor[t.vertices[c]]];
+        if (t.has(c / 3, kDegenerate))
+            if (const auto sound = at[t.vertices[c]]; !sound.empty())
+                out[c] = out[sound.front()];
 }
+
+// Starting a thread takes as long as some thousands of triangles.
+constexpr std::size_t kTrianglesPerThread = 8192;
 
 } // namespace
 
@@ -351,29 +324,16 @@ std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
 {
     if (!tangents::usable(mesh))
         return {};
-    const std::size_t count = mesh.indices.size() / 3;
-    const std::size_t used = threadsFor(count, kTrianglesPerThread, threads);
-    Triangles t{mesh,
-                weldedIndices(mesh, used),
-                std::vector<std::uint8_t>(count),
-                std::vector<std::uint8_t>(mesh.indices.size()),
-                std::vector<glm::vec3>(count),
-                std::vector<glm::vec3>(count),
-                {}};
-    runParts(count, used, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f)
-            deriveTriangle(t, f);
-    });
-    findNeighbours(t, used);
-    const std::vector<Groups> parts = collectGroups(t, used);
-    t.neighbours = {};
-
+    const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
     std::vector<glm::vec4> out(mesh.indices.size());
-    for (const Groups& groups : parts)
-        averageGroups(t, groups, used, out);
-    fillUngrouped(t, out);
-    if (std::any_of(t.flags.begin(), t.flags.end(), [](auto f) { return (f & kDegenerate) != 0; }))
-        inheritAtDegenerate(t, out);
+    Triangles t = makeTriangles(mesh, used, out);
+    const CornersAt at = cornersByVertex(t, used);
+    if (std::any_of(t.flags.get(), t.flags.get() + t.count, [](auto f) { return (f & kJoinsAny) != 0; })) {
+        averageInOrder(t, at, out);
+        inheritAtDegenerate(t, at, out);
+    } else {
+        averageByVertex(t, at, used, out);
+    }
     return out;
 }
 

@@ -17,6 +17,7 @@
 namespace cotan::tangents {
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint64_t kEmpty = std::numeric_limits<std::uint64_t>::max();
 
 // Whether the arrays fit together and every index is in range.
 bool usable(const MeshView& mesh);
@@ -52,18 +53,20 @@ std::vector<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key,
         std::size_t size = 0;
         for (std::uint32_t i = 0; i < count; ++i)
             size += mine(i);
-        std::vector<std::uint32_t> table(std::bit_ceil(size * 3 / 2 + 1), kNone);
+        // Hash and index side by side: most that differ are told apart without another look into memory.
+        std::vector<std::uint64_t> table(std::bit_ceil(size * 3 / 2 + 1), kEmpty);
         const std::size_t mask = table.size() - 1;
         for (std::uint32_t i = 0; i < count; ++i) {
             if (!mine(i))
                 continue;
-            std::size_t slot = hashes[i] & mask;
-            while (table[slot] != kNone
-                   && (hashes[table[slot]] != hashes[i] || key(table[slot]) != key(i)))
+            const std::uint32_t hash = hashes[i];
+            const auto indexAt = [&](std::size_t s) { return static_cast<std::uint32_t>(table[s]); };
+            std::size_t slot = hash & mask;
+            while (table[slot] != kEmpty && (table[slot] >> 32 != hash || key(indexAt(slot)) != key(i)))
                 slot = (slot + 1) & mask;
-            if (table[slot] == kNone)
-                table[slot] = i;
-            first[i] = table[slot];
+            if (table[slot] == kEmpty)
+                table[slot] = std::uint64_t(hash) << 32 | i;
+            first[i] = indexAt(slot);
         }
     });
     return first;

@@ -18,12 +18,20 @@ constexpr double kFieldOfView = 45; // degrees, vertical
 constexpr double kLines = 1080;     // of the picture
 constexpr double kHalfDegree = 0.5;
 
-glm::dmat3 placing(const Scene& scene, std::size_t mesh)
+// How instances move a mesh, alike ones once; as it stands if there is none.
+std::vector<std::vector<glm::dmat3>> placings(const Scene& scene)
 {
-    for (const Instance& i : scene.instances)
-        if (std::size_t(i.mesh) == mesh)
-            return glm::dmat3(glm::dmat4(i.toWorld));
-    return glm::dmat3(1);
+    std::vector<std::vector<glm::dmat3>> result(scene.meshes.size());
+    for (const Instance& i : scene.instances) {
+        auto& known = result[std::size_t(i.mesh)];
+        const glm::dmat3 here(glm::dmat4(i.toWorld));
+        if (std::none_of(known.begin(), known.end(), [&](const glm::dmat3& k) { return alikeForFrames(k, here); }))
+            known.push_back(here);
+    }
+    for (auto& known : result)
+        if (known.empty())
+            known.push_back(glm::dmat3(1));
+    return result;
 }
 
 // Where a sphere around everything just fits into the picture.
@@ -63,6 +71,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     PrimitiveLint p;
     p.mesh = mesh.name;
     p.material = material.name;
+    p.tangentsFor = material.tangentsFor;
     p.triangles = mesh.triangleCount();
     p.hasUv = !surface.uv.empty();
     p.uv = lint::uvQuality(surface);
@@ -78,17 +87,26 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     return p;
 }
 
-// Primitives that read the same normal map share its texels; one without a map stands alone.
+// Primitives that read the same normal map share its texels; one without a map stands alone. A mesh that
+// is placed several times counts once.
 void addOverlaps(LintReport& report, const std::vector<MappedSurface>& surfaces)
 {
     std::map<int, std::pair<std::vector<const MappedSurface*>, std::vector<UvQuality*>>> groups;
+    auto& primitives = report.primitives;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        const int key = report.primitives[i].image >= 0 ? report.primitives[i].image : -1 - int(i);
+        if (primitives[i].placing > 0)
+            continue;
+        const int key = primitives[i].image >= 0 ? primitives[i].image : -1 - int(i);
         groups[key].first.push_back(&surfaces[i]);
-        groups[key].second.push_back(&report.primitives[i].uv);
+        groups[key].second.push_back(&primitives[i].uv);
     }
     for (const auto& [key, group] : groups)
         lint::countOverlaps(group.first, group.second);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        if (primitives[i].placing > 0) {
+            primitives[i].uv.overlapping = primitives[i - 1].uv.overlapping;
+            primitives[i].uv.overlappingMirrored = primitives[i - 1].uv.overlappingMirrored;
+        }
 }
 
 void addMaps(LintReport& report, const Scene& scene)
@@ -112,11 +130,17 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
     LintReport report;
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MappedSurface> surfaces;
+    const auto placed = placings(scene);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
-        surfaces.push_back(
-            makeSurface(mesh, scene.materials[std::size_t(mesh.material)].normalMap, placing(scene, i)));
-        report.primitives.push_back(lintPrimitive(scene, mesh, surfaces.back(), report.distance));
+        const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
+        for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
+            surfaces.push_back(makeSurface(mesh, map, placed[i][k]));
+            PrimitiveLint p = lintPrimitive(scene, mesh, surfaces.back(), report.distance);
+            p.placing = k;
+            p.placings = placed[i].size();
+            report.primitives.push_back(std::move(p));
+        }
     }
     addOverlaps(report, surfaces);
     addMaps(report, scene);

@@ -89,7 +89,36 @@ std::string defects(LintReport& report)
         text = fmt::format("The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
                            "{:.0f} degrees on {:.0f} %. ", 100 * s.reversedW, kTurned, 100 * s.turned);
     if (!green.empty())
-        text += fmt::format("Green seems to point the other way in {}. ", green);
+        text += fmt::format("Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it). ", green);
+    return text;
+}
+
+// Which extension reads tangents in which material, as a sentence; empty if none.
+std::string otherReaders(const LintReport& report)
+{
+    std::string names;
+    for (const PrimitiveLint& p : report.primitives) {
+        const std::string name = p.material.empty() ? "a material" : p.material;
+        const std::string one = fmt::format("{} ({})", name, p.tangentsFor);
+        if (!p.tangentsFor.empty() && names.find(one) == std::string::npos)
+            names += (names.empty() ? "" : ", ") + one;
+    }
+    return names.empty() ? "" : fmt::format(" Tangents are also read by what is not looked at here and stay for it: {}.", names);
+}
+
+// The primitive with the largest mean error of that reading among those where somebody might see it; empty
+// if there is none.
+std::string worstReading(const LintReport& report, const std::string& name)
+{
+    std::string text;
+    double worst = 0;
+    for (const PrimitiveLint& p : report.primitives)
+        for (const Reading& r : p.readings)
+            if (r.name == name && (r.error.mean > kUnseenMean || r.error.percentile95 > kUnseen95) && r.error.mean > worst) {
+                worst = r.error.mean;
+                text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", p.mesh.empty() ? p.material : p.mesh,
+                                   r.error.mean, r.error.percentile95);
+            }
     return text;
 }
 
@@ -101,8 +130,10 @@ void recommend(LintReport& report)
     for (const PrimitiveLint& p : report.primitives)
         anyMap = anyMap || !p.readings.empty();
     if (!anyMap) {
-        report.recommendation =
-            "No primitive has a normal map and uv to read it with: nothing here uses tangents, they can be dropped.";
+        const std::string others = otherReaders(report);
+        report.recommendation = "No primitive has a normal map and uv to read it with: "
+            + (others.empty() ? std::string("nothing here uses tangents, they can be dropped.")
+                              : "no normal map uses tangents." + others);
         return;
     }
     const std::string notes = defects(report);
@@ -115,8 +146,10 @@ void recommend(LintReport& report)
     if (orthonormal.mean < kUnseenMean && orthonormal.percentile95 < kUnseen95) {
         report.advice = Advice::readOrthonormal;
         report.recommendation = notes
-            + fmt::format("If the maps were made for MikkTSpace, read them as they are with the frame orthonormal "
-                          "({:.2f} degrees mean) and drop the tangents.", orthonormal.mean);
+            + fmt::format("If the maps were made for MikkTSpace, they can be read without tangents with the frame orthonormal, "
+                          "{:.2f} degrees off on average{}. The command drops the tangents and fits those maps to that frame that gain by it.",
+                          orthonormal.mean, worstReading(report, "orthonormal"))
+            + otherReaders(report);
         return;
     }
     const bool creases = steps.percentile95 > kCreases95;
@@ -126,7 +159,8 @@ void recommend(LintReport& report)
                       "average (orthonormal; cotangent {:.1f}): convert them to {}{}.",
                       orthonormal.mean, cotangent.mean, creases ? "smooth" : "cotangent",
                       creases ? fmt::format(", because cotangent steps by up to {:.0f} degrees at edges (95 %)",
-                                            steps.percentile95) : "");
+                                            steps.percentile95) : "")
+        + otherReaders(report);
 }
 
 } // namespace cotan::lint

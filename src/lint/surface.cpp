@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
@@ -32,8 +34,7 @@ std::vector<glm::vec2> uvOfMap(const Mesh& mesh, const Texture& map)
     if (uv.size() != mesh.vertexCount())
         return {};
     for (glm::vec2& c : uv) {
-        if (map.present())
-            c = {map.uRow.x * c.x + map.uRow.y * c.y + map.uRow.z, map.vRow.x * c.x + map.vRow.y * c.y + map.vRow.z};
+        c = textureUv(map, c);
         c = {float(finiteOrZero(c.x)), float(finiteOrZero(c.y))};
     }
     return uv;
@@ -122,6 +123,17 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     surface.vertex = moved(t, vertexTangents(view));
     addCotangents(surface, view, t);
     return surface;
+}
+
+bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
+{
+    const glm::dmat3 ga = glm::transpose(a) * a, gb = glm::transpose(b) * b;
+    const double ta = ga[0][0] + ga[1][1] + ga[2][2], tb = gb[0][0] + gb[1][1] + gb[2][2];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(std::abs(ga[i][j] * tb - gb[i][j] * ta) <= 1e-5 * ta * tb))
+                return false;
+    return true;
 }
 
 bool viewIndependent(Frame frame)

@@ -53,8 +53,16 @@ const char* name(TangentVerdict verdict)
     return names[std::size_t(verdict)];
 }
 
+// Smaller ones are rounding.
+std::string degreesText(double degrees)
+{
+    return degrees < 0.001 ? "under 0.001" : fmt::format("{:.3g}", degrees);
+}
+
 std::string directions(const AngleStatistics& s)
 {
+    if (s.maximum <= kEqualDegrees)
+        return fmt::format("equal (max {} degrees)", degreesText(s.maximum));
     return fmt::format("mean {:.3g}, median {:.3g}, 95 % {:.3g}, 99 % {:.3g}, max {:.3g} degrees",
                        s.mean, s.median, s.percentile95, s.percentile99, s.maximum);
 }
@@ -107,7 +115,7 @@ std::string toText(const TangentDifference& d, const std::string& reference)
     switch (verdictOf(d)) {
     case TangentVerdict::nothing: line = "nothing to compare"; break;
     case TangentVerdict::equal:
-        line = fmt::format("equal to {} (max {:.3g} degrees)", reference, s.maximum);
+        line = fmt::format("equal to {} (max {} degrees)", reference, degreesText(s.maximum));
         break;
     case TangentVerdict::inverted:
         line = fmt::format("w inverted against {} on {} of the corners; directions {}", reference,
@@ -115,13 +123,17 @@ std::string toText(const TangentDifference& d, const std::string& reference)
         break;
     case TangentVerdict::turned:
         line = fmt::format("half of them turned against {}: {} point the other way; w different "
-                           "on {}; directions {}",
+                           "on {} of the corners; directions {}",
                            reference, percent(turnedShare(d)), percent(invertedShare(d)),
                            directions(s));
         break;
     case TangentVerdict::off:
-        line = fmt::format("off {} by {}; w different on {}", reference, directions(s),
-                           percent(invertedShare(d)));
+        line = s.maximum <= kEqualDegrees
+            ? fmt::format("directions equal to {}", reference)
+            : fmt::format("off {} by {}", reference, directions(s));
+        line += d.handedness == 0
+            ? "; w equal"
+            : fmt::format("; w different on {} of {} corners", d.handedness, d.degrees.size());
         break;
     }
     if (d.degenerate > 0)

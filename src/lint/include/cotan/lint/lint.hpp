@@ -16,6 +16,7 @@ namespace cotan {
 inline constexpr double kStretched = 1.2; // the longer gradient over the shorter: an orthonormal frame is 2 degrees off
 inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle
 inline constexpr double kTurned = 45;     // degrees between a stored tangent and dP/du
+inline constexpr std::size_t kMostPlacings = 8; // of one mesh
 inline constexpr double kTestTilt = 35;   // degrees: the texel whose step across edges is measured
 
 struct UvQuality {
@@ -53,6 +54,10 @@ struct Reading {
 
 struct PrimitiveLint {
     std::string mesh, material;
+    // Instances of one mesh that stretch it differently are reported apart: this is number `placing`, from
+    // 0, of `placings`; of those only the first kMostPlacings.
+    std::size_t placing = 0, placings = 1;
+    std::string tangentsFor; // an extension of the material that reads tangents and is not looked at
     int image = -1; // of the normal map; -1: none
     std::size_t triangles = 0;
     bool hasUv = false;
@@ -91,8 +96,9 @@ struct LintOptions {
     double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
 };
 
-// Looks at every primitive (mesh) of the scene, moved as its first instance moves it. Never fails:
-// primitives without triangles or uv are listed with what is known.
+// Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
+// mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed
+// with what is known.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
 
 } // namespace cotan

@@ -41,6 +41,10 @@ struct MappedSurface {
 // finite are taken as 0, and `mikktspace`, `vertex` and cotangents stay as their generators say.
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear = glm::dmat3(1));
 
+// Whether two linear maps differ by a rotation, a mirroring and a uniform scale only: all frames go along
+// with these, so that one surface stands for both.
+bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b);
+
 // Whether the frame at a point is the same from wherever it is seen: only then a map can be made for it.
 bool viewIndependent(Frame frame);
 

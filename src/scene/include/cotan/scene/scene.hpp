@@ -67,6 +67,7 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;
+    std::string tangentsFor;         // an extension that reads tangents and is not drawn here; empty if none
 };
 
 // Triangles with one material. Every attribute array is empty or has vertexCount() entries.

@@ -1,0 +1,28 @@
+// What the commands that rewrite glTF files have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "cotan/asset/gltf_edit.hpp"
+
+namespace cotan::app {
+
+// Whether a file is named as glTF, .gltf or .glb in any case.
+bool namedAsGltf(const std::filesystem::path& file);
+
+// Whether MODEL is named as glTF. Errors: ErrorKind::usage, also for an -o that is not .gltf or .glb in
+// lower case; ErrorKind::output where the folder of -o does not exist. No -o is no error here.
+Status checkGltfNames(const std::string& model, const std::filesystem::path& output);
+
+struct OpenedGltf {
+    GltfDocument document;
+    std::vector<std::string> warnings; // of loading; the user has been told
+};
+
+// Opens a model to change it. Everything in the file is looked at, images too: what cannot be shown is
+// not rewritten. Errors: ErrorKind::input.
+Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common);
+
+} // namespace cotan::app

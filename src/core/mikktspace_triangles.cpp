@@ -1,0 +1,175 @@
+#include "mikktspace_triangles.hpp"
+
+#include <algorithm>
+
+namespace cotan::mikktspace {
+
+namespace {
+
+using tangents::fastArcCosine;
+using tangents::projectedAngle;
+using tangents::projectedUnit;
+
+// What follows is written without branches, so that compilers do it for several triangles at once.
+
+struct Directions {
+    glm::vec3 u, v; // unit dP/du, dP/dv, or zero
+    bool preserving, joinsAny, degenerate;
+};
+
+inline bool equal(glm::vec3 a, glm::vec3 b)
+{
+    return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
+}
+
+inline glm::vec3 select(bool condition, glm::vec3 v)
+{
+    return {condition ? v.x : 0.0f, condition ? v.y : 0.0f, condition ? v.z : 0.0f};
+}
+
+// dP/du and dP/dv up to length, and whether uv keep the orientation. c0, c1, c2: uv of the corners.
+inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::vec2 c0, glm::vec2 c1, glm::vec2 c2)
+{
+    const bool equal01 = equal(p0, p1), equal02 = equal(p0, p2), equal12 = equal(p1, p2);
+    const bool degenerate = equal01 | equal02 | equal12;
+    const glm::vec3 d1 = p1 - p0, d2 = p2 - p0;
+    const glm::vec2 e1 = c1 - c0, e2 = c2 - c0;
+    const float area = e1.x * e2.y - e1.y * e2.x, size = std::abs(area);
+    const bool usable = (size > FLT_MIN) & !degenerate;
+    const float sign = area > 0 ? 1.0f : -1.0f;
+    const glm::vec3 u = d1 * e2.y - d2 * e1.y, v = d2 * e1.x - d1 * e2.x;
+    const float lengthU = std::sqrt(glm::dot(u, u)), lengthV = std::sqrt(glm::dot(v, v));
+    const bool directed = usable & (lengthU / size > FLT_MIN) & (lengthV / size > FLT_MIN);
+    return {select(usable & (lengthU > FLT_MIN), u * (sign / lengthU)),
+            select(usable & (lengthV > FLT_MIN), v * (sign / lengthV)),
+            area > 0 && !degenerate, !directed, degenerate};
+}
+
+// tangents::projectedUnit(u, n) * tangents::projectedAngle(p, previous, next, n), if `sound`.
+struct Contribution {
+    glm::vec3 value;
+    bool sound; // no length that would have to be taken in double
+};
+
+inline Contribution contributionOf(glm::vec3 u, glm::vec3 n, glm::vec3 p, glm::vec3 previous, glm::vec3 next)
+{
+    const glm::vec3 t = u - n * glm::dot(n, u);
+    const glm::vec3 toPrevious = previous - p, toNext = next - p;
+    const glm::vec3 a = toPrevious - n * glm::dot(n, toPrevious);
+    const glm::vec3 b = toNext - n * glm::dot(n, toNext);
+    const float tt = glm::dot(t, t), aa = glm::dot(a, a), bb = glm::dot(b, b);
+    const bool sound = (tt > 1e-15f) & (tt < 1e15f) & (aa > 1e-15f) & (aa < 1e15f) & (bb > 1e-15f) & (bb < 1e15f);
+    return {t * (1 / std::sqrt(tt)) * fastArcCosine(glm::dot(a, b) / std::sqrt(aa * bb)), sound};
+}
+
+// Triangles side by side, one a lane.
+constexpr std::size_t kLanes = 16;
+using Lane = float[kLanes];
+
+struct Batch {
+    Lane position[3][3], normal[3][3], texcoord[3][2]; // corner, axis
+    Lane u[3], v[3];
+    Lane contribution[3][3];
+    std::int32_t flags[kLanes], sound[kLanes];
+
+    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane) { return {axes[0][lane], axes[1][lane], axes[2][lane]}; }
+    static void put(Lane (&axes)[3], std::size_t lane, glm::vec3 v)
+    {
+        axes[0][lane] = v.x;
+        axes[1][lane] = v.y;
+        axes[2][lane] = v.z;
+    }
+
+    void deriveDirections()
+    {
+        for (std::size_t l = 0; l < kLanes; ++l) {
+            const Directions d =
+                directionsOf(vector(position[0], l), vector(position[1], l), vector(position[2], l),
+                             {texcoord[0][0][l], texcoord[0][1][l]}, {texcoord[1][0][l], texcoord[1][1][l]},
+                             {texcoord[2][0][l], texcoord[2][1][l]});
+            put(u, l, d.u);
+            put(v, l, d.v);
+            flags[l] = (d.preserving ? kPreserving : 0) | (d.joinsAny ? kJoinsAny : 0) | (d.degenerate ? kDegenerate : 0);
+        }
+    }
+
+    void deriveContributions(std::size_t k)
+    {
+        const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
+        for (std::size_t l = 0; l < kLanes; ++l) {
+            const Contribution c = contributionOf(vector(u, l), vector(n, l), vector(p, l), vector(previous, l), vector(next, l));
+            put(contribution[k], l, select((flags[l] & kJoinsAny) == 0, c.value));
+            sound[l] &= c.sound ? 1 : 0;
+        }
+    }
+};
+
+void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& batch)
+{
+    for (std::size_t l = 0; l < lanes; ++l)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t corner = 3 * (first + l) + k;
+            Batch::put(batch.position[k], l, t.position(corner));
+            Batch::put(batch.normal[k], l, t.normal(corner));
+            const glm::vec2 uv = t.texcoord(corner);
+            batch.texcoord[k][0][l] = uv.x;
+            batch.texcoord[k][1][l] = uv.y;
+        }
+}
+
+void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles& t, std::span<glm::vec4> contributions)
+{
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const std::size_t f = first + l;
+        t.flags[f] = static_cast<std::uint8_t>(batch.flags[l]);
+        t.alongV[f] = Batch::vector(batch.v, l);
+        for (std::size_t k = 0; k < 3; ++k)
+            contributions[3 * f + k] = glm::vec4(
+                batch.sound[l] != 0 ? Batch::vector(batch.contribution[k], l)
+                                    : projectedUnit(Batch::vector(batch.u, l), t.normal(3 * f + k)) * weightOf(t, 3 * f + k),
+                0);
+    }
+}
+
+} // namespace
+
+Triangles makeTriangles(const MeshView& mesh, std::size_t threads, std::span<glm::vec4> contributions)
+{
+    const std::size_t count = mesh.indices.size() / 3;
+    const std::vector<std::uint32_t> firstVertex = tangents::weld(mesh, threads);
+    Triangles t{mesh,
+                count,
+                std::make_unique_for_overwrite<std::uint32_t[]>(3 * count),
+                std::make_unique_for_overwrite<std::uint8_t[]>(count),
+                std::make_unique_for_overwrite<glm::vec3[]>(count)};
+    runParts(count, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = 3 * begin; c < 3 * end; ++c)
+            t.vertices[c] = firstVertex[mesh.indices[c]];
+        const auto batch = std::make_unique<Batch>();
+        for (std::size_t first = begin; first < end; first += kLanes) {
+            const std::size_t lanes = std::min(kLanes, end - first);
+            gather(t, first, lanes, *batch);
+            std::fill_n(batch->sound, kLanes, 1);
+            batch->deriveDirections();
+            for (std::size_t k = 0; k < 3; ++k)
+                batch->deriveContributions(k);
+            scatter(*batch, first, lanes, t, contributions);
+        }
+    });
+    return t;
+}
+
+glm::vec3 alongU(const Triangles& t, std::size_t f)
+{
+    return directionsOf(t.position(3 * f), t.position(3 * f + 1), t.position(3 * f + 2), t.texcoord(3 * f),
+                        t.texcoord(3 * f + 1), t.texcoord(3 * f + 2)).u;
+}
+
+float weightOf(const Triangles& t, std::size_t c)
+{
+    if (t.has(c / 3, kJoinsAny))
+        return 0;
+    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
+}
+
+} // namespace cotan::mikktspace

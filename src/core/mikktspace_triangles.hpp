@@ -1,0 +1,52 @@
+// First step of MikkTSpace: what every triangle gives by itself to the tangents at its corners.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "tangents_mesh.hpp"
+
+namespace cotan::mikktspace {
+
+// One byte of state a triangle.
+enum Flag : std::uint8_t {
+    kPreserving = 1, // positive signed area in uv (v upwards or downwards, as given)
+    kJoinsAny = 2,   // no usable direction: joins the first group that reaches it
+    kDegenerate = 4, // two equal positions: takes part in nothing
+};
+
+struct Triangles {
+    const MeshView& mesh;
+    std::size_t count = 0;
+    std::unique_ptr<std::uint32_t[]> vertices; // welded, three a triangle
+    std::unique_ptr<std::uint8_t[]> flags;     // of Flag, one a triangle
+    std::unique_ptr<glm::vec3[]> alongV;       // per triangle: unit dP/dv, or zero
+
+    std::size_t corners() const { return 3 * count; }
+    bool has(std::size_t triangle, int flag) const { return (flags[triangle] & flag) != 0; }
+    glm::vec3 position(std::size_t corner) const { return mesh.positions[vertices[corner]]; }
+    glm::vec3 normal(std::size_t corner) const { return mesh.normals[vertices[corner]]; }
+    glm::vec2 texcoord(std::size_t corner) const { return mesh.texcoords[vertices[corner]]; }
+};
+
+constexpr std::size_t nextCorner(std::size_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
+constexpr std::size_t previousCorner(std::size_t corner)
+{
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+// Welds and derives. contributions gets for every corner dP/du in the plane of its normal, unit, times the
+// angle with which the triangle counts there.
+Triangles makeTriangles(const MeshView& mesh, std::size_t threads, std::span<glm::vec4> contributions);
+
+// Unit dP/du of a triangle, or zero.
+glm::vec3 alongU(const Triangles& t, std::size_t triangle);
+
+// The angle with which a corner's triangle counts; 0 for one without a direction.
+float weightOf(const Triangles& t, std::size_t corner);
+
+} // namespace cotan::mikktspace

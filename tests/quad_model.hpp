@@ -1,0 +1,67 @@
+// A small glTF model for tests of commands, its parts in separate files.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/shapes.hpp"
+
+namespace cotan::test {
+
+using nlohmann::json;
+
+// A rectangle in xy with TANGENT and a map of waves, as JSON and a buffer to be changed and written.
+struct Made {
+    json root;
+    std::string bytes;
+    int add(const std::vector<float>& values, const char* type, int width)
+    {
+        const std::size_t offset = bytes.size();
+        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(float)}});
+        root["accessors"].push_back({{"bufferView", int(root["bufferViews"].size()) - 1}, {"componentType", 5126}, {"type", type},
+                                     {"count", values.size() / std::size_t(width)}});
+        return int(root["accessors"].size()) - 1;
+    }
+};
+
+// stretch: how much wider than high what the unit square of uv covers. uvScale: in the vertices.
+inline Made quad(float stretch, float uvScale = 1)
+{
+    Made m;
+    m.root = {{"asset", {{"version", "2.0"}, {"extras", {{"keep", "me"}}}}}, {"scene", 0}};
+    const std::vector<float> positions = {0, 0, 0, stretch, 0, 0, stretch, 1, 0, 0, 0, 0, stretch, 1, 0, 0, 1, 0};
+    std::vector<float> normals, tangents;
+    const float u = uvScale;
+    const std::vector<float> uv = {0, u, u, u, u, 0, 0, u, u, 0, 0, 0};
+    for (int i = 0; i < 6; ++i) {
+        normals.insert(normals.end(), {0, 0, 1});
+        tangents.insert(tangents.end(), {1, 0, 0, 1});
+    }
+    const int p = m.add(positions, "VEC3", 3), n = m.add(normals, "VEC3", 3), t = m.add(tangents, "VEC4", 4), c = m.add(uv, "VEC2", 2);
+    m.root["accessors"][std::size_t(p)]["min"] = {0, 0, 0};
+    m.root["accessors"][std::size_t(p)]["max"] = {stretch, 1, 0};
+    m.root["meshes"] = json::array({{{"name", "quad"}, {"primitives", json::array({{{"attributes", {{"POSITION", p}, {"NORMAL", n}, {"TANGENT", t}, {"TEXCOORD_0", c}}}, {"material", 0}}})}}});
+    m.root["nodes"] = json::array({{{"mesh", 0}}});
+    m.root["scenes"] = json::array({{{"nodes", {0}}}});
+    m.root["materials"] = json::array({{{"name", "relief"}, {"normalTexture", {{"index", 0}}}, {"extras", {{"mine", 7}}}}});
+    m.root["textures"] = json::array({{{"source", 0}}});
+    m.root["images"] = json::array({{{"uri", "waves.png"}}});
+    return m;
+}
+
+inline void write(Made m, const std::filesystem::path& folder)
+{
+    std::ofstream(folder / "quad.bin", std::ios::binary) << m.bytes;
+    m.root["buffers"] = json::array({{{"byteLength", m.bytes.size()}, {"uri", "quad.bin"}}});
+    std::ofstream(folder / "quad.gltf") << m.root.dump();
+    ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, 128)));
+}
+
+} // namespace cotan::test
