@@ -1,23 +1,38 @@
-// The module of image formats: OpenImageIO behind the two functions of image_formats.hpp.
-#include "image_formats.hpp"
+// The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
+#include "image_oiio.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <exception>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "extension.hpp"
 #include "image_convert.hpp"
+#include "image_formats.hpp"
 #include "image_limits.hpp"
 
 namespace cotan {
 
+namespace oiio {
+
 namespace {
+
+template<class T> void complete(T* pixel, std::size_t count, int channels, T one)
+{
+    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
+        if (channels == 2)
+            pixel[3] = pixel[1];
+        if (channels <= 2)
+            pixel[1] = pixel[2] = pixel[0];
+        if (channels == 1 || channels == 3)
+            pixel[3] = one;
+    }
+}
+
+} // namespace
 
 std::string oneLine(std::string text)
 {
@@ -27,8 +42,6 @@ std::string oneLine(std::string text)
     return text;
 }
 
-// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
-// as extensions are often wrong.
 std::string formatOf(std::span<const std::byte> bytes)
 {
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
@@ -36,7 +49,8 @@ std::string formatOf(std::span<const std::byte> bytes)
     if (head.starts_with("\xff\xd8\xff"))
         return "jpeg";
     using namespace std::string_view_literals;
-    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv))
+    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv)
+        || head.starts_with("MM\0+"sv))
         return "tiff";
     if (head.starts_with("\x76\x2f\x31\x01"))
         return "openexr";
@@ -63,30 +77,66 @@ OIIO::TypeDesc typeDesc(PixelType type)
     return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
-// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
-template<class T> void completeChannels(T* pixel, std::size_t count, int channels, T one)
-{
-    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
-        if (channels == 2)
-            pixel[3] = pixel[1];
-        if (channels <= 2)
-            pixel[1] = pixel[2] = pixel[0];
-        if (channels == 1 || channels == 3)
-            pixel[3] = one;
-    }
-}
-
 void completeChannels(Image& image, int channels)
 {
     switch (image.type) {
     case PixelType::unorm8:
-        return completeChannels<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
+        return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
     case PixelType::unorm16:
-        return completeChannels<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
+        return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
     case PixelType::float32:
-        return completeChannels<float>(image.floats(), image.pixelCount(), channels, 1.0f);
+        return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
     }
 }
+
+std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
+{
+    if (spec.depth > 1 || spec.deep)
+        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
+    if (spec.nchannels < 1)
+        return inputError(fmt::format("{}: the image has no channels", name));
+    return std::nullopt;
+}
+
+OIIO::ImageSpec readConfig()
+{
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
+    config.attribute("oiio:reorient", 0);
+    return config;
+}
+
+OutputFormat outputFormat(const std::string& extension)
+{
+    if (extension == ".exr")
+        return OutputFormat{.floatOnly = true};
+    if (extension == ".hdr")
+        return OutputFormat{.channels = 3, .floatOnly = true};
+    if (extension == ".tif" || extension == ".tiff")
+        return OutputFormat{};
+    if (extension == ".tga")
+        return OutputFormat{.eightBitOnly = true};
+    return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
+}
+
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension)
+{
+    OIIO::ImageSpec spec(width, height, channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
+    // The same picture gives the same bytes: no time of writing.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (extension == ".exr" || extension == ".tif" || extension == ".tiff")
+        spec.attribute("compression", "zip");
+    if (extension == ".jpg" || extension == ".jpeg")
+        spec.attribute("CompressionQuality", 95);
+    return spec;
+}
+
+} // namespace oiio
+
+using namespace oiio;
+
+namespace {
 
 // What a header may claim beyond the size of the picture: channels that we do not use and the
 // blocks that a reader allocates.
@@ -95,10 +145,8 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
 {
     if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
         return error;
-    if (spec.depth > 1 || spec.deep)
-        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
-    if (spec.nchannels < 1)
-        return inputError(fmt::format("{}: the image has no channels", name));
+    if (auto error = checkLayers(spec, name))
+        return error;
     const double tile = double(spec.tile_width) * double(spec.tile_height);
     const double stored = std::max(double(spec.width) * double(spec.height), tile)
         * double(spec.pixel_bytes(/*native=*/true));
@@ -120,10 +168,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return broken(OIIO::geterror());
     input->threads(1); // callers decode images side by side
     input->set_ioproxy(&memory);
-    OIIO::ImageSpec config, spec;
-    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
-    config.attribute("oiio:reorient", 0);
-    if (!input->open("image." + format, spec, config))
+    OIIO::ImageSpec spec;
+    if (!input->open("image." + format, spec, readConfig()))
         return broken(input->geterror());
     if (auto error = checkSpec(spec, name, limits))
         return *error;
@@ -148,40 +194,6 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
     }
 }
 
-struct OutputFormat {
-    int channels = 4;
-    bool eightBitOnly = false;
-    bool floatOnly = false;
-};
-
-OutputFormat outputFormat(const std::string& extension)
-{
-    if (extension == ".exr")
-        return OutputFormat{.floatOnly = true};
-    if (extension == ".hdr")
-        return OutputFormat{.channels = 3, .floatOnly = true};
-    if (extension == ".tif" || extension == ".tiff")
-        return OutputFormat{};
-    if (extension == ".tga")
-        return OutputFormat{.eightBitOnly = true};
-    return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
-}
-
-OIIO::ImageSpec outputSpec(const Image& image, const OutputFormat& format,
-                           const std::string& extension)
-{
-    const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
-    OIIO::ImageSpec spec(image.width, image.height, format.channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
-    // The same picture gives the same bytes: no time of writing.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (extension == ".exr" || extension == ".tif" || extension == ".tiff")
-        spec.attribute("compression", "zip");
-    if (extension == ".jpg" || extension == ".jpeg")
-        spec.attribute("CompressionQuality", 95);
-    return spec;
-}
-
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
     const std::string extension = lowerExtension(file);
@@ -193,7 +205,8 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         if (!output)
             return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
         output->threads(1);
-        const OIIO::ImageSpec spec = outputSpec(image, format, extension);
+        const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
+        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
         if (!output->open(file.string(), spec)
             || !output->write_image(typeDesc(image.type), image.data.data(),
                                     OIIO::stride_t(image.bytesPerPixel()))
@@ -205,7 +218,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
     return Done{};
 }
 
-constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio};
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows};
 
 } // namespace
 } // namespace cotan
