@@ -79,6 +79,18 @@ TEST(MapCommand, float_formats_keep_signed_values)
     }
 }
 
+TEST(MapCommand, half_floats_keep_directions_to_their_own_rounding)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "directx,signed", "--bits", "half",
+                       "-o", "there.exr"}, folder.path()).code, 0);
+    const auto report = reportOf(runTool({"map", "diff", "map.png", "there.exr", "--to", "directx,signed", "--json", "-"}, folder.path()));
+    // 11 bits of fraction: half a step is 2^-12 of each component, 0.024 degrees for all three at worst.
+    EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.025);
+    EXPECT_GT(report["angles"]["max_degrees"].get<double>(), 0.001); // and it is not stored as float
+}
+
 TEST(MapCommand, heights_come_back_from_normals_within_rounding)
 {
     TemporaryFolder folder;
@@ -185,13 +197,16 @@ TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
     expectRefused(runTool({"map", "diff", "map.png", "map.png", "--from", "nobody"}, folder.path()), 1, folder, "none");
 }
 
-TEST(MapCommand, refuses_pictures_over_the_memory_limit_before_taking_it)
+TEST(MapCommand, what_has_to_be_held_whole_is_refused_over_the_memory_limit_before_taking_it)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 600))); // 1.4 MB
-    const ToolRun run = runTool({"map", "info", "map.png", "--memory", "1"}, folder.path());
-    expectRefused(run, 2, folder, "none");
-    EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+    for (const std::string command : {"to-height", "mips"}) {
+        const ToolRun run = runTool({"map", command, "map.png", "--memory", "1", "-o", "none.png"}, folder.path());
+        expectRefused(run, 2, folder, "none.png");
+        EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(runTool({"map", "info", "map.png", "--memory", "1"}, folder.path()).code, 0); // by rows
 }
 
 TEST(MapCommand, odd_pictures_behave)
