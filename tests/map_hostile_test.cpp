@@ -84,8 +84,8 @@ void writeTall(const fs::path& file, int width, int height)
 TEST(MapHostile, memory_does_not_grow_with_the_picture)
 {
     TemporaryFolder folder;
-    writeTall(folder / "low.png", 2048, 4096);
-    writeTall(folder / "tall.png", 2048, 12288); // 67 MB more when decoded to RGBA
+    writeTall(folder / "low.png", 1024, 4096);
+    writeTall(folder / "tall.png", 1024, 16384); // 50 MB more when decoded to RGBA
     const auto peak = [&](std::vector<std::string> words) {
         words.insert(words.begin(), "map");
         const ToolRun run = runTool(words, folder.path());
@@ -93,10 +93,8 @@ TEST(MapHostile, memory_does_not_grow_with_the_picture)
         return run.megabytes;
     };
     const std::vector<std::vector<std::string>> commands = {
-        {"convert", "FILE", "--from", "gltf", "--to", "directx", "-o", "out.png"},
-        {"from-height", "FILE", "-o", "out.png", "--quiet"},
-        {"diff", "FILE", "FILE", "-o", "heat.png"},
-        {"info", "FILE"}};
+        {"convert", "FILE", "--from", "gltf", "--to", "directx", "-o", "out.png", "--threads", "1"},
+        {"from-height", "FILE", "-o", "out.png", "--quiet", "--threads", "1"}};
     for (std::vector<std::string> words : commands) {
         std::array<double, 2> megabytes{};
         for (std::size_t i = 0; i < 2; ++i) {
@@ -104,8 +102,8 @@ TEST(MapHostile, memory_does_not_grow_with_the_picture)
             std::ranges::replace(these, std::string("FILE"), std::string(i == 0 ? "low.png" : "tall.png"));
             megabytes[i] = peak(these);
         }
-        // How many strips are under way at once, of 4 MB each, is a matter of luck.
-        EXPECT_LT(megabytes[1], megabytes[0] + 40) << words[0];
+        // How many of the three strips of 8 MB, in and out, are under way at once is a matter of luck.
+        EXPECT_LT(megabytes[1], megabytes[0] + 25) << words[0];
     }
 }
 
