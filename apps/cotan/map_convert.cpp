@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cotan/maps/recode.hpp"
+#include "map_object.hpp"
 #include "map_options.hpp"
 #include "map_stream.hpp"
 
@@ -19,7 +20,67 @@ struct Options {
     std::string file, from, to, bits = "auto";
     double strength = 1;
     bool normalise = false, dither = false;
+    MeshOptions mesh;
 };
+
+Status checkSpaces(const Options& o, const Convention& from, const Convention& to)
+{
+    const bool turns = from.kind != to.kind;
+    if (turns == o.mesh.file.empty())
+        return usageError(turns ? "--mesh: between tangent and object space the mesh is needed; found none"
+                                : "--mesh: is for maps between tangent and object space; found both in one");
+    if (turns && o.strength != 1)
+        return usageError("--strength: expected 1 between tangent and object space; convert within tangent space for it");
+    return Done{};
+}
+
+// Reads, turns and writes a whole picture.
+Result<maps::RecodeCounts> byMesh(const Options& o, const maps::RecodeSettings& settings, const Bits& bits)
+{
+    const auto map = openMap(o.file, o.map, settings.from);
+    if (!map)
+        return map.error();
+    maps::RecodeCounts counts;
+    std::size_t shown = 0;
+    const auto out = throughMesh(*map, settings, o.mesh, counts, shown);
+    if (!out)
+        return out.error();
+    if (shown == 0)
+        return inputError(fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", o.mesh.file));
+    if (Status written = writeMap(o.map.common.output, *out, bits); !written)
+        return written.error();
+    say(o.map.common, fmt::format("{}: the mesh shows {:.1f} % of the map; the rest is padding", o.mesh.file,
+                                  100 * double(shown) / double(map->pixelCount())));
+    return counts;
+}
+
+// Strip by strip.
+Result<maps::RecodeCounts> byRows(const Options& o, RowReader& in, const maps::RecodeSettings& settings,
+                                  maps::Swizzle swizzle, const Bits& bits)
+{
+    const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
+    const auto writer = createRows(o.map.common.output, {in.width, in.height, bits.type, alpha, bits.half}, o.map.common.threads);
+    if (!writer)
+        return writer.error();
+    std::atomic<std::size_t> invalid = 0, clamped = 0;
+    const auto work = [&](std::span<Image> strips, int firstRow) -> std::function<Status()> {
+        maps::unswizzle(strips[0], swizzle);
+        maps::RecodeSettings here = settings;
+        here.firstRow = firstRow;
+        maps::RecodeCounts found;
+        Image out = maps::recode(strips[0], here, found);
+        invalid += found.invalid;
+        clamped += found.clamped;
+        return [&writer, out = std::move(out)] { return (*writer)->write(out); };
+    };
+    RowReader* const readers[] = {&in};
+    const Status done = streamStrips(o.map.common, readers, {}, work);
+    if (!done)
+        return done.error();
+    if (Status finished = (*writer)->finish(); !finished)
+        return finished.error();
+    return maps::RecodeCounts{invalid, clamped};
+}
 
 Status run(const Options& o)
 {
@@ -29,6 +90,9 @@ Status run(const Options& o)
         return from.error();
     if (!to)
         return to.error();
+    if (Status fits = checkSpaces(o, *from, *to); !fits)
+        return fits;
+    const bool turns = from->kind != to->kind;
     if (Status given = needOutput(o.map, "convert"); !given)
         return given;
     if (o.strength == 0)
@@ -45,30 +109,12 @@ Status run(const Options& o)
         return bits.error();
     if (Status fits = checkSigned(*to, *bits, o.map.common.output); !fits)
         return fits;
-    const bool alpha = in.alpha && from->channels == Channels::xyz && to->channels == Channels::xyz;
-    const auto writer = createRows(o.map.common.output, {in.width, in.height, bits->type, alpha, bits->half}, o.map.common.threads);
-    if (!writer)
-        return writer.error();
     const maps::RecodeSettings settings{.from = *from, .to = *to, .type = bits->type, .strength = float(o.strength),
                                         .normalise = o.normalise, .dither = o.dither};
-    std::atomic<std::size_t> invalid = 0, clamped = 0;
-    const auto work = [&](std::span<Image> strips, int firstRow) -> std::function<Status()> {
-        maps::unswizzle(strips[0], *swizzle);
-        maps::RecodeSettings here = settings;
-        here.firstRow = firstRow;
-        maps::RecodeCounts found;
-        Image out = maps::recode(strips[0], here, found);
-        invalid += found.invalid;
-        clamped += found.clamped;
-        return [&writer, out = std::move(out)] { return (*writer)->write(out); };
-    };
-    RowReader* const readers[] = {&in};
-    const Status done = streamStrips(o.map.common, readers, {}, work);
-    if (!done)
-        return done;
-    if (Status finished = (*writer)->finish(); !finished)
-        return finished;
-    const maps::RecodeCounts counts{invalid, clamped};
+    const auto converted = turns ? byMesh(o, settings, *bits) : byRows(o, in, settings, *swizzle, *bits);
+    if (!converted)
+        return converted.error();
+    const maps::RecodeCounts counts = *converted;
     const std::string extension = o.map.common.output.extension().string();
     if (counts.invalid > 0)
         warn(o.map.common, fmt::format("{}: {} texels are no direction; written as flat", o.file, counts.invalid));
@@ -103,6 +149,13 @@ Command addMapConvert(CLI::App& map)
     command->add_flag("--normalise", options->normalise,
                       "make every vector unit; otherwise three channels keep their lengths");
     command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
+    command->add_option("--mesh", options->mesh.file, "the mesh of the map, to or from object space")->type_name("FILE");
+    command->add_option("--frame", options->mesh.frame, "with --mesh: the frame that reads the tangent-space map")
+        ->capture_default_str();
+    command->add_option("--material", options->mesh.material, "with --mesh: only what has this material; -1: all")
+        ->check(CLI::Range(-1, 1 << 20))->capture_default_str();
+    command->add_option("--tangents", options->mesh.tangents, "with --mesh: stored, or generated")
+        ->check(CLI::IsMember({"stored", "generated"}))->capture_default_str();
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

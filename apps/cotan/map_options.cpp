@@ -35,6 +35,8 @@ constexpr Word kWords[] = {
     {"orthographic", [](Convention& c) { c.channels = Channels::orthographic; }},
     {"stereographic", [](Convention& c) { c.channels = Channels::stereographic; }},
     {"slope", [](Convention& c) { c.channels = Channels::slope; }},
+    // Axes of a mesh: all three are needed, and green has no picture to be turned against.
+    {"object", [](Convention& c) { c.kind = MapKind::objectSpace, c.channels = Channels::xyz, c.greenUp = true; }},
 };
 
 bool applyWord(const std::string& text, Convention& convention)
