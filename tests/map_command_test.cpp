@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cotan/asset/image_file.hpp"
@@ -77,6 +78,78 @@ TEST(MapCommand, float_formats_keep_signed_values)
         const auto report = reportOf(runTool({"map", "diff", "map.png", name, "--to", "gltf,signed", "--json", "-"}, folder.path()));
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 1e-4) << name; // float rounding
     }
+}
+
+TEST(MapCommand, half_floats_keep_directions_to_their_own_rounding)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "directx,signed", "--bits", "half",
+                       "-o", "there.exr"}, folder.path()).code, 0);
+    const auto report = reportOf(runTool({"map", "diff", "map.png", "there.exr", "--to", "directx,signed", "--json", "-"}, folder.path()));
+    // 11 bits of fraction: half a step is 2^-12 of each component, 0.024 degrees for all three at worst.
+    EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.025);
+    EXPECT_GT(report["angles"]["max_degrees"].get<double>(), 0.001); // and it is not stored as float
+}
+
+// A wavefront file of a grid over the whole map; shape: position of (u, v up), each in [0,1].
+template<class Shape> void writeObj(const fs::path& file, int cells, Shape shape)
+{
+    std::ofstream out(file);
+    for (int j = 0; j <= cells; ++j)
+        for (int i = 0; i <= cells; ++i) {
+            const glm::dvec3 p = shape(double(i) / cells, double(j) / cells);
+            out << "v " << p.x << ' ' << p.y << ' ' << p.z << "\nvt " << double(i) / cells << ' ' << double(j) / cells << '\n';
+        }
+    for (int j = 0; j < cells; ++j)
+        for (int i = 0; i < cells; ++i) {
+            const int a = j * (cells + 1) + i + 1, b = a + 1, c = b + cells + 1, d = c - 1;
+            out << "f " << a << '/' << a << ' ' << b << '/' << b << ' ' << c << '/' << c << ' ' << d << '/' << d << '\n';
+        }
+}
+
+TEST(MapCommand, on_a_plane_that_faces_z_object_space_is_tangent_space_with_green_up)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 48)));
+    writeObj(folder / "plane.obj", 1, [](double u, double v) { return glm::dvec3(u, v, 0); });
+    for (const std::string frame : {"cotangent", "smooth", "mikktspace"}) {
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,exact,object", "--mesh", "plane.obj",
+                           "--frame", frame, "--bits", "16", "-o", "object.png"}, folder.path()).code, 0);
+        const auto report = reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.002) << frame; // sqrt(3)/2 steps of 1/32767, floats
+    }
+}
+
+TEST(MapCommand, object_space_and_back_is_within_rounding_on_a_bent_and_sheared_mesh)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 64)));
+    writeObj(folder / "bent.obj", 8, [](double u, double v) {
+        return glm::dvec3(std::sin(2 * u), 0.7 * v + 0.2 * u, std::cos(2 * u));
+    });
+    for (const std::string frame : {"cotangent", "smooth", "mikktspace", "orthonormal"}) {
+        const auto convert = [&](const std::string& from, const std::string& to, const std::string& in, const std::string& out) {
+            return runTool({"map", "convert", in, "--from", from, "--to", to, "--mesh", "bent.obj", "--frame", frame, "--bits", "16",
+                            "-o", out}, folder.path());
+        };
+        ASSERT_EQ(convert("gltf,exact", "gltf,exact,object", "map.png", "object.png").code, 0);
+        ASSERT_EQ(convert("gltf,exact,object", "directx,exact", "object.png", "back.png").code, 0);
+        const auto report = reportOf(runTool({"map", "diff", "map.png", "back.png", "--to", "directx,exact", "--json", "-"}, folder.path()));
+        // Two roundings of 0.0015 degrees; the frame stretches them by 3 at most (uv 2 x 0.7, sheared by 0.2).
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.008) << frame;
+        const auto turned = reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
+        EXPECT_GT(turned["angles"]["max_degrees"].get<double>(), 90) << frame; // the mesh turns by 115 degrees
+    }
+    const auto refuse = [&](std::vector<std::string> words, int code) {
+        words.insert(words.begin(), {"map", "convert", "map.png", "--from", "gltf", "-o", "none.png"});
+        expectRefused(runTool(words, folder.path()), code, folder, "none.png");
+    };
+    refuse({"--to", "gltf,object"}, 1);
+    refuse({"--to", "directx", "--mesh", "bent.obj"}, 1);
+    refuse({"--to", "gltf,object", "--mesh", "missing.obj"}, 2);
+    refuse({"--to", "gltf,object", "--mesh", "bent.obj", "--frame", "nobody"}, 1);
+    refuse({"--to", "gltf,object", "--mesh", "bent.obj", "--strength", "2"}, 1);
 }
 
 TEST(MapCommand, heights_come_back_from_normals_within_rounding)
@@ -185,13 +258,16 @@ TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
     expectRefused(runTool({"map", "diff", "map.png", "map.png", "--from", "nobody"}, folder.path()), 1, folder, "none");
 }
 
-TEST(MapCommand, refuses_pictures_over_the_memory_limit_before_taking_it)
+TEST(MapCommand, what_has_to_be_held_whole_is_refused_over_the_memory_limit_before_taking_it)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 600))); // 1.4 MB
-    const ToolRun run = runTool({"map", "info", "map.png", "--memory", "1"}, folder.path());
-    expectRefused(run, 2, folder, "none");
-    EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+    for (const std::string command : {"to-height", "mips"}) {
+        const ToolRun run = runTool({"map", command, "map.png", "--memory", "1", "-o", "none.png"}, folder.path());
+        expectRefused(run, 2, folder, "none.png");
+        EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(runTool({"map", "info", "map.png", "--memory", "1"}, folder.path()).code, 0); // by rows
 }
 
 TEST(MapCommand, odd_pictures_behave)

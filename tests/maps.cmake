@@ -2,8 +2,9 @@
 cotan_test(map_test SEPARATE
   SOURCES map_blend_test.cpp map_detect_test.cpp map_height_test.cpp map_mips_test.cpp map_recode_test.cpp
   LIBRARIES cotan_maps cotan_asset)
+find_package(JPEG REQUIRED)
 cotan_test(map_command_test
-  SOURCES map_command_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json)
+  SOURCES map_command_test.cpp map_hostile_test.cpp
+  LIBRARIES cotan_asset JPEG::JPEG nlohmann_json::nlohmann_json)
 target_compile_definitions(map_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(map_command_test cotan)

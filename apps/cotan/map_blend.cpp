@@ -1,6 +1,7 @@
 // `cotan map blend`: a base and a detail as one map.
 #include "map_command.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -8,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
 #include "cotan/maps/blend.hpp"
 #include "map_options.hpp"
+#include "map_stream.hpp"
 
 namespace cotan::app {
 
@@ -63,38 +64,57 @@ Status run(const Options& o)
     const auto tiles = parseTiles(o.tiles);
     if (!tiles)
         return tiles.error();
-    const auto base = openMap(o.base, o.map, s.base);
+    const auto swizzle = swizzleOfFile(o.base, o.map, s.base);
+    if (!swizzle)
+        return swizzle.error();
+    const auto base = openMapRows(o.base, o.map);
     if (!base)
         return base.error();
+    RowReader& in = **base;
     const auto detail = openMap(o.detail, o.map, s.detail);
     if (!detail)
         return detail.error();
     const auto mask = o.mask.empty() ? Result<Image>(Image{}) : openMap(o.mask, o.map);
     if (!mask)
         return mask.error();
-    const auto type = parseBits(o.bits, base->type, o.map.common.output);
-    if (!type)
-        return type.error();
-    if (s.to.expansion == Expansion::signedValues && *type != PixelType::float32)
-        return usageError("--to: signed values need --bits float");
+    const auto bits = parseBits(o.bits, in.type, o.map.common.output);
+    if (!bits)
+        return bits.error();
+    if (Status fits = checkSigned(s.to, *bits, o.map.common.output); !fits)
+        return fits;
     s.mode = *mode;
     s.strength = float(o.strength);
     s.tilesX = tiles->first, s.tilesY = tiles->second;
     s.mask = o.mask.empty() ? nullptr : &*mask;
-    s.type = *type;
+    s.type = bits->type;
     s.dither = o.dither;
-    std::size_t invalid = 0;
-    const Image out = maps::blend(*base, *detail, s, invalid);
-    if (Status written = writeImage(o.map.common.output, out); !written)
-        return written;
+    s.pictureHeight = in.height;
+    const auto writer = createRows(o.map.common.output, {in.width, in.height, bits->type, false, bits->half}, o.map.common.threads);
+    if (!writer)
+        return writer.error();
+    std::atomic<std::size_t> invalid = 0;
+    const auto work = [&](std::span<Image> strips, int firstRow) -> std::function<Status()> {
+        maps::unswizzle(strips[0], *swizzle);
+        maps::BlendSettings here = s;
+        here.firstRow = firstRow;
+        std::size_t found = 0;
+        Image out = maps::blend(strips[0], *detail, here, found);
+        invalid += found;
+        return [&writer, out = std::move(out)] { return (*writer)->write(out); };
+    };
+    RowReader* const readers[] = {&in};
+    if (Status done = streamStrips(o.map.common, readers, {}, work); !done)
+        return done;
+    if (Status finished = (*writer)->finish(); !finished)
+        return finished;
     if (invalid > 0)
-        warn(o.map.common, fmt::format("{} texels are no direction in one of the maps; the other counts alone there", invalid));
-    say(o.map.common, fmt::format("{}: {} x {}, {}: {}, {}", o.map.common.output.string(), out.width, out.height,
-                                  bitsName(*type), o.mode, describe(s.to)));
+        warn(o.map.common, fmt::format("{} texels are no direction in one of the maps; the other counts alone there", invalid.load()));
+    say(o.map.common, fmt::format("{}: {} x {}, {}: {}, {}", o.map.common.output.string(), in.width, in.height,
+                                  bitsName(*bits), o.mode, describe(s.to)));
     return writeReport(o.map.common, {{"command", "map blend"}, {"base", o.base}, {"detail", o.detail},
                                       {"output", o.map.common.output.string()}, {"mode", o.mode},
                                       {"strength", o.strength}, {"tiles", {s.tilesX, s.tilesY}},
-                                      {"to", describe(s.to)}, {"bits", bitsName(*type)}, {"invalid", invalid}});
+                                      {"to", describe(s.to)}, {"bits", bitsName(*bits)}, {"invalid", invalid.load()}});
 }
 
 } // namespace
@@ -113,7 +133,7 @@ Command addMapBlend(CLI::App& map)
     command->add_option("--from", options->from, "how the base is stored: " + conventionWords())->type_name("WORDS")->capture_default_str();
     command->add_option("--detail-from", options->detailFrom, "how the detail is stored; as the base if not given")->type_name("WORDS");
     command->add_option("--to", options->to, "how to store the blend; as the base if not given")->type_name("WORDS");
-    command->add_option("--bits", options->bits, "auto (as the base), 8, 16 or float")->capture_default_str();
+    command->add_option("--bits", options->bits, "auto (as the base), 8, 16, half (.exr) or float")->capture_default_str();
     command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });

@@ -1,37 +1,19 @@
-// `cotan map from-height` and `to-height`.
-#include "map_command.hpp"
+#include "map_height.hpp"
 
 #include <charconv>
 #include <cmath>
-#include <memory>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/maps/height.hpp"
-#include "map_options.hpp"
-
 namespace cotan::app {
 
-namespace {
-
-struct Options {
-    MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel, wrap = "repeat";
-    double range = 0, strength = 1;
-    bool free = false, dither = false;
-};
-
-// "W" or "WxH" in metres; a single number is the width, texels are square then.
-Result<std::pair<double, double>> parseMetres(const std::string& text, const Image& image)
+Result<std::pair<double, double>> parseMetres(const std::string& text, int texelsX, int texelsY)
 {
     // from_chars, as strtod reads "0x1" as one number.
     double width = 0, height = 0;
     const char* const last = text.data() + text.size();
     const char* end = std::from_chars(text.data(), last, width).ptr;
-    height = width * image.height / image.width;
+    height = width * texelsY / texelsX;
     if (end != last && *end == 'x')
         end = std::from_chars(end + 1, last, height).ptr;
     if (end != last || !(width > 0) || !(height > 0) || !std::isfinite(width * height))
@@ -47,202 +29,6 @@ std::optional<maps::Kernel> kernelFromName(const std::string& name)
         if (name == word)
             return kernel;
     return std::nullopt;
-}
-
-std::optional<maps::Wrap> wrapFromName(const std::string& name)
-{
-    using enum maps::Wrap;
-    for (const auto& [word, wrap] : {std::pair("repeat", repeat), {"clamp", clamp}, {"mirror", mirror}})
-        if (name == word)
-            return wrap;
-    return std::nullopt;
-}
-
-// Slope per unit of stored height and texel, across and along.
-Result<std::pair<double, double>> scaleOf(const Options& o, const Image& image)
-{
-    if (o.size.empty() != (o.range == 0))
-        return usageError("from-height: expected --size and --range together, both in metres; found one of them");
-    if (o.size.empty()) {
-        const double texels = o.strength / 100 * image.width;
-        return std::pair(texels, texels);
-    }
-    const auto metres = parseMetres(o.size, image);
-    if (!metres)
-        return metres.error();
-    return std::pair(o.range * image.width / metres->first, o.range * image.height / metres->second);
-}
-
-Status runFromHeight(const Options& o)
-{
-    if (Status given = needOutput(o.map, "from-height"); !given)
-        return given;
-    const auto to = parseConvention(o.convention, "--to");
-    if (!to)
-        return to.error();
-    const auto kernel = kernelFromName(o.kernel);
-    if (!kernel || *kernel == maps::Kernel::spectral)
-        return usageError(fmt::format("--kernel: expected forward, central, sobel or scharr; found '{}'", o.kernel));
-    const auto wrap = wrapFromName(o.wrap);
-    if (!wrap)
-        return usageError(fmt::format("--wrap: expected repeat, clamp or mirror; found '{}'", o.wrap));
-    const auto image = openMap(o.file, o.map);
-    if (!image)
-        return image.error();
-    const auto scale = scaleOf(o, *image);
-    if (!scale)
-        return scale.error();
-    const auto type = parseBits(o.bits, image->type, o.map.common.output);
-    if (!type)
-        return type.error();
-    if (to->expansion == Expansion::signedValues && *type != PixelType::float32)
-        return usageError("--to: signed values need --bits float");
-    std::size_t invalid = 0;
-    const Image out = maps::normalsFromHeight(*image, {.kernel = *kernel, .wrap = *wrap, .scaleX = scale->first,
-                                                       .scaleY = scale->second, .to = *to, .type = *type,
-                                                       .dither = o.dither}, invalid);
-    if (Status written = writeImage(o.map.common.output, out); !written)
-        return written;
-    if (invalid > 0)
-        warn(o.map.common, fmt::format("{}: {} texels have no finite height beside them; written as flat", o.file, invalid));
-    if (image->type == PixelType::unorm8)
-        warn(o.map.common, fmt::format("{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file,
-                                       scale->first / 255 / 2));
-    say(o.map.common, fmt::format("{}: {} x {}, {}: {}", o.map.common.output.string(), out.width, out.height,
-                                  bitsName(*type), describe(*to)));
-    return writeReport(o.map.common, {{"command", "map from-height"}, {"file", o.file},
-                                      {"output", o.map.common.output.string()}, {"to", describe(*to)},
-                                      {"slope_per_unit_and_texel", {scale->first, scale->second}},
-                                      {"bits", bitsName(*type)}, {"invalid", invalid}});
-}
-
-// Heights as a picture: floats in their unit, others stretched from lowest to highest.
-Image picture(const maps::Heights& heights, const Image& map, PixelType type, double unit)
-{
-    Image image = makeImage(map.width, map.height, type, map.name);
-    const double range = heights.highest - heights.lowest;
-    for (std::size_t i = 0; i < heights.texels.size(); ++i) {
-        const double h = double(heights.texels[i]);
-        const double part = range > 0 ? (h - heights.lowest) / range : 0.5;
-        for (std::size_t c = 0; c < 4; ++c) {
-            const double value = c == 3 ? 1 : type == PixelType::float32 ? h * unit : part;
-            if (type == PixelType::unorm8)
-                image.bytes8()[4 * i + c] = std::uint8_t(value * 255 + 0.5);
-            else if (type == PixelType::unorm16)
-                image.words()[4 * i + c] = std::uint16_t(value * 65535 + 0.5);
-            else
-                image.floats()[4 * i + c] = float(value);
-        }
-    }
-    return image;
-}
-
-Status checkMemory(const Options& o, const Image& image)
-{
-    const std::size_t bytes = maps::heightWorkBytes(image.width, image.height,
-                                                    o.free ? maps::Boundary::free : maps::Boundary::periodic);
-    if (bytes > std::size_t(o.map.memory) << 20)
-        return inputError(fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {} (--memory raises it)",
-                                      o.file, (bytes >> 20) + 1, image.width, image.height, o.map.memory));
-    return Done{};
-}
-
-Status runToHeight(const Options& o)
-{
-    if (Status given = needOutput(o.map, "to-height"); !given)
-        return given;
-    const auto from = parseConvention(o.convention, "--from");
-    if (!from)
-        return from.error();
-    const auto kernel = kernelFromName(o.kernel);
-    if (!kernel)
-        return usageError(fmt::format("--kernel: expected spectral, forward, central, sobel or scharr; found '{}'", o.kernel));
-    const auto image = openMap(o.file, o.map, *from);
-    if (!image)
-        return image.error();
-    const auto type = parseBits(o.bits == "auto" ? "16" : o.bits, image->type, o.map.common.output);
-    const auto checked = type ? type : o.bits == "auto" ? parseBits("auto", PixelType::unorm16, o.map.common.output) : type;
-    if (!checked)
-        return checked.error();
-    if (Status fits = checkMemory(o, *image); !fits)
-        return fits;
-    double unit = 1, aspect = 1;
-    if (!o.size.empty()) {
-        const auto metres = parseMetres(o.size, *image);
-        if (!metres)
-            return metres.error();
-        unit = metres->first / image->width;
-        aspect = metres->second / image->height / unit;
-    }
-    const maps::Heights h = maps::heightFromNormals(
-        *image, {.from = *from, .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
-                 .kernel = *kernel, .aspect = aspect});
-    if (Status written = writeImage(o.map.common.output, picture(h, *image, *checked, unit)); !written)
-        return written;
-    const double range = h.highest - h.lowest, share = h.slope > 0 ? h.residual / h.slope : 0;
-    const std::string again = o.size.empty() ? fmt::format("--strength {:.9g}", 100 * range / image->width)
-                                             : fmt::format("--size {} --range {:.9g}", o.size, range * unit);
-    if (h.invalid > 0)
-        warn(o.map.common, fmt::format("{}: {} texels are no direction; taken as flat", o.file, h.invalid));
-    if (!o.free && h.meanTilt > 1)
-        warn(o.map.common, fmt::format("the whole map leans by {:.1f} degrees, which no repeating height can; --free follows it", h.meanTilt));
-    say(o.map.common, fmt::format("{}: {} x {}, {}; from {:.6g} to {:.6g} {}", o.map.common.output.string(),
-                                  image->width, image->height, bitsName(*checked), h.lowest * unit, h.highest * unit,
-                                  o.size.empty() ? "texels" : "metres"));
-    say(o.map.common, fmt::format("slopes {:.4f} (rms), {:.4f} of which no height explains ({:.1f} %)", h.slope,
-                                  h.residual, share * 100));
-    if (*checked != PixelType::float32)
-        say(o.map.common, "back: cotan map from-height " + again);
-    return writeReport(o.map.common, {{"command", "map to-height"}, {"file", o.file},
-                                      {"output", o.map.common.output.string()}, {"from", describe(*from)},
-                                      {"lowest", h.lowest * unit}, {"highest", h.highest * unit},
-                                      {"unit", o.size.empty() ? "texels" : "metres"},
-                                      {"strength", 100 * range / image->width}, {"slope_rms", h.slope},
-                                      {"residual_rms", h.residual}, {"residual_share", share},
-                                      {"mean_tilt_degrees", h.meanTilt}, {"invalid", h.invalid}});
-}
-
-} // namespace
-
-Command addMapFromHeight(CLI::App& map)
-{
-    auto options = std::make_shared<Options>();
-    options->kernel = "central";
-    CLI::App* command = map.add_subcommand("from-height", "a normal map from a height picture");
-    addMapOptions(*command, options->map, "the normal map");
-    command->add_option("FILE", options->file, "heights: grey, or the red channel")->required();
-    command->add_option("--to", options->convention, "how to store it: " + conventionWords())
-        ->type_name("WORDS")->capture_default_str();
-    command->add_option("--size", options->size, "metres that the picture covers; with --range")->type_name("W[xH]");
-    command->add_option("--range", options->range, "metres from black to white (floats: metres per unit); negative: white is low")->type_name("METRES");
-    command->add_option("--strength", options->strength,
-                        "without metres: white is this many hundredths of the picture's width above black")->capture_default_str();
-    command->add_option("--kernel", options->kernel, "forward, central, sobel or scharr")->capture_default_str();
-    command->add_option("--wrap", options->wrap, "at the borders: repeat, clamp or mirror")->capture_default_str();
-    command->add_option("--bits", options->bits, "auto (as the heights), 8, 16 or float")->capture_default_str();
-    command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
-    return {command, [options] {
-                return withThreads(options->map.common.threads, [&] { return runFromHeight(*options); });
-            }};
-}
-
-Command addMapToHeight(CLI::App& map)
-{
-    auto options = std::make_shared<Options>();
-    options->kernel = "spectral";
-    CLI::App* command = map.add_subcommand("to-height", "the height whose slopes are nearest to a normal map's");
-    addMapOptions(*command, options->map, "the heights; floats keep their unit, others go from black to white");
-    command->add_option("FILE", options->file, "the map")->required();
-    command->add_option("--from", options->convention, "how it is stored: " + conventionWords())
-        ->type_name("WORDS")->capture_default_str();
-    command->add_option("--size", options->size, "metres that the picture covers: heights come in metres, otherwise in texels")->type_name("W[xH]");
-    command->add_option("--kernel", options->kernel,
-                        "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr")->capture_default_str();
-    command->add_flag("--free", options->free, "the map does not repeat: free borders");
-    command->add_option("--bits", options->bits, "auto (16 where the file can hold it), 8, 16 or float")->capture_default_str();
-    return {command, [options] {
-                return withThreads(options->map.common.threads, [&] { return runToHeight(*options); });
-            }};
 }
 
 } // namespace cotan::app

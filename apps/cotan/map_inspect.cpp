@@ -1,16 +1,14 @@
-// `cotan map info`, `detect` and `diff`: nothing is changed.
+// `cotan map info` and `detect`: nothing is changed.
 #include "map_command.hpp"
 
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/maps/compare.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/normal_statistics.hpp"
-#include "cotan/report/angles.hpp"
 #include "map_options.hpp"
+#include "map_stream.hpp"
 
 namespace cotan::app {
 
@@ -54,7 +52,37 @@ std::string transferText(maps::Transfer t)
         : "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128";
 }
 
-void sayInfo(const InspectOptions& o, const Image& image, const maps::NormalStatistics& s)
+// A file that was read for its statistics.
+struct Surveyed {
+    int width = 0, height = 0;
+    PixelType type = PixelType::unorm8;
+    maps::NormalStatistics statistics;
+};
+
+// Calls take(strip, first row) for the whole file; with the row below each strip, if that is asked for.
+template<class Take> Result<Surveyed> readThrough(const InspectOptions& o, Border border, Take take)
+{
+    const auto reader = openMapRows(o.file, o.map);
+    if (!reader)
+        return reader.error();
+    RowReader& in = **reader;
+    if (Status read = inOrder(o.map.common, in, border, take); !read)
+        return read.error();
+    return Surveyed{in.width, in.height, in.type, {}};
+}
+
+Result<Surveyed> survey(const InspectOptions& o)
+{
+    maps::MapSurvey found;
+    if (auto first = readThrough(o, Border::none, [&](const Image& strip, int) { found.first(strip); }); !first)
+        return first.error();
+    auto second = readThrough(o, Border::none, [&](const Image& strip, int) { found.second(strip); });
+    if (second)
+        second->statistics = found.finish();
+    return second;
+}
+
+void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
 {
     const auto line = [&](const std::string& text) { say(o.map.common, text); };
     line(fmt::format("{}: {} x {}, {}", o.file, image.width, image.height, bitsName(image.type)));
@@ -79,7 +107,7 @@ void sayInfo(const InspectOptions& o, const Image& image, const maps::NormalStat
     line(fmt::format("mean direction: {:.4f} {:.4f} {:.4f}", s.mean[0], s.mean[1], s.mean[2]));
 }
 
-nlohmann::ordered_json toJson(const InspectOptions& o, const Image& image, const maps::NormalStatistics& s)
+nlohmann::ordered_json toJson(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
 {
     return {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
             {"bits", bitsName(image.type)}, {"contents", maps::describe(s.content)},
@@ -92,10 +120,10 @@ nlohmann::ordered_json toJson(const InspectOptions& o, const Image& image, const
 
 Status runInfo(const InspectOptions& o)
 {
-    const auto image = openMap(o.file, o.map);
+    const auto image = survey(o);
     if (!image)
         return image.error();
-    const maps::NormalStatistics s = maps::statisticsOfMap(*image);
+    const maps::NormalStatistics& s = image->statistics;
     sayInfo(o, *image, s);
     return writeReport(o.map.common, toJson(o, *image, s));
 }
@@ -131,11 +159,14 @@ std::string verdictText(const maps::GreenVerdict& v)
 
 Status runDetect(const InspectOptions& o)
 {
-    const auto image = openMap(o.file, o.map);
+    const auto image = survey(o);
     if (!image)
         return image.error();
-    const maps::NormalStatistics s = maps::statisticsOfMap(*image);
-    const maps::GreenVerdict v = maps::greenOf(*image, s);
+    const maps::NormalStatistics& s = image->statistics;
+    maps::GreenSurvey green(image->width, image->height, image->type, s);
+    if (auto read = readThrough(o, Border::below, [&](const Image& strip, int row) { green.add(strip, row); }); !read)
+        return read.error();
+    const maps::GreenVerdict v = green.verdict();
     say(o.map.common, verdictText(v));
     if (v.used > 0)
         say(o.map.common, fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
@@ -152,48 +183,7 @@ Status runDetect(const InspectOptions& o)
                         {"bump_or_dent", "cannot be told"}});
 }
 
-struct DiffOptions {
-    MapOptions map;
-    std::string a, b, conventionA = "gltf,exact", conventionB;
-};
-
-Status runDiff(const DiffOptions& o)
-{
-    const auto conventionA = parseConvention(o.conventionA, "--from");
-    if (!conventionA)
-        return conventionA.error();
-    const auto conventionB = parseConvention(o.conventionB.empty() ? o.conventionA : o.conventionB, "--to");
-    if (!conventionB)
-        return conventionB.error();
-    const auto a = openMap(o.a, o.map, *conventionA);
-    if (!a)
-        return a.error();
-    const auto b = openMap(o.b, o.map, *conventionB);
-    if (!b)
-        return b.error();
-    if (a->width != b->width || a->height != b->height)
-        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", o.b, a->width, a->height,
-                                      o.a, b->width, b->height));
-    const auto degrees = maps::anglesBetween(*a, *conventionA, *b, *conventionB);
-    const AngleStatistics s = angleStatistics(degrees);
-    const std::size_t skipped = degrees.size() - s.count;
-    say(o.map.common, fmt::format("{} texels: {}", s.count, toText(s)));
-    if (skipped > 0)
-        say(o.map.common, fmt::format("{} texels are no direction in one of the two and were left out", skipped));
-    if (!o.map.common.output.empty()) {
-        if (Status written = writeImage(o.map.common.output, heatMap(degrees, a->width, a->height)); !written)
-            return written;
-        say(o.map.common, fmt::format("{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more",
-                                      o.map.common.output.string()));
-    }
-    return writeReport(o.map.common, {{"command", "map diff"}, {"a", o.a}, {"b", o.b},
-                                      {"convention_a", describe(*conventionA)},
-                                      {"convention_b", describe(*conventionB)}, {"skipped", skipped},
-                                      {"angles", cotan::toJson(s)}});
-}
-
-template<class Options, class Run>
-Command inspect(CLI::App* command, std::shared_ptr<Options> options, Run run)
+template<class Run> Command inspect(CLI::App* command, std::shared_ptr<InspectOptions> options, Run run)
 {
     return {command, [options, run] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
@@ -218,19 +208,6 @@ Command addMapDetect(CLI::App& map)
     addMapOptions(*command, options->map, "not used");
     command->add_option("FILE", options->file, "the map")->required();
     return inspect(command, options, runDetect);
-}
-
-Command addMapDiff(CLI::App& map)
-{
-    auto options = std::make_shared<DiffOptions>();
-    CLI::App* command = map.add_subcommand("diff", "two maps against each other, in degrees");
-    addMapOptions(*command, options->map, "heat map");
-    command->add_option("A", options->a, "the first map")->required();
-    command->add_option("B", options->b, "the second, of the same size")->required();
-    command->add_option("--from", options->conventionA, "how A is stored: " + conventionWords())
-        ->type_name("WORDS")->capture_default_str();
-    command->add_option("--to", options->conventionB, "how B is stored; as A if not given")->type_name("WORDS");
-    return inspect(command, options, runDiff);
 }
 
 } // namespace cotan::app

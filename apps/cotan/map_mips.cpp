@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
 #include "cotan/maps/mips.hpp"
 #include "file_output.hpp"
 #include "map_options.hpp"
@@ -57,14 +56,14 @@ std::filesystem::path numbered(const std::filesystem::path& file, const std::str
     return file.parent_path() / fmt::format("{}{}_{}{}", file.stem().string(), mark, level, file.extension().string());
 }
 
-Status writeChain(const Options& o, const std::vector<maps::MipLevel>& chain)
+Status writeChain(const Options& o, const std::vector<maps::MipLevel>& chain, const Bits& bits)
 {
     if (o.map.common.output.extension() == ".dds")
         return writeFileWhole(o.map.common.output, ddsBytes(chain));
     for (std::size_t i = 0; i < chain.size(); ++i) {
-        if (Status w = writeImage(numbered(o.map.common.output, "", i), chain[i].normals); !w)
+        if (Status w = writeMap(numbered(o.map.common.output, "", i), chain[i].normals, bits); !w)
             return w;
-        if (Status w = writeImage(numbered(o.map.common.output, "_roughness", i), chain[i].roughness); !w)
+        if (Status w = writeMap(numbered(o.map.common.output, "_roughness", i), chain[i].roughness, bits); !w)
             return w;
     }
     return Done{};
@@ -81,13 +80,13 @@ Result<maps::SpreadModel> parseModel(const std::string& name)
     return usageError(fmt::format("--model: expected toksvig, vmf or lean; found '{}'", name));
 }
 
-Result<PixelType> typeOf(const Options& o, PixelType input)
+Result<Bits> typeOf(const Options& o, PixelType input)
 {
     if (o.map.common.output.extension() != ".dds")
         return parseBits(o.bits, input, o.map.common.output);
     if (o.bits != "auto" && o.bits != "8")
         return usageError(fmt::format("--bits: .dds files are written with 8 bits; found '{}'", o.bits));
-    return PixelType::unorm8;
+    return Bits{};
 }
 
 Status run(const Options& o)
@@ -109,16 +108,16 @@ Status run(const Options& o)
     const auto type = typeOf(o, image->type);
     if (!type)
         return type.error();
-    if (to->expansion == Expansion::signedValues && *type != PixelType::float32)
-        return usageError("--to: signed values need --bits float");
+    if (Status fits = checkSigned(*to, *type, o.map.common.output); !fits)
+        return fits;
     // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
-    const std::size_t work = image->pixelCount() * (8 + 11 * bytesPerComponent(*type));
+    const std::size_t work = image->pixelCount() * (8 + 11 * bytesPerComponent(type->type));
     if (work > 4 * (std::size_t(o.map.memory) << 20))
         return inputError(fmt::format("{}: the chain takes {} MiB, the limit is four times {} (--memory raises it)",
                                       o.file, work >> 20, o.map.memory));
     const auto chain = maps::mipChain(*image, {.from = *from, .to = *to, .keepLengths = o.keepLengths, .model = *model,
-                                               .roughness = o.roughness, .type = *type});
-    if (Status written = writeChain(o, chain); !written)
+                                               .roughness = o.roughness, .type = type->type});
+    if (Status written = writeChain(o, chain, *type); !written)
         return written;
     auto levels = nlohmann::ordered_json::array();
     for (const maps::MipLevel& level : chain) {
@@ -148,7 +147,7 @@ Command addMapMips(CLI::App& map)
         ->check(CLI::Range(0.0, 1.0))->capture_default_str();
     command->add_option("--model", options->model, "toksvig, vmf or lean")->capture_default_str();
     command->add_flag("--keep-lengths", options->keepLengths, "three channels: store the shortened mean vectors");
-    command->add_option("--bits", options->bits, "auto (as the map), 8, 16 or float")->capture_default_str();
+    command->add_option("--bits", options->bits, "auto (as the map), 8, 16, half (.exr) or float")->capture_default_str();
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

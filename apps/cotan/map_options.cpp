@@ -7,6 +7,7 @@
 
 #include "cotan/asset/image_file.hpp"
 #include "cotan/maps/texels.hpp"
+#include "map_stream.hpp"
 
 namespace cotan::app {
 
@@ -34,6 +35,8 @@ constexpr Word kWords[] = {
     {"orthographic", [](Convention& c) { c.channels = Channels::orthographic; }},
     {"stereographic", [](Convention& c) { c.channels = Channels::stereographic; }},
     {"slope", [](Convention& c) { c.channels = Channels::slope; }},
+    // Axes of a mesh: all three are needed, and green has no picture to be turned against.
+    {"object", [](Convention& c) { c.kind = MapKind::objectSpace, c.channels = Channels::xyz, c.greenUp = true; }},
 };
 
 bool applyWord(const std::string& text, Convention& convention)
@@ -53,12 +56,18 @@ LoadLimits limitsOf(const MapOptions& options)
     return limits;
 }
 
+Error withHint(const Error& error)
+{
+    const bool limit = error.message.find("the limit is") != std::string::npos;
+    return {error.kind, error.message + (limit ? " (--memory raises it)" : "")};
+}
+
 } // namespace
 
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp)
 {
     addCommonOptions(command, options.common, outputHelp);
-    command.add_option("--memory", options.memory, "MiB that one decoded picture may take")
+    command.add_option("--memory", options.memory, "MiB that one picture may take where it has to be held whole")
         ->check(CLI::Range(1, 1 << 16))->capture_default_str();
 }
 
@@ -93,9 +102,31 @@ Result<Convention> parseConvention(const std::string& text, const std::string& o
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options)
 {
     auto image = readImage(file, limitsOf(options));
-    if (!image && image.error().message.find("the limit is") != std::string::npos)
-        return Error{image.error().kind, image.error().message + " (--memory raises it)"};
-    return image;
+    return image ? image : Result<Image>(withHint(image.error()));
+}
+
+Result<std::unique_ptr<RowReader>> openMapRows(const std::filesystem::path& file, const MapOptions& options)
+{
+    auto reader = openRows(file, limitsOf(options));
+    return reader ? std::move(reader) : Result<std::unique_ptr<RowReader>>(withHint(reader.error()));
+}
+
+Result<maps::Swizzle> swizzleOfFile(const std::filesystem::path& file, const MapOptions& options,
+                                    const Convention& convention)
+{
+    if (convention.channels == Channels::xyz)
+        return maps::Swizzle::rg;
+    const auto reader = openMapRows(file, options);
+    if (!reader)
+        return reader.error();
+    if (!(*reader)->alpha)
+        return maps::Swizzle::rg;
+    maps::ChannelRange range;
+    CommonOptions silent = options.common;
+    silent.quiet = true;
+    if (Status read = inOrder(silent, **reader, Border::none, [&](const Image& strip, int) { range.add(strip); }); !read)
+        return read.error();
+    return range.swizzle();
 }
 
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options,
@@ -112,7 +143,9 @@ std::string bitsName(PixelType type)
     return type == PixelType::unorm8 ? "8 bit" : type == PixelType::unorm16 ? "16 bit" : "float";
 }
 
-Result<PixelType> parseBits(const std::string& bits, PixelType input, const std::filesystem::path& file)
+std::string bitsName(const Bits& bits) { return bits.half ? "half" : bitsName(bits.type); }
+
+Result<Bits> parseBits(const std::string& bits, PixelType input, const std::filesystem::path& file)
 {
     const std::string extension = extensionOf(file);
     const bool floats = extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
@@ -123,20 +156,42 @@ Result<PixelType> parseBits(const std::string& bits, PixelType input, const std:
         type = PixelType::unorm8;
     else if (bits == "16")
         type = PixelType::unorm16;
-    else if (bits == "float")
+    else if (bits == "float" || bits == "half")
         type = PixelType::float32;
     else if (bits != "auto")
-        return usageError(fmt::format("--bits: expected auto, 8, 16 or float; found '{}'", bits));
+        return usageError(fmt::format("--bits: expected auto, 8, 16, half or float; found '{}'", bits));
     else if (onlyFloat)
         type = PixelType::float32;
     else if (only8)
         type = PixelType::unorm8;
     else if (type == PixelType::float32 && !floats)
         type = PixelType::unorm16;
+    const bool half = bits == "half";
     if ((type == PixelType::float32 && !floats) || (type != PixelType::float32 && onlyFloat)
-        || (type != PixelType::unorm8 && only8))
-        return usageError(fmt::format("--bits: {} files cannot hold {}", extension, bitsName(type)));
-    return type;
+        || (type != PixelType::unorm8 && only8) || (half && extension != ".exr"))
+        return usageError(fmt::format("--bits: {} files cannot hold {}", extension, half ? "half" : bitsName(type)));
+    return Bits{type, half};
+}
+
+Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file)
+{
+    const std::string extension = extensionOf(file);
+    if (to.expansion == Expansion::signedValues && (bits.type != PixelType::float32 || extension == ".hdr"))
+        return usageError(fmt::format("--to: signed values need a .exr or .tif of floats; found {}, {}", extension,
+                                      bitsName(bits)));
+    return Done{};
+}
+
+Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits)
+{
+    if (!bits.half)
+        return writeImage(file, image);
+    auto writer = createRows(file, {image.width, image.height, image.type, true, true});
+    if (!writer)
+        return writer.error();
+    if (Status written = (*writer)->write(image); !written)
+        return written;
+    return (*writer)->finish();
 }
 
 Status needOutput(const MapOptions& options, const std::string& command)

@@ -2,18 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "common.hpp"
+#include "cotan/asset/image_rows.hpp"
 #include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
+#include "cotan/maps/texels.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan::app {
 
 struct MapOptions {
     CommonOptions common;
-    int memory = 640; // MiB, of one decoded picture
+    int memory = 640; // MiB, of one picture that is decoded whole
 };
 
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp);
@@ -32,12 +35,33 @@ Result<Image> openMap(const std::filesystem::path& file, const MapOptions& optio
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options,
                       const Convention& convention);
 
-// The type to write: "auto", "8", "16" or "float", checked against what the file's format holds.
-// auto: the input's, as far as the format holds it.
-Result<PixelType> parseBits(const std::string& bits, PixelType input, const std::filesystem::path& file);
+// The same by rows. Pictures whose format cannot be read by rows are decoded within the memory limit.
+Result<std::unique_ptr<RowReader>> openMapRows(const std::filesystem::path& file, const MapOptions& options);
 
-// "8 bit", "16 bit" or "float".
+// Which components of a file hold a two-channel map; rg where the convention has three channels. Reads files
+// that have alpha once through.
+Result<maps::Swizzle> swizzleOfFile(const std::filesystem::path& file, const MapOptions& options,
+                                    const Convention& convention);
+
+// How components are stored.
+struct Bits {
+    PixelType type = PixelType::unorm8;
+    bool half = false; // float32 here, half floats in the file
+};
+
+// The type to write: "auto", "8", "16", "half" or "float", checked against what the file's format holds.
+// auto: the input's, as far as the format holds it.
+Result<Bits> parseBits(const std::string& bits, PixelType input, const std::filesystem::path& file);
+
+// "8 bit", "16 bit", "half" or "float".
 std::string bitsName(PixelType type);
+std::string bitsName(const Bits& bits);
+
+// Signed values need floats, in a file that holds negative ones.
+Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file);
+
+// Writes a whole picture.
+Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits);
 
 // Says what is missing when no -o was given.
 Status needOutput(const MapOptions& options, const std::string& command);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -62,7 +63,21 @@ fs::path nameBeside(const fs::path& file)
 
 } // namespace
 
-Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
+BesideFile::BesideFile(fs::path file) : file_(std::move(file)), beside_(nameBeside(file_)) {}
+
+BesideFile::BesideFile(BesideFile&& other) noexcept
+    : file_(std::move(other.file_)), beside_(std::exchange(other.beside_, {}))
+{
+}
+
+BesideFile::~BesideFile()
+{
+    std::error_code ignored;
+    if (!beside_.empty())
+        fs::remove(beside_, ignored);
+}
+
+Result<BesideFile> BesideFile::begin(const fs::path& file)
 {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     std::error_code error;
@@ -71,17 +86,27 @@ Status writeBeside(const fs::path& file, const std::function<Status(const fs::pa
             fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
     if (fs::is_directory(file, error))
         return outputError(fmt::format("{}: is a folder", file.string()));
+    return BesideFile(file);
+}
 
-    const fs::path beside = nameBeside(file);
-    Status written = write(beside);
-    if (written) {
-        fs::rename(beside, file, error);
-        if (!error)
-            return Done{};
-        written = outputError(fmt::format("{}: {}", file.string(), error.message()));
-    }
-    fs::remove(beside, error);
-    return written;
+Status BesideFile::commit()
+{
+    std::error_code error;
+    fs::rename(beside_, file_, error);
+    if (error)
+        return outputError(fmt::format("{}: {}", file_.string(), error.message()));
+    beside_.clear();
+    return Done{};
+}
+
+Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
+{
+    auto beside = BesideFile::begin(file);
+    if (!beside)
+        return beside.error();
+    if (Status written = write(beside->path()); !written)
+        return written;
+    return beside->commit();
 }
 
 } // namespace cotan

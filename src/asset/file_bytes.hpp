@@ -24,4 +24,22 @@ Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, 
 Status writeBeside(const std::filesystem::path& file,
                    const std::function<Status(const std::filesystem::path&)>& write);
 
+// The same in steps: a fresh name beside `file`, to be written to and then committed. What is not
+// committed is removed.
+class BesideFile {
+public:
+    // Errors: ErrorKind::output where the folder is missing or `file` is a folder.
+    static Result<BesideFile> begin(const std::filesystem::path& file);
+
+    BesideFile(BesideFile&& other) noexcept;
+    BesideFile& operator=(BesideFile&&) = delete;
+    ~BesideFile();
+    const std::filesystem::path& path() const { return beside_; }
+    Status commit(); // renames; errors: ErrorKind::output
+
+private:
+    explicit BesideFile(std::filesystem::path file);
+    std::filesystem::path file_, beside_; // beside_ is empty once it is gone
+};
+
 } // namespace cotan

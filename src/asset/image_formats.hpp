@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
+#include "cotan/asset/image_rows.hpp"
 #include "cotan/asset/load.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
@@ -26,6 +28,14 @@ struct ImageFormats {
     // Writes .exr .tif .tiff .tga .jpg .jpeg .hdr. JPEG and HDR have no alpha and drop it; TGA and
     // JPEG take floats clamped to [0,1] at 8 bits. `name` is for messages.
     Status (*write)(const std::filesystem::path& file, const Image& image, const std::string& name);
+
+    // As openRows, for files that start as TIFF, OpenEXR or Radiance HDR; `head` is how this one starts.
+    Result<std::unique_ptr<RowReader>> (*openRows)(const std::filesystem::path& file, std::span<const std::byte> head,
+                                                   const LoadLimits& limits);
+
+    // As createRows, for the extension of `name`; `file` is where to write and appears at once.
+    Result<std::unique_ptr<RowWriter>> (*createRows)(const std::filesystem::path& file, const RowFormat& format,
+                                                     int threads, const std::string& name);
 };
 
 // The module. Errors: ErrorKind::unavailable where it is missing or does not load.

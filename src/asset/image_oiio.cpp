@@ -1,23 +1,41 @@
-// The module of image formats: OpenImageIO behind the two functions of image_formats.hpp.
-#include "image_formats.hpp"
+// The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
+#include "image_oiio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "extension.hpp"
 #include "image_convert.hpp"
+#include "image_formats.hpp"
 #include "image_limits.hpp"
 
 namespace cotan {
 
+namespace oiio {
+
 namespace {
+
+template<class T> void complete(T* pixel, std::size_t count, int channels, T one)
+{
+    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
+        if (channels == 2)
+            pixel[3] = pixel[1];
+        if (channels <= 2)
+            pixel[1] = pixel[2] = pixel[0];
+        if (channels == 1 || channels == 3)
+            pixel[3] = one;
+    }
+}
+
+} // namespace
 
 std::string oneLine(std::string text)
 {
@@ -27,8 +45,6 @@ std::string oneLine(std::string text)
     return text;
 }
 
-// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
-// as extensions are often wrong.
 std::string formatOf(std::span<const std::byte> bytes)
 {
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
@@ -36,7 +52,8 @@ std::string formatOf(std::span<const std::byte> bytes)
     if (head.starts_with("\xff\xd8\xff"))
         return "jpeg";
     using namespace std::string_view_literals;
-    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv))
+    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv)
+        || head.starts_with("MM\0+"sv))
         return "tiff";
     if (head.starts_with("\x76\x2f\x31\x01"))
         return "openexr";
@@ -63,96 +80,34 @@ OIIO::TypeDesc typeDesc(PixelType type)
     return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
-// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
-template<class T> void completeChannels(T* pixel, std::size_t count, int channels, T one)
-{
-    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
-        if (channels == 2)
-            pixel[3] = pixel[1];
-        if (channels <= 2)
-            pixel[1] = pixel[2] = pixel[0];
-        if (channels == 1 || channels == 3)
-            pixel[3] = one;
-    }
-}
-
 void completeChannels(Image& image, int channels)
 {
     switch (image.type) {
     case PixelType::unorm8:
-        return completeChannels<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
+        return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
     case PixelType::unorm16:
-        return completeChannels<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
+        return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
     case PixelType::float32:
-        return completeChannels<float>(image.floats(), image.pixelCount(), channels, 1.0f);
+        return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
     }
 }
 
-// What a header may claim beyond the size of the picture: channels that we do not use and the
-// blocks that a reader allocates.
-std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name,
-                               const LoadLimits& limits)
+std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
 {
-    if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
-        return error;
     if (spec.depth > 1 || spec.deep)
         return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
     if (spec.nchannels < 1)
         return inputError(fmt::format("{}: the image has no channels", name));
-    const double tile = double(spec.tile_width) * double(spec.tile_height);
-    const double stored = std::max(double(spec.width) * double(spec.height), tile)
-        * double(spec.pixel_bytes(/*native=*/true));
-    if (stored > double(limits.imageBytes))
-        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
-                                      name, stored, limits.imageBytes));
     return std::nullopt;
 }
 
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
-                     const std::string& format, const LoadLimits& limits)
+OIIO::ImageSpec readConfig()
 {
-    const auto broken = [&](const std::string& why) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-    };
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    const auto input = OIIO::ImageInput::create(format);
-    if (!input)
-        return broken(OIIO::geterror());
-    input->threads(1); // callers decode images side by side
-    input->set_ioproxy(&memory);
-    OIIO::ImageSpec config, spec;
+    OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
     config.attribute("oiio:reorient", 0);
-    if (!input->open("image." + format, spec, config))
-        return broken(input->geterror());
-    if (auto error = checkSpec(spec, name, limits))
-        return *error;
-
-    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
-    const int channels = std::min(spec.nchannels, 4);
-    if (!input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
-                           OIIO::stride_t(image.bytesPerPixel())))
-        return broken(input->geterror());
-    completeChannels(image, channels);
-    return image;
+    return config;
 }
-
-Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name,
-                           const LoadLimits& limits)
-{
-    const std::string format = formatOf(bytes);
-    try {
-        return decode(bytes, name, format, limits);
-    } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(e.what())));
-    }
-}
-
-struct OutputFormat {
-    int channels = 4;
-    bool eightBitOnly = false;
-    bool floatOnly = false;
-};
 
 OutputFormat outputFormat(const std::string& extension)
 {
@@ -167,11 +122,9 @@ OutputFormat outputFormat(const std::string& extension)
     return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
 }
 
-OIIO::ImageSpec outputSpec(const Image& image, const OutputFormat& format,
-                           const std::string& extension)
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension)
 {
-    const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
-    OIIO::ImageSpec spec(image.width, image.height, format.channels, type);
+    OIIO::ImageSpec spec(width, height, channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
     // The same picture gives the same bytes: no time of writing.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
@@ -180,6 +133,99 @@ OIIO::ImageSpec outputSpec(const Image& image, const OutputFormat& format,
     if (extension == ".jpg" || extension == ".jpeg")
         spec.attribute("CompressionQuality", 95);
     return spec;
+}
+
+} // namespace oiio
+
+using namespace oiio;
+
+namespace {
+
+// What a header may claim beyond the size of the picture: channels that we do not use and the
+// blocks that a reader allocates.
+std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name,
+                               const LoadLimits& limits)
+{
+    if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
+        return error;
+    if (auto error = checkLayers(spec, name))
+        return error;
+    const double tile = double(spec.tile_width) * double(spec.tile_height);
+    const double stored = std::max(double(spec.width) * double(spec.height), tile)
+        * double(spec.pixel_bytes(/*native=*/true));
+    if (stored > double(limits.imageBytes))
+        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
+                                      name, stored, limits.imageBytes));
+    return std::nullopt;
+}
+
+// OpenImageIO fills up DDS files that end too early. Bytes that the first level takes after the 128 of the
+// header (Microsoft's DDS_HEADER); 0 where the format is not one of the old ones.
+std::size_t ddsBytes(std::span<const std::byte> file)
+{
+    std::array<std::uint32_t, 32> header{};
+    if (file.size() < sizeof header)
+        return std::size_t(-1);
+    std::memcpy(header.data(), file.data(), sizeof header);
+    const std::size_t height = header[3], width = header[4], blocks = ((width + 3) / 4) * ((height + 3) / 4);
+    if (!(header[20] & 0x4)) // no four letters
+        return width * height * (header[22] / 8);
+    const std::string_view name(reinterpret_cast<const char*>(&header[21]), 4);
+    if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
+        return blocks * 8;
+    return name.starts_with("DXT") || name == "ATI2" || name == "BC5U" || name == "BC5S" ? blocks * 16 : 0;
+}
+
+// Two channels of a DDS (BC5) are red and green, not grey and alpha. They are 8 bits.
+void spreadTwo(Image& image)
+{
+    for (std::size_t i = 0; i < image.pixelCount() && image.type == PixelType::unorm8; ++i) {
+        image.bytes8()[4 * i + 2] = 128;
+        image.bytes8()[4 * i + 3] = 255;
+    }
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
+                     const std::string& format, const LoadLimits& limits)
+{
+    const auto broken = [&](const std::string& why) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+    };
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    const auto input = OIIO::ImageInput::create(format);
+    if (!input)
+        return broken(OIIO::geterror());
+    input->threads(1); // callers decode images side by side
+    input->set_ioproxy(&memory);
+    OIIO::ImageSpec spec;
+    if (!input->open("image." + format, spec, readConfig()))
+        return broken(input->geterror());
+    if (auto error = checkSpec(spec, name, limits))
+        return *error;
+    if (format == "dds" && bytes.size() - std::min<std::size_t>(bytes.size(), 128) < ddsBytes(bytes))
+        return broken("the file ends too early");
+
+    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+    const int channels = std::min(spec.nchannels, 4);
+    if (!input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
+                           OIIO::stride_t(image.bytesPerPixel())))
+        return broken(input->geterror());
+    if (format == "dds" && channels == 2)
+        spreadTwo(image);
+    else
+        completeChannels(image, channels);
+    return image;
+}
+
+Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name,
+                           const LoadLimits& limits)
+{
+    const std::string format = formatOf(bytes);
+    try {
+        return decode(bytes, name, format, limits);
+    } catch (const std::exception& e) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(e.what())));
+    }
 }
 
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
@@ -193,7 +239,8 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         if (!output)
             return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
         output->threads(1);
-        const OIIO::ImageSpec spec = outputSpec(image, format, extension);
+        const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
+        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
         if (!output->open(file.string(), spec)
             || !output->write_image(typeDesc(image.type), image.data.data(),
                                     OIIO::stride_t(image.bytesPerPixel()))
@@ -205,7 +252,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
     return Done{};
 }
 
-constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio};
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows};
 
 } // namespace
 } // namespace cotan

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -16,7 +17,7 @@ namespace cotan::maps {
 
 namespace {
 
-int repeated(int i, int size) { return (i % size + size) % size; }
+int repeated(std::int64_t i, int size) { return int((i % size + size) % size); }
 
 // Which texels of a repeating line of `size` one texel of `count` covers, and how much of each.
 struct Tap {
@@ -25,25 +26,21 @@ struct Tap {
 };
 
 // Magnified: two taps, linear. Minified: all texels under the footprint, by their share of it.
-std::vector<std::vector<Tap>> tapsOf(int count, int size, int tiles)
+std::vector<Tap> tapsOf(int i, int count, int size, int tiles)
 {
-    std::vector<std::vector<Tap>> taps(static_cast<std::size_t>(count));
     const double step = double(size) * tiles / count; // texels of the detail per texel of the base
-    for (int i = 0; i < count; ++i) {
-        auto& list = taps[std::size_t(i)];
-        if (step <= 1) {
-            const double at = (i + 0.5) * step - 0.5;
-            const int first = int(std::floor(at));
-            const float part = float(at - first);
-            list = {{repeated(first, size), 1 - part}, {repeated(first + 1, size), part}};
-            continue;
-        }
-        const double from = i * step, to = from + step;
-        for (int k = int(std::floor(from)); k < to; ++k) {
-            const double covered = std::min(to, k + 1.0) - std::max(from, double(k));
-            if (covered > 1e-9)
-                list.push_back({repeated(k, size), float(covered / step)});
-        }
+    if (step <= 1) {
+        const double at = (i + 0.5) * step - 0.5;
+        const auto first = std::int64_t(std::floor(at));
+        const float part = float(at - double(first));
+        return {{repeated(first, size), 1 - part}, {repeated(first + 1, size), part}};
+    }
+    std::vector<Tap> taps;
+    const double from = i * step, to = from + step;
+    for (auto k = std::int64_t(std::floor(from)); double(k) < to; ++k) {
+        const double covered = std::min(to, double(k) + 1.0) - std::max(from, double(k));
+        if (covered > 1e-9)
+            taps.push_back({repeated(k, size), float(covered / step)});
     }
     return taps;
 }
@@ -58,15 +55,16 @@ glm::vec3 unitOrZero(const glm::vec3& v)
 class DetailRows {
 public:
     DetailRows(const Image& detail, const Convention& convention, int width, int height, int tilesX, int tilesY)
-        : detail_(detail), convention_(convention), across_(tapsOf(width, detail.width, tilesX)),
-          down_(tapsOf(height, detail.height, tilesY))
+        : detail_(detail), convention_(convention), height_(height), tilesY_(tilesY)
     {
+        for (int x = 0; x < width; ++x)
+            across_.push_back(tapsOf(x, width, detail.width, tilesX));
     }
 
     void load(int row, std::vector<glm::vec3>& out) const
     {
         std::vector<glm::vec3> line(std::size_t(detail_.width)), sum(line.size(), glm::vec3(0));
-        for (const Tap& tap : down_[std::size_t(row)]) {
+        for (const Tap& tap : tapsOf(row, height_, detail_.height, tilesY_)) {
             decodeRow(detail_, tap.texel, convention_, line);
             for (std::size_t x = 0; x < sum.size(); ++x)
                 sum[x] += unitOrZero(line[x]) * tap.weight;
@@ -82,7 +80,8 @@ public:
 private:
     const Image& detail_;
     const Convention convention_;
-    std::vector<std::vector<Tap>> across_, down_;
+    std::vector<std::vector<Tap>> across_;
+    int height_, tilesY_;
 };
 
 // The mask's red at the nearest texel, [0,1]; not a number is 0.
@@ -114,7 +113,8 @@ glm::vec3 blendTexels(const glm::vec3& base, const glm::vec3& detail, BlendMode 
 Image blend(const Image& base, const Image& detail, const BlendSettings& s, std::size_t& invalid)
 {
     Image out = makeImage(base.width, base.height, s.type, base.name);
-    const DetailRows details(detail, s.detail, base.width, base.height, s.tilesX, s.tilesY);
+    const int height = s.pictureHeight > 0 ? s.pictureHeight : base.height;
+    const DetailRows details(detail, s.detail, base.width, height, s.tilesX, s.tilesY);
     const float steps = s.type == PixelType::unorm8 ? 255.0f : s.type == PixelType::unorm16 ? 65535.0f : 0.0f;
     std::atomic<std::size_t> bad = 0;
     forRowBands(base.height, [&](int first, int last) {
@@ -124,9 +124,9 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
         std::size_t badHere = 0;
         for (int y = first; y < last; ++y) {
             decodeRow(base, y, s.base, baseRow);
-            details.load(y, detailRow);
+            details.load(s.firstRow + y, detailRow);
             for (std::size_t x = 0; x < width; ++x) {
-                const float mask = s.mask ? maskAt(*s.mask, int(x), y, base.width, base.height) : 1.0f;
+                const float mask = s.mask ? maskAt(*s.mask, int(x), s.firstRow + y, base.width, height) : 1.0f;
                 const glm::vec3 b = unitOrZero(baseRow[x]);
                 glm::vec3 d = detailRow[x];
                 badHere += b == glm::vec3(0) || d == glm::vec3(0);
@@ -137,7 +137,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
                     n = blendTexels(b, d, s.mode);
                 texels[x] = encodeTexel(n, s.to);
                 if (s.dither)
-                    texels[x] = dithered(texels[x], steps, int(x), y);
+                    texels[x] = dithered(texels[x], steps, int(x), s.firstRow + y);
             }
             storeRow(out, y, texels);
         }

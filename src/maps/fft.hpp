@@ -1,4 +1,5 @@
-// Fourier and cosine transforms of any length.
+// Fourier and cosine transforms of any length. Our own: FFTW is GPL; KissFFT is, in Debian,
+// single precision only, and takes time quadratic in large prime factors.
 #pragma once
 
 #include <complex>

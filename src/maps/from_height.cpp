@@ -75,18 +75,19 @@ float stepsOf(PixelType type)
 
 Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::size_t& invalid)
 {
-    Image out = makeImage(height.width, height.height, s.type, height.name);
+    const int border = s.bordered ? 1 : 0;
+    Image out = makeImage(height.width, height.height - 2 * border, s.type, height.name);
     const std::size_t width = std::size_t(height.width);
     const glm::vec2 scale(float(s.scaleX), float(s.scaleY));
     std::atomic<std::size_t> bad = 0;
-    forRowBands(height.height, [&](int first, int last) {
+    forRowBands(out.height, [&](int first, int last) {
         std::vector<float> above, here, below;
         std::vector<glm::vec4> texels(width);
         std::size_t badHere = 0;
-        loadHeights(height, first - 1, s.wrap, above);
-        loadHeights(height, first, s.wrap, here);
+        loadHeights(height, first - 1 + border, s.wrap, above);
+        loadHeights(height, first + border, s.wrap, here);
         for (int y = first; y < last; ++y) {
-            loadHeights(height, y + 1, s.wrap, below);
+            loadHeights(height, y + 1 + border, s.wrap, below);
             for (std::size_t x = 0; x < width; ++x) {
                 const glm::vec2 slope = difference(above, here, below, x + 1, s.kernel) * scale;
                 const bool finite = std::isfinite(slope.x) && std::isfinite(slope.y);
@@ -94,7 +95,7 @@ Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::s
                 const glm::vec3 normal = finite ? glm::normalize(glm::vec3(-slope, 1)) : glm::vec3(0, 0, 1);
                 texels[x] = encodeTexel(normal, s.to);
                 if (s.dither)
-                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), y);
+                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
             storeRow(out, y, texels);
             above.swap(here);

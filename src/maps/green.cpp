@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace cotan::maps {
 
@@ -47,8 +48,7 @@ Slope slopeOf(const glm::vec3& n)
     return {-n.x / n.z, -n.y / n.z, z * z};
 }
 
-void addRow(const std::vector<Slope>& upper, const std::vector<Slope>& lower, std::size_t first,
-            std::size_t last, Products& sums)
+void addRow(const Slope* upper, const Slope* lower, std::size_t first, std::size_t last, Products& sums)
 {
     for (std::size_t x = first; x < last; ++x) {
         const Slope &p = upper[x], &q = upper[x + 1], &r = lower[x], &s = lower[x + 1];
@@ -64,32 +64,18 @@ void addRow(const std::vector<Slope>& upper, const std::vector<Slope>& lower, st
     }
 }
 
-// The products of square blocks, row by row of blocks.
-std::vector<Products> blockProducts(const Image& image, const Convention& convention)
+// The slopes of all rows of a strip.
+std::vector<Slope> slopesOf(const Image& strip, const Convention& convention)
 {
-    const int side = std::max(8, int(std::ceil(std::max(image.width, image.height) / kMostBlocksASide)));
-    const int across = (image.width - 2) / side + 1, down = (image.height - 2) / side + 1;
-    std::vector<Products> blocks(std::size_t(across) * std::size_t(down));
-    forRowBands(down, [&](int firstBlock, int lastBlock) {
-        std::vector<glm::vec3> normals(std::size_t(image.width));
-        std::vector<Slope> upper(normals.size()), lower(normals.size());
-        const auto load = [&](int y, std::vector<Slope>& row) {
-            decodeRow(image, y, convention, normals);
-            std::ranges::transform(normals, row.begin(), slopeOf);
-        };
-        for (int block = firstBlock; block < lastBlock; ++block) {
-            load(block * side, upper);
-            for (int y = block * side; y < std::min((block + 1) * side, image.height - 1); ++y) {
-                load(y + 1, lower);
-                for (int i = 0; i < across; ++i)
-                    addRow(upper, lower, std::size_t(i * side),
-                           std::size_t(std::min((i + 1) * side, image.width - 1)),
-                           blocks[std::size_t(block * across + i)]);
-                std::swap(upper, lower);
-            }
+    std::vector<Slope> slopes(strip.pixelCount());
+    forRowBands(strip.height, [&](int first, int last) {
+        std::vector<glm::vec3> normals(std::size_t(strip.width));
+        for (int y = first; y < last; ++y) {
+            decodeRow(strip, y, convention, normals);
+            std::ranges::transform(normals, slopes.begin() + std::ptrdiff_t(y) * strip.width, slopeOf);
         }
     });
-    return blocks;
+    return slopes;
 }
 
 // Spread of a figure of the sum when single blocks are left out (the jackknife).
@@ -121,15 +107,15 @@ double votesFor(const std::vector<Products>& blocks, double sign, bool exchanged
 }
 
 // Rounding moves a slope by a twelfth of a squared step; four of them, halved, are in a derivative.
-double noiseOf(const Image& image)
+double noiseOf(PixelType type)
 {
-    const double step = image.type == PixelType::unorm8 ? 1.0 / 127 : image.type == PixelType::unorm16 ? 1.0 / 32767 : 1e-6;
+    const double step = type == PixelType::unorm8 ? 1.0 / 127 : type == PixelType::unorm16 ? 1.0 / 32767 : 1e-6;
     return step * step / 12;
 }
 
-std::string unreadable(const Image& image, const NormalStatistics& s)
+std::string unreadable(int width, int height, const NormalStatistics& s)
 {
-    if (image.width < 3 || image.height < 3)
+    if (width < 3 || height < 3)
         return "the picture is too small to have a relief";
     switch (s.content) {
     case Content::flat: return "every texel has the same value: there is no relief to judge by";
@@ -156,25 +142,66 @@ Convention reading(const NormalStatistics& s)
 
 } // namespace
 
-GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics)
+struct GreenSurvey::State {
+    int width = 0, height = 0;
+    PixelType type = PixelType::unorm8;
+    NormalStatistics statistics;
+    std::string unreadable;
+    int side = 0, across = 0; // of the square blocks, in texels; how many in a row of them
+    std::vector<Products> blocks;
+};
+
+GreenSurvey::GreenSurvey(int width, int height, PixelType type, const NormalStatistics& statistics)
+    : state_(std::make_unique<State>())
+{
+    State& s = *state_;
+    s.width = width, s.height = height, s.type = type, s.statistics = statistics;
+    s.unreadable = unreadable(width, height, statistics);
+    if (!s.unreadable.empty())
+        return;
+    s.side = std::max(8, int(std::ceil(std::max(width, height) / kMostBlocksASide)));
+    s.across = (width - 2) / s.side + 1;
+    s.blocks.resize(std::size_t(s.across) * std::size_t((height - 2) / s.side + 1));
+}
+
+GreenSurvey::~GreenSurvey() = default;
+
+void GreenSurvey::add(const Image& strip, int firstRow)
+{
+    State& s = *state_;
+    if (s.blocks.empty())
+        return;
+    Image moved;
+    if (s.statistics.swizzle != Swizzle::rg) {
+        moved = strip;
+        unswizzle(moved, s.statistics.swizzle);
+    }
+    const std::vector<Slope> slopes = slopesOf(moved.width > 0 ? moved : strip, reading(s.statistics));
+    // Columns of blocks side by side; in each the rows follow one another, however they are cut into strips.
+    oneapi::tbb::parallel_for(std::size_t(0), std::size_t(s.across), [&](std::size_t i) {
+        const std::size_t first = i * std::size_t(s.side), last = std::min(first + std::size_t(s.side), std::size_t(s.width - 1));
+        for (int y = 0; y + 1 < strip.height; ++y) {
+            const Slope* upper = slopes.data() + std::size_t(y) * std::size_t(s.width);
+            addRow(upper, upper + s.width, first, last,
+                   s.blocks[std::size_t((firstRow + y) / s.side) * std::size_t(s.across) + i]);
+        }
+    });
+}
+
+GreenVerdict GreenSurvey::verdict() const
 {
     GreenVerdict v;
-    if (v.reason = unreadable(image, statistics); !v.reason.empty())
+    v.reason = state_->unreadable;
+    if (!v.reason.empty())
         return v;
-    Image moved;
-    if (statistics.swizzle != Swizzle::rg) {
-        moved = image;
-        unswizzle(moved, statistics.swizzle);
-    }
-    const Image& map = statistics.swizzle == Swizzle::rg ? image : moved;
-    const std::vector<Products> blocks = blockProducts(map, reading(statistics));
+    const std::vector<Products>& blocks = state_->blocks;
     Products all;
     for (const Products& b : blocks)
         all.add(b);
-    v.used = all.cells / (double(image.width - 1) * double(image.height - 1));
+    v.used = all.cells / (double(state_->width - 1) * double(state_->height - 1));
     v.agreement = all.agreement();
     v.exchanged = all.exchanged();
-    const double noise = noiseOf(image) * std::max(all.active, 1.0);
+    const double noise = noiseOf(state_->type) * std::max(all.active, 1.0);
     if (all.ay2 + all.bx2 + all.by2 + all.ax2 < 6 * noise) {
         v.reason = "the relief is so weak that it drowns in rounding";
         return v;
@@ -189,7 +216,7 @@ GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics)
     v.votes = votesFor(blocks, sign, exchanged);
     const double cross = exchanged ? all.by2 + all.ax2 : all.ay2 + all.bx2;
     if (cross < 4 * noise || cross < 0.002 * (all.ay2 + all.bx2 + all.by2 + all.ax2)) {
-        v.reason = "the relief runs in one direction only: either way of green explains it";
+        v.reason = "the relief runs along the rows and columns only: either way of green explains it";
         return v;
     }
     if (std::abs(best) < kLikely || v.deviations < kLikelyDeviations) {
@@ -203,6 +230,13 @@ GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics)
                                                         : Swapped::undecidable;
     v.reason = "the slopes in red and green belong to one relief when green points this way";
     return v;
+}
+
+GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics)
+{
+    GreenSurvey survey(image.width, image.height, image.type, statistics);
+    survey.add(image, 0);
+    return survey.verdict();
 }
 
 } // namespace cotan::maps

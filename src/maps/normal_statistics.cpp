@@ -21,9 +21,11 @@ struct Sums {
     std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
     std::array<std::size_t, 4> counted{};
     std::size_t signedUnit = 0; // length within 0.1 of 1 as stored
+    ChannelRange range;
 
     void add(const Sums& o)
     {
+        range.add(o.range);
         finite += o.finite;
         grey += o.grey;
         signedUnit += o.signedUnit;
@@ -55,7 +57,7 @@ bool finite(const glm::vec4& t)
     return std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z) && std::isfinite(t.w);
 }
 
-template<class Band, class Work> Band sumBands(const Image& image, Work work)
+template<class Band, class Work> void sumBands(const Image& image, Band& all, Work work)
 {
     std::vector<Band> bands(std::size_t(image.height + 15) / 16);
     forRowBands(image.height, [&](int first, int last) {
@@ -66,16 +68,15 @@ template<class Band, class Work> Band sumBands(const Image& image, Work work)
                 work(bands[std::size_t(first) / 16], t);
         }
     });
-    Band all;
     for (const Band& band : bands)
         all.add(band);
-    return all;
 }
 
-Sums storedValues(const Image& image)
+void addStoredValues(const Image& image, Sums& sums)
 {
     static const Curve decoded(fromSrgb), encoded(toSrgb);
-    return sumBands<Sums>(image, [](Sums& s, const glm::vec4& t) {
+    sumBands(image, sums, [](Sums& s, const glm::vec4& t) {
+        s.range.add(t);
         if (!finite(t))
             return;
         ++s.finite;
@@ -142,10 +143,10 @@ struct Directions {
     }
 };
 
-Directions directions(const Image& image, const Convention& convention, Transfer transfer)
+void addDirections(const Image& image, const Convention& convention, Transfer transfer, Directions& sums)
 {
     static const Curve decoded(fromSrgb), encoded(toSrgb);
-    return sumBands<Directions>(image, [&](Directions& d, glm::vec4 t) {
+    sumBands(image, sums, [&](Directions& d, glm::vec4 t) {
         if (transfer != Transfer::linear && finite(t)) {
             const Curve& curve = transfer == Transfer::srgb ? decoded : encoded;
             t = {curve(t.x), curve(t.y), curve(t.z), t.w};
@@ -192,12 +193,22 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
 
 } // namespace
 
-NormalStatistics statisticsOfMap(const Image& image)
-{
+struct MapSurvey::State {
     NormalStatistics s;
-    s.texels = image.pixelCount();
-    s.swizzle = swizzleOf(image);
-    const Sums sums = storedValues(image);
+    Sums sums;
+    Directions d;
+    PixelType type = PixelType::unorm8;
+    Convention read;
+    bool two = false, constantAll = false, between = false;
+
+    void afterFirst();
+};
+
+// What the first pass has told, for the second to read by.
+void MapSurvey::State::afterFirst()
+{
+    between = true;
+    s.swizzle = sums.range.swizzle();
     std::array<double, 4> range{};
     for (std::size_t c = 0; c < 4; ++c)
         range[c] = sums.finite ? sums.highest[c] - sums.lowest[c] : 0;
@@ -205,34 +216,51 @@ NormalStatistics statisticsOfMap(const Image& image)
         s.lowest[c] = sums.lowest[c];
         s.highest[c] = sums.highest[c];
     }
-    const bool two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
-    const bool constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant
-        && range[3] <= kConstant;
-    const bool isSigned = image.type == PixelType::float32 && sums.finite
+    two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
+    constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
+    s.signedStored = type == PixelType::float32 && sums.finite
         && (std::min(s.lowest[0], s.lowest[1]) < -0.01
             || (!two && share(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
-    s.signedStored = isSigned;
-    if (!two && !isSigned && !constantAll) {
+    if (!two && !s.signedStored && !constantAll) {
         s.rmsExact = rms(sums, 0);
         s.rmsBiased = rms(sums, 1);
         s.transfer = transferOf(sums);
         if (s.transfer == Transfer::linear)
             s.centre = centreOf(sums);
     }
-
-    Convention read{.expansion = s.centre == Centre::biased || s.transfer != Transfer::linear
-                        ? Expansion::biased
-                        : Expansion::exact};
-    if (isSigned)
+    read.expansion = s.centre == Centre::biased || s.transfer != Transfer::linear ? Expansion::biased : Expansion::exact;
+    if (s.signedStored)
         read.expansion = Expansion::signedValues;
-    Image moved;
-    if (s.swizzle != Swizzle::rg) {
-        moved = image;
-        unswizzle(moved, s.swizzle);
-    }
     if (two && !constantAll)
         read.channels = Channels::orthographic;
-    const Directions d = directions(s.swizzle == Swizzle::rg ? image : moved, read, s.transfer);
+}
+
+MapSurvey::MapSurvey() : state_(std::make_unique<State>()) {}
+MapSurvey::~MapSurvey() = default;
+
+void MapSurvey::first(const Image& strip)
+{
+    state_->type = strip.type;
+    state_->s.texels += strip.pixelCount();
+    addStoredValues(strip, state_->sums);
+}
+
+void MapSurvey::second(const Image& strip)
+{
+    if (!state_->between)
+        state_->afterFirst();
+    Image moved;
+    if (state_->s.swizzle != Swizzle::rg) {
+        moved = strip;
+        unswizzle(moved, state_->s.swizzle);
+    }
+    addDirections(moved.width > 0 ? moved : strip, state_->read, state_->s.transfer, state_->d);
+}
+
+NormalStatistics MapSurvey::finish()
+{
+    NormalStatistics& s = state_->s;
+    const Directions& d = state_->d;
     s.invalid = 1 - share(d.valid, s.texels);
     s.belowHorizon = share(d.below, d.valid);
     s.outsideDisc = share(d.outside, d.valid);
@@ -247,10 +275,18 @@ NormalStatistics statisticsOfMap(const Image& image)
         for (std::size_t i = 0; i < 9; ++i)
             s.tilt[i] = share(d.histogram[i], d.valid);
     }
-    s.content = contentOf(s, sums, two, constantAll);
-    if (isSigned && s.content == Content::tangentSpace)
+    s.content = contentOf(s, state_->sums, state_->two, state_->constantAll);
+    if (s.signedStored && s.content == Content::tangentSpace)
         s.content = Content::signedValues;
     return s;
+}
+
+NormalStatistics statisticsOfMap(const Image& image)
+{
+    MapSurvey survey;
+    survey.first(image);
+    survey.second(image);
+    return survey.finish();
 }
 
 std::string describe(Content content)

@@ -75,7 +75,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 texels[x] = encodeTexel(n, s.to, keepLength);
                 texels[x].w = alpha;
                 if (s.dither)
-                    texels[x] = dithered(texels[x], most, int(x), y);
+                    texels[x] = dithered(texels[x], most, int(x), s.firstRow + y);
             }
             storeRow(out, y, texels);
         }

@@ -50,25 +50,45 @@ template<class T> T quantise(float value, float most)
 
 } // namespace
 
-Swizzle swizzleOf(const Image& image)
+void ChannelRange::add(const glm::vec4& t)
+{
+    lowest = glm::min(lowest, t);
+    highest = glm::max(highest, t);
+    grey = grey && t.x == t.y && t.x == t.z;
+}
+
+void ChannelRange::add(const ChannelRange& o)
+{
+    lowest = glm::min(lowest, o.lowest);
+    highest = glm::max(highest, o.highest);
+    grey = grey && o.grey;
+}
+
+void ChannelRange::add(const Image& image)
 {
     std::vector<glm::vec4> row(std::size_t(image.width));
-    glm::vec4 lowest(INFINITY), highest(-INFINITY);
-    bool grey = true;
     for (int y = 0; y < image.height; ++y) {
         loadRow(image, y, row);
-        for (const glm::vec4& t : row) {
-            lowest = glm::min(lowest, t);
-            highest = glm::max(highest, t);
-            grey = grey && t.x == t.y && t.x == t.z;
-        }
+        for (const glm::vec4& t : row)
+            add(t);
     }
+}
+
+Swizzle ChannelRange::swizzle() const
+{
     const glm::vec4 range = highest - lowest;
     if (!(range.w > kSame))
         return Swizzle::rg;
     if (grey)
         return Swizzle::greyAlpha;
     return range.x <= kSame && range.y > kSame ? Swizzle::alphaGreen : Swizzle::rg;
+}
+
+Swizzle swizzleOf(const Image& image)
+{
+    ChannelRange range;
+    range.add(image);
+    return range.swizzle();
 }
 
 void unswizzle(Image& image, Swizzle from)

@@ -1,6 +1,8 @@
 #include "cotan/report/statistics.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -37,6 +39,47 @@ AngleStatistics statisticsOf(std::vector<float> degrees)
     s.maximum = *std::max_element(degrees.begin(), degrees.end());
     s.over1 = shareOver(degrees, 1);
     s.over5 = shareOver(degrees, 5);
+    return s;
+}
+
+AngleHistogram::AngleHistogram() : counts_(std::size_t(1) << 20) {}
+
+void AngleHistogram::add(float degrees)
+{
+    if (!(degrees >= 0))
+        return;
+    ++counts_[std::bit_cast<std::uint32_t>(degrees) << 1 >> 12]; // bits of positive floats sort as the floats do
+    ++count_;
+    over1_ += degrees > 1;
+    over5_ += degrees > 5;
+    sum_ += double(degrees);
+    maximum_ = std::max(maximum_, degrees);
+}
+
+double AngleHistogram::percentile(double q) const
+{
+    const auto rank = std::size_t(q * double(count_ - 1));
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+        if (below += counts_[i]; below > rank)
+            return double(std::bit_cast<float>(std::uint32_t(i) << 11));
+    return double(maximum_);
+}
+
+AngleStatistics AngleHistogram::statistics() const
+{
+    AngleStatistics s;
+    s.count = count_;
+    if (count_ == 0)
+        return s;
+    const double n = double(count_);
+    s.mean = sum_ / n;
+    s.median = percentile(0.5);
+    s.percentile95 = percentile(0.95);
+    s.percentile99 = percentile(0.99);
+    s.maximum = double(maximum_);
+    s.over1 = double(over1_) / n;
+    s.over5 = double(over5_) / n;
     return s;
 }
 

@@ -18,6 +18,7 @@ struct BlendSettings {
     const Image* mask = nullptr; // red times this much of the strength; any size; none: everywhere
     PixelType type = PixelType::unorm8;
     bool dither = false;
+    int firstRow = 0, pictureHeight = 0; // the base is these rows of a picture of that height; 0: all of it
 };
 
 // The blend, of the base's size. The detail is filtered bilinearly and repeats; where it is shrunk it

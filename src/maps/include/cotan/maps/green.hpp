@@ -6,6 +6,7 @@
 // relief, once seen as bumps and once as dents; we take red to point right, as every convention has it.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "cotan/scene/image.hpp"
@@ -33,5 +34,19 @@ struct GreenVerdict {
 
 // statistics: of the same image.
 GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics);
+
+// The same for a picture that comes in strips from the top.
+class GreenSurvey {
+public:
+    GreenSurvey(int width, int height, PixelType type, const NormalStatistics& statistics);
+    ~GreenSurvey();
+    // Rows from firstRow on, and the row below them, except at the bottom.
+    void add(const Image& strip, int firstRow);
+    GreenVerdict verdict() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace cotan::maps

@@ -29,6 +29,9 @@ struct FromHeightSettings {
     Convention to;
     PixelType type = PixelType::unorm16;
     bool dither = false;
+    bool bordered = false; // the picture's first and last row are neighbours only: the result lacks them, and
+                           // wrap is for left and right
+    int firstRow = 0;      // where the result lies in a larger picture, for the dither
 };
 
 // The normal map of a height picture (red is read). invalid: texels whose heights around are not

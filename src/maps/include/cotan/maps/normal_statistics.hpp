@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "cotan/maps/texels.hpp"
@@ -45,6 +46,21 @@ struct NormalStatistics {
 
 // Reads the whole picture twice. Any size, any contents.
 NormalStatistics statisticsOfMap(const Image& image);
+
+// The same for a picture that comes in strips from the top: all of them once, then all of them again.
+// Strips of 16 rows, or multiples, but for the last one.
+class MapSurvey {
+public:
+    MapSurvey();
+    ~MapSurvey();
+    void first(const Image& strip);
+    void second(const Image& strip);
+    NormalStatistics finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 // A few words, such as "tangent space" or "two channels (slopes)".
 std::string describe(Content content);

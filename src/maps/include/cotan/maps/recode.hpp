@@ -16,6 +16,7 @@ struct RecodeSettings {
     float strength = 1;                 // factor on the slopes; not 0
     bool normalise = false;             // three channels to three: otherwise lengths are kept
     bool dither = false;                // half a step of noise before rounding; flat stays flat
+    int firstRow = 0;                   // where the rows lie in the picture, for the noise
 };
 
 // What could not be kept.

@@ -28,6 +28,17 @@ enum class Swizzle {
 // varying: alphaGreen. Otherwise rg.
 Swizzle swizzleOf(const Image& image);
 
+// What swizzleOf looks at, for pictures that come in parts.
+struct ChannelRange {
+    glm::vec4 lowest{1e30f}, highest{-1e30f};
+    bool grey = true; // red, green and blue are the same everywhere
+
+    void add(const glm::vec4& texel);
+    void add(const ChannelRange& other);
+    void add(const Image& image);
+    Swizzle swizzle() const;
+};
+
 // Moves x to red and y to green, blue to zero's value and alpha to 1; nothing for rg.
 void unswizzle(Image& image, Swizzle from);
 

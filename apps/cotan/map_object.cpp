@@ -1,0 +1,108 @@
+#include "map_object.hpp"
+
+#include <atomic>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/asset/load.hpp"
+#include "cotan/bake/bake.hpp"
+#include "cotan/bake/low_surface.hpp"
+#include "cotan/bake/uv_raster.hpp"
+#include "cotan/maps/texels.hpp"
+#include "parse.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+// The place that covers the texel's centre; where none does, the first that touches it. Null: none.
+const UvPlace* placeOf(const UvRow& row, std::size_t x)
+{
+    const UvPlace* best = nullptr;
+    for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
+        if (!best || (row.places[i].covers && !best->covers))
+            best = &row.places[i];
+    return best;
+}
+
+// A direction of picture space and a frame's coefficients differ by the way of green: v runs down the picture.
+glm::dvec3 upsideDown(const glm::dvec3& v) { return {v.x, -v.y, v.z}; }
+
+glm::vec3 turned(const glm::vec3& n, const CotangentFrame<double>& frame, bool fromObject)
+{
+    const glm::dvec3 unit = glm::normalize(glm::dvec3(n));
+    return fromObject ? glm::vec3(upsideDown(encode(frame, Covector3d(unit))))
+                      : glm::vec3(perturb(frame, upsideDown(unit)).raw());
+}
+
+// Every component by its convention, dithered if asked for.
+Image stored(const Baked& values, const maps::RecodeSettings& s, std::size_t& clamped)
+{
+    Image out = makeImage(values.width, values.height, s.type);
+    const float steps = s.type == PixelType::unorm8 ? 255.0f : s.type == PixelType::unorm16 ? 65535.0f : 0.0f;
+    std::vector<glm::vec4> row(std::size_t(values.width));
+    const bool tangent = s.to.kind != MapKind::objectSpace;
+    for (int y = 0; y < values.height; ++y) {
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            const glm::vec3 n = values.values[std::size_t(y) * row.size() + x];
+            clamped += tangent && n.z < 0 && s.to.channels != Channels::xyz;
+            row[x] = maps::encodeTexel(n, s.to);
+            if (s.dither)
+                row[x] = maps::dithered(row[x], steps, int(x), y);
+        }
+        maps::storeRow(out, y, row);
+    }
+    return out;
+}
+
+} // namespace
+
+Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const MeshOptions& mesh,
+                          maps::RecodeCounts& counts, std::size_t& shown)
+{
+    const auto frame = parseFrame(mesh.frame);
+    if (!frame)
+        return frame.error();
+    const auto scene = loadScene(mesh.file);
+    if (!scene)
+        return scene.error();
+    const auto surface = makeLowSurface(*scene, mesh.material, *frame,
+                                        mesh.tangents == "stored" ? TangentSource::stored : TangentSource::generated);
+    if (!surface)
+        return surface.error();
+    const UvRaster raster({surface->texcoords, surface->indices}, map.width, map.height);
+    const bool fromObject = s.from.kind == MapKind::objectSpace;
+    Baked values{map.width, map.height, std::vector<glm::vec3>(map.pixelCount(), glm::vec3(0)),
+                 std::vector<std::uint8_t>(map.pixelCount(), 0), {}};
+    std::atomic<std::size_t> invalid = 0, found = 0;
+    maps::forRowBands(map.height, [&](int first, int last) {
+        UvRow places;
+        std::vector<glm::vec3> normals(std::size_t(map.width));
+        for (int y = first; y < last; ++y) {
+            raster.row(y, true, places);
+            maps::decodeRow(map, y, s.from, normals);
+            for (std::size_t x = 0; x < normals.size(); ++x) {
+                const UvPlace* place = placeOf(places, x);
+                if (!place)
+                    continue;
+                ++found;
+                const std::size_t at = std::size_t(y) * normals.size() + x;
+                const LowPoint p = pointOf(*surface, *frame, place->triangle, double(place->b1), double(place->b2));
+                if (normals[x] == glm::vec3(0)) { // no direction: that of the surface
+                    ++invalid;
+                    values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);
+                } else {
+                    values.values[at] = turned(normals[x], p.frame, fromObject);
+                }
+                values.states[at] = texelCovered;
+            }
+        }
+    });
+    shown = found;
+    counts = {invalid, 0};
+    padCharts(values, 0);
+    return stored(values, s, counts.clamped);
+}
+
+} // namespace cotan::app

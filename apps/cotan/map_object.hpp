@@ -1,0 +1,26 @@
+// Between tangent and object space, which takes the mesh that the map belongs to.
+#pragma once
+
+#include <string>
+
+#include "cotan/frame.hpp"
+#include "cotan/maps/recode.hpp"
+#include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan::app {
+
+struct MeshOptions {
+    std::string file, frame = "smooth", tangents = "stored";
+    int material = -1; // -1: all
+};
+
+// The map in the other space: one of settings.from and settings.to is of object space, whose axes are those of the
+// file as its nodes place the mesh. Every texel that the mesh shows is turned by the frame at its place; the rest
+// gets the value of the nearest chart. Lengths become 1; strength, normalise and firstRow are not looked at. shown:
+// texels that the mesh shows.
+// Errors: as loadScene and makeLowSurface.
+Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& settings, const MeshOptions& mesh,
+                          maps::RecodeCounts& counts, std::size_t& shown);
+
+} // namespace cotan::app
