@@ -59,7 +59,7 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
     const UvRaster raster(l.view(), 37, 23);
     UvRow row;
     for (int y = 0; y < 23; ++y) {
-        raster.row(y, false, row);
+        raster.row(y, UvReach::centres, row);
         for (int x = 0; x < 37; ++x) {
             ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
             const UvPlace& p = row.places[row.first[std::size_t(x)]];
@@ -77,13 +77,39 @@ TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
     const Layout l{{{0.26f, 0.26f}, {0.34f, 0.26f}, {0.3f, 0.3f}}, {0, 1, 2}};
     const UvRaster raster(l.view(), 4, 4);
     UvRow row;
-    raster.row(1, false, row);
+    raster.row(1, UvReach::centres, row);
     EXPECT_TRUE(row.places.empty());
-    raster.row(1, true, row);
+    raster.row(1, UvReach::touching, row);
     ASSERT_EQ(row.first[2] - row.first[1], 1u); // texel (1, 1), whose centre is (0.375, 0.375)
     const UvPlace& p = row.places[row.first[1]];
     EXPECT_FALSE(p.covers);
     EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
+}
+
+TEST(UvRaster, gapsAreWhatTouchingFindsWhereNoCentreIsCovered)
+{
+    const Layout l = jitteredGrid(6);
+    const UvRaster raster(l.view(), 61, 43);
+    UvRow gaps, touching;
+    for (int y = 0; y < 43; ++y) {
+        raster.row(y, UvReach::gaps, gaps);
+        raster.row(y, UvReach::touching, touching);
+        for (std::size_t x = 0; x < 61; ++x) {
+            std::vector<UvPlace> expected;
+            for (bool covers : {true, false})
+                if (expected.empty())
+                    for (std::uint32_t i = touching.first[x]; i < touching.first[x + 1]; ++i)
+                        if (touching.places[i].covers == covers)
+                            expected.push_back(touching.places[i]);
+            ASSERT_EQ(gaps.first[x + 1] - gaps.first[x], expected.size());
+            for (std::size_t i = 0; i < expected.size(); ++i) {
+                const UvPlace& p = gaps.places[gaps.first[x] + i];
+                EXPECT_EQ(p.triangle, expected[i].triangle);
+                EXPECT_EQ(p.b1, expected[i].b1);
+                EXPECT_EQ(p.covers, expected[i].covers);
+            }
+        }
+    }
 }
 
 TEST(UvRaster, overlapsAreCounted)

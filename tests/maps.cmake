@@ -1,5 +1,5 @@
 # The part maps by its functions, and `cotan map` as a user runs it.
-cotan_test(map_test
+cotan_test(map_test SEPARATE
   SOURCES map_blend_test.cpp map_detect_test.cpp map_height_test.cpp map_mips_test.cpp map_recode_test.cpp
   LIBRARIES cotan_maps cotan_asset)
 cotan_test(map_command_test

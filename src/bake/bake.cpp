@@ -1,9 +1,12 @@
 #include "cotan/bake/bake.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -19,10 +22,18 @@ namespace cotan {
 
 namespace {
 
-struct Sample {
-    bool found = false, negative = false;
-    glm::vec3 value{0};
-    int rays = 0;
+constexpr std::size_t kPacket = HighSurface::kPacket;
+
+// A sample of the map that is on its way: where it belongs, and its place on the low surface.
+struct Wanted {
+    std::size_t texel = 0;    // of the row
+    UvPlace place;
+    std::uint32_t pattern = 0; // for directions that differ from texel to texel
+};
+
+struct Packet {
+    std::array<Wanted, kPacket> wanted;
+    std::size_t count = 0;
 };
 
 class Baker {
@@ -36,85 +47,51 @@ public:
     }
 
     float distance() const { return distance_; }
+    std::size_t raysEach() const { return options_.cage.empty() ? 2 : 1; }
 
-    Sample sample(const UvPlace& place, std::uint32_t pattern) const
+    // The line on which the high surface is looked for from a place of the low one.
+    Probe probe(glm::vec3 position, glm::vec3 normal, const UvPlace& place) const
     {
-        const LowPoint p = pointOf(low_, options_.frame, place.triangle, place.b1, place.b2);
-        Sample s;
-        glm::vec3 out;
-        const Hit hit = find(p, place, out, s.rays);
-        if (!hit.found)
-            return s;
-        s.found = true;
-        store(s, p, hit, glm::vec3(p.position) + out * hit.distance, pattern);
-        return s;
-    }
-
-    // The point of the high surface that belongs to a point of the low one; `out`: the direction in which
-    // the hit's signed distance is measured.
-    Hit find(const LowPoint& p, const UvPlace& place, glm::vec3& out, int& rays) const
-    {
-        const std::int64_t only = options_.matched.empty()
-            ? -1 : options_.matched[low_.triangleInstance[place.triangle]];
-        const glm::vec3 position(p.position), n(p.normal);
-        out = n;
-        float reach = distance_;
+        Probe p{position, normal, distance_, -1};
+        if (!options_.matched.empty())
+            p.only = options_.matched[low_.triangleInstance[place.triangle]];
         if (!options_.cage.empty()) {
             const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
             const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
                 + options_.cage[v[2]] * place.b2;
-            reach = glm::length(cage - position);
-            out = reach > 0 ? (cage - position) / reach : n;
+            p.reach = glm::length(cage - position);
+            p.direction = p.reach > 0 ? (cage - position) / p.reach : glm::vec3(0);
         }
-        if (glm::dot(out, out) == 0 || reach <= 0)
-            return {};
-        return options_.cage.empty() ? nearestHit(position, out, reach, only, rays)
-                                     : fromCage(position, out, reach, only, rays);
+        return p;
+    }
+
+    // The points of the high surface that belong to places of the low one.
+    void find(std::span<const Probe> probes, std::span<Hit> hits) const
+    {
+        if (options_.cage.empty())
+            high_.nearest(probes, lift_, hits);
+        else
+            high_.outermost(probes, hits);
+    }
+
+    glm::vec3 normalOf(const Hit& hit) const { return options_.faceNormals ? hit.faceNormal : hit.normal; }
+
+    // What the map says of a hit; `where`: the point hit.
+    glm::vec3 value(const CotangentFrame<float>& frame, const Hit& hit, glm::vec3 where, std::uint32_t pattern) const
+    {
+        const glm::vec3 normal = normalOf(hit);
+        switch (options_.kind) {
+        case BakeKind::normal: return encode(frame, Covector3f(normal));
+        case BakeKind::objectNormal: return normal;
+        case BakeKind::height: return {hit.distance, 0, 1};
+        case BakeKind::occlusion: break;
+        }
+        return {openness(where, normal, pattern), 0, 1};
     }
 
 private:
-    // Forward and back from the low surface; the distance carries the sign.
-    Hit nearestHit(glm::vec3 position, glm::vec3 out, float reach, std::int64_t only, int& rays) const
-    {
-        // Each ray starts a little on the other side, so that a surface through the point is found.
-        Hit outwards = high_.trace({position - out * lift_, out, 0, reach + lift_}, only);
-        outwards.distance -= lift_;
-        const float left = outwards.found ? std::min(reach, std::abs(outwards.distance)) : reach;
-        Hit inwards = high_.trace({position + out * lift_, -out, 0, left + lift_}, only);
-        inwards.distance = -(inwards.distance - lift_);
-        rays += 2;
-        if (!inwards.found)
-            return outwards;
-        return !outwards.found || std::abs(inwards.distance) < std::abs(outwards.distance) ? inwards : outwards;
-    }
-
-    // From the cage inwards: the outermost surface, to as far behind the low one.
-    Hit fromCage(glm::vec3 position, glm::vec3 out, float reach, std::int64_t only, int& rays) const
-    {
-        Hit hit = high_.trace({position + out * reach, -out, 0, 2 * reach}, only);
-        hit.distance = reach - hit.distance;
-        ++rays;
-        return hit;
-    }
-
-    void store(Sample& s, const LowPoint& p, const Hit& hit, glm::vec3 where, std::uint32_t pattern) const
-    {
-        const glm::vec3 normal = options_.faceNormals ? hit.faceNormal : hit.normal;
-        switch (options_.kind) {
-        case BakeKind::normal: {
-            const glm::dvec3 m = encode(p.frame, Covector3d(glm::dvec3(normal)));
-            s.negative = m.z < 0;
-            s.value = glm::vec3(m);
-            break;
-        }
-        case BakeKind::objectNormal: s.value = normal; break;
-        case BakeKind::height: s.value = glm::vec3(hit.distance, 0, 1); break;
-        case BakeKind::occlusion: s.value = glm::vec3(openness(where, normal, pattern, s.rays), 0, 1); break;
-        }
-    }
-
     // Cosine-weighted directions of a golden-ratio spiral, turned by the texel's own angle.
-    float openness(glm::vec3 where, glm::vec3 n, std::uint32_t pattern, int& rays) const
+    float openness(glm::vec3 where, glm::vec3 n, std::uint32_t pattern) const
     {
         const glm::vec3 side = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
         const glm::vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t);
@@ -126,7 +103,6 @@ private:
             const glm::vec3 d = t * x + b * y + n * float(std::sqrt(1 - r2));
             open += !high_.blocked({where + n * lift_, d, 0, 1e30f});
         }
-        rays += options_.occlusionRays;
         return float(open) / float(options_.occlusionRays);
     }
 
@@ -137,58 +113,104 @@ private:
     float lift_ = 0;
 };
 
-// One row of texels from the rows of their samples.
-struct RowBaker {
-    const Baker& baker;
-    const UvRaster& raster;
-    int samples;
-    Baked& out;
-    std::atomic<std::size_t>& rays;
-
-    void bake(int y) const
+// Rows of texels from the rows of their samples. One for each thread: keeps what neighbours share.
+class RowBaker {
+public:
+    RowBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options, Baked& out)
+        : low_(low), baker_(baker), raster_(raster), options_(options), out_(out), sums_(std::size_t(out.width)),
+          found_(std::size_t(out.width))
     {
-        const std::size_t width = std::size_t(out.width), base = std::size_t(y) * width;
-        std::vector<glm::vec3> sums(width, glm::vec3(0));
-        std::vector<int> found(width, 0);
-        std::size_t rowRays = 0;
-        UvRow row;
-        for (int sub = 0; sub < samples; ++sub) {
-            raster.row(y * samples + sub, true, row);
-            for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
-                rowRays += addSample(row, x, base + x / std::size_t(samples), std::uint32_t(y * samples + sub),
-                                     sums[x / std::size_t(samples)], found[x / std::size_t(samples)]);
-        }
-        for (std::size_t x = 0; x < width; ++x)
-            if (found[x] > 0)
-                out.values[base + x] = sums[x] / float(found[x]);
-        rays += rowRays;
     }
 
-    std::size_t addSample(const UvRow& row, std::size_t x, std::size_t texel, std::uint32_t y, glm::vec3& sum,
-                          int& found) const
+    // Returns how many rays were traced.
+    std::size_t bake(int y)
+    {
+        const std::size_t samples = std::size_t(options_.samples);
+        base_ = std::size_t(y) * std::size_t(out_.width);
+        std::fill(sums_.begin(), sums_.end(), glm::vec3(0));
+        std::fill(found_.begin(), found_.end(), 0);
+        rays_ = 0;
+        for (std::size_t sub = 0; sub < samples; ++sub) {
+            const std::size_t line = std::size_t(y) * samples + sub;
+            raster_.row(int(line), UvReach::gaps, row_);
+            for (std::size_t x = 0; x + 1 < row_.first.size(); ++x)
+                if (row_.first[x] < row_.first[x + 1])
+                    add(x, x / samples, std::uint32_t(x) * 7919u + std::uint32_t(line) * 104729u);
+        }
+        flush();
+        for (std::size_t x = 0; x < sums_.size(); ++x)
+            if (found_[x] > 0)
+                out_.values[base_ + x] = sums_[x] / float(found_[x]);
+        return rays_;
+    }
+
+private:
+    void add(std::size_t x, std::size_t texel, std::uint32_t pattern)
     {
         const UvPlace* chosen = nullptr;
         int covering = 0;
-        for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i) {
-            const UvPlace& place = row.places[i];
+        for (std::uint32_t i = row_.first[x]; i < row_.first[x + 1]; ++i) {
+            const UvPlace& place = row_.places[i];
             covering += place.covers;
             if (!chosen || (place.covers && !chosen->covers))
                 chosen = &place; // the first that covers, else the first that touches
         }
-        if (!chosen)
-            return 0;
-        std::uint8_t& state = out.states[texel];
+        std::uint8_t& state = out_.states[base_ + texel];
         state = std::uint8_t(state | (chosen->covers ? texelCovered : texelTouched) | (covering > 1 ? texelTwice : 0));
-        const Sample s = baker.sample(*chosen, std::uint32_t(x) * 7919u + y * 104729u);
-        if (s.found) {
-            sum += s.value;
-            ++found;
-        } else {
-            state = std::uint8_t(state | texelMissed);
-        }
-        state = std::uint8_t(state | (s.negative ? texelNegative : 0));
-        return std::size_t(s.rays);
+        packet_.wanted[packet_.count++] = {texel, *chosen, pattern};
+        if (packet_.count == kPacket)
+            flush();
     }
+
+    void flush()
+    {
+        std::array<LowPointOf<float>, kPacket> points;
+        std::array<Probe, kPacket> probes;
+        std::array<Hit, kPacket> hits;
+        const std::size_t count = packet_.count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const UvPlace& place = packet_.wanted[i].place;
+            if (place.triangle != triangle_) {
+                triangle_ = place.triangle;
+                const Differences<double> d = differencesOf(low_, options_.frame, triangle_);
+                differences_ = {Vector3f(d.dpdx.raw()), Vector3f(d.dpdy.raw()), d.duvdx, d.duvdy};
+            }
+            points[i] = pointOf<float>(low_, options_.frame, triangle_, place.b1, place.b2, differences_);
+            probes[i] = baker_.probe(points[i].position, points[i].normal, place);
+        }
+        baker_.find({probes.data(), count}, {hits.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            const Wanted& w = packet_.wanted[i];
+            std::uint8_t& state = out_.states[base_ + w.texel];
+            if (!hits[i].found) {
+                state = std::uint8_t(state | texelMissed);
+                continue;
+            }
+            const glm::vec3 where = probes[i].point + probes[i].direction * hits[i].distance;
+            const glm::vec3 value = baker_.value(points[i].frame, hits[i], where, w.pattern);
+            sums_[w.texel] += value;
+            ++found_[w.texel];
+            if (options_.kind == BakeKind::normal && value.z < 0)
+                state = std::uint8_t(state | texelNegative);
+            if (options_.kind == BakeKind::occlusion)
+                rays_ += std::size_t(options_.occlusionRays);
+        }
+        rays_ += count * baker_.raysEach();
+        packet_.count = 0;
+    }
+
+    const LowSurface& low_;
+    const Baker& baker_;
+    const UvRaster& raster_;
+    const BakeOptions& options_;
+    Baked& out_;
+    std::size_t base_ = 0, rays_ = 0;
+    std::vector<glm::vec3> sums_;
+    std::vector<int> found_;
+    UvRow row_;
+    Packet packet_;
+    std::uint32_t triangle_ = ~0u;
+    Differences<float> differences_;
 };
 
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
@@ -235,12 +257,13 @@ Image expectedNormals(const LowSurface& low, const HighSurface& high, const Bake
             if (!seen.found || glm::dot(seen.faceNormal, d) >= 0)
                 continue;
             const UvPlace place{seen.triangle, seen.b1, seen.b2, true};
-            glm::vec3 out;
-            int rays = 0;
-            const Hit hit = baker.find(pointOf(low, options.frame, place.triangle, place.b1, place.b2), place, out, rays);
+            const LowPoint point = pointOf(low, options.frame, place.triangle, place.b1, place.b2);
+            const Probe probe = baker.probe(glm::vec3(point.position), glm::vec3(point.normal), place);
+            Hit hit;
+            baker.find({&probe, 1}, {&hit, 1});
             if (!hit.found)
                 continue;
-            const glm::vec3 n = options.faceNormals ? hit.faceNormal : hit.normal;
+            const glm::vec3 n = baker.normalOf(hit);
             float* pixel = image.floats() + 4 * (std::size_t(y) * std::size_t(view.width) + std::size_t(x));
             pixel[0] = n.x;
             pixel[1] = n.y;
@@ -267,12 +290,12 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                           options.height * options.samples, options.tile);
     const Baker baker(low, high, options);
     std::atomic<std::size_t> rays = 0;
-    const RowBaker rows{baker, raster, options.samples, out, rays};
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<int>(0, options.height, 4), [&](const tbb::blocked_range<int>& range) {
+        tbb::parallel_for(tbb::blocked_range<int>(0, options.height, 8), [&](const tbb::blocked_range<int>& range) {
+            RowBaker rows(low, baker, raster, options, out);
             for (int y = range.begin(); y != range.end(); ++y) {
-                rows.bake(y);
+                rays += rows.bake(y);
                 if (progress)
                     progress();
             }

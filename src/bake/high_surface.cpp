@@ -1,5 +1,8 @@
 #include "cotan/bake/high_surface.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -54,17 +57,64 @@ RTCRayHit toEmbree(const Ray& ray)
     return r;
 }
 
-// The intersection context of rays that look for one instance only.
-struct Context {
-    RTCIntersectContext embree;
-    std::int64_t only;
-};
+// Rays carry the instance that they look for as their id.
+constexpr std::uint32_t kAny = ~0u;
 
 void keepOnly(const RTCFilterFunctionNArguments* a)
 {
-    const auto* context = reinterpret_cast<const Context*>(a->context);
-    if (context->only >= 0 && RTCHitN_geomID(a->hit, a->N, 0) != std::uint32_t(context->only))
-        a->valid[0] = 0;
+    for (unsigned i = 0; i < a->N; ++i) {
+        const std::uint32_t only = RTCRayN_id(a->ray, a->N, i);
+        if (a->valid[i] && only != kAny && RTCHitN_geomID(a->hit, a->N, i) != only)
+            a->valid[i] = 0;
+    }
+}
+
+// A filter costs a call for each candidate; most scenes need none.
+RTCIntersectContext contextFor(bool filtered)
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.filter = filtered ? keepOnly : nullptr;
+    return context;
+}
+
+struct Packet {
+    alignas(64) int valid[HighSurface::kPacket];
+    RTCRayHit16 rays;
+
+    // The ray from `offset` before the probe's point along direction * way.
+    void set(std::size_t i, const Probe& probe, float offset, float way, float farthest)
+    {
+        const glm::vec3 direction = probe.direction * way, origin = probe.point - direction * offset;
+        RTCRay16& r = rays.ray;
+        r.org_x[i] = origin.x;
+        r.org_y[i] = origin.y;
+        r.org_z[i] = origin.z;
+        r.dir_x[i] = direction.x;
+        r.dir_y[i] = direction.y;
+        r.dir_z[i] = direction.z;
+        r.tnear[i] = 0;
+        r.tfar[i] = farthest;
+        r.time[i] = 0;
+        r.mask[i] = ~0u;
+        r.id[i] = probe.only < 0 ? kAny : std::uint32_t(probe.only);
+        r.flags[i] = 0;
+        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        valid[i] = glm::dot(direction, direction) > 0 && farthest > 0 ? -1 : 0;
+    }
+    void fill(std::size_t from)
+    {
+        for (std::size_t i = from; i < HighSurface::kPacket; ++i)
+            set(i, {}, 0, 1, 0);
+    }
+    bool found(std::size_t i) const { return valid[i] && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+};
+
+bool anyOnly(std::span<const Probe> probes)
+{
+    return std::any_of(probes.begin(), probes.end(), [](const Probe& p) { return p.only >= 0; });
 }
 
 } // namespace
@@ -85,6 +135,29 @@ struct HighSurface::State {
             rtcReleaseDevice(device);
     }
 
+    Hit hit(std::uint32_t instance, std::uint32_t triangle, float b1, float b2, glm::vec3 face, float distance) const
+    {
+        const Part& part = parts[instance];
+        const std::uint32_t* v = &part.indices[3 * std::size_t(triangle)];
+        Hit h;
+        h.found = true;
+        h.distance = distance;
+        h.instance = instance;
+        h.triangle = triangle;
+        h.b1 = b1;
+        h.b2 = b2;
+        h.faceNormal = glm::normalize(face);
+        const glm::vec3 n = part.normals[v[0]] * (1 - b1 - b2) + part.normals[v[1]] * b1 + part.normals[v[2]] * b2;
+        const float length = glm::length(n);
+        h.normal = length > 1e-6f ? n / length : h.faceNormal;
+        return h;
+    }
+    Hit hit(const RTCRayHit16& r, std::size_t i, float distance) const
+    {
+        return hit(r.hit.geomID[i], r.hit.primID[i], r.hit.u[i], r.hit.v[i],
+                   {r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]}, distance);
+    }
+
     void attach(Part& part)
     {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -94,7 +167,6 @@ struct HighSurface::State {
                                    sizeof(glm::vec3), part.positions.size() - 1);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part.indices.data(), 0,
                                    3 * sizeof(std::uint32_t), part.indices.size() / 3);
-        rtcSetGeometryIntersectFilterFunction(geometry, keepOnly);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry); // ids count up from 0
         rtcReleaseGeometry(geometry);
@@ -140,29 +212,49 @@ HighSurface::~HighSurface() = default;
 
 Hit HighSurface::trace(const Ray& ray, std::int64_t only) const
 {
-    Context context;
-    rtcInitIntersectContext(&context.embree);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    context.only = only;
+    RTCIntersectContext context = contextFor(only >= 0);
     RTCRayHit r = toEmbree(ray);
-    rtcIntersect1(state_->scene, &context.embree, &r);
-    Hit hit;
+    r.ray.id = only < 0 ? kAny : std::uint32_t(only);
+    rtcIntersect1(state_->scene, &context, &r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return hit;
-    const Part& part = state_->parts[r.hit.geomID];
-    const std::uint32_t* v = &part.indices[3 * std::size_t(r.hit.primID)];
-    hit.found = true;
-    hit.distance = r.ray.tfar;
-    hit.instance = r.hit.geomID;
-    hit.triangle = r.hit.primID;
-    hit.b1 = r.hit.u;
-    hit.b2 = r.hit.v;
-    hit.faceNormal = glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z));
-    const glm::vec3 n = part.normals[v[0]] * (1 - r.hit.u - r.hit.v) + part.normals[v[1]] * r.hit.u
-        + part.normals[v[2]] * r.hit.v;
-    const float length = glm::length(n);
-    hit.normal = length > 1e-6f ? n / length : hit.faceNormal;
-    return hit;
+        return {};
+    return state_->hit(r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, r.ray.tfar);
+}
+
+void HighSurface::nearest(std::span<const Probe> probes, float lift, std::span<Hit> hits) const
+{
+    RTCIntersectContext context = contextFor(anyOnly(probes));
+    Packet outwards, inwards;
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        outwards.set(i, probes[i], lift, 1, probes[i].reach > 0 ? probes[i].reach + lift : 0);
+    outwards.fill(probes.size());
+    rtcIntersect16(outwards.valid, state_->scene, &context, &outwards.rays);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        // Nothing further away than what is found already.
+        const float left = outwards.found(i) ? std::abs(outwards.rays.ray.tfar[i] - lift) : probes[i].reach;
+        inwards.set(i, probes[i], lift, -1, probes[i].reach > 0 ? left + lift : 0);
+    }
+    inwards.fill(probes.size());
+    rtcIntersect16(inwards.valid, state_->scene, &context, &inwards.rays);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
+        if (inwards.found(i) && (!outwards.found(i) || std::abs(in) < std::abs(out)))
+            hits[i] = state_->hit(inwards.rays, i, -in);
+        else
+            hits[i] = outwards.found(i) ? state_->hit(outwards.rays, i, out) : Hit{};
+    }
+}
+
+void HighSurface::outermost(std::span<const Probe> probes, std::span<Hit> hits) const
+{
+    RTCIntersectContext context = contextFor(anyOnly(probes));
+    Packet packet;
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        packet.set(i, probes[i], probes[i].reach, -1, 2 * probes[i].reach);
+    packet.fill(probes.size());
+    rtcIntersect16(packet.valid, state_->scene, &context, &packet.rays);
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        hits[i] = packet.found(i) ? state_->hit(packet.rays, i, probes[i].reach - packet.rays.ray.tfar[i]) : Hit{};
 }
 
 bool HighSurface::blocked(const Ray& ray) const

@@ -111,47 +111,52 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
     return surface;
 }
 
-LowPoint pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, double b1, double b2)
+Differences<double> differencesOf(const LowSurface& s, Frame frame, std::uint32_t triangle)
 {
-    const std::size_t first = 3 * std::size_t(triangle);
-    const std::uint32_t* v = &s.indices[first];
-    const double b0 = 1 - b1 - b2;
-    auto blend = [&](const auto& a, const auto& b, const auto& c) {
-        return glm::dvec3(a) * b0 + glm::dvec3(b) * b1 + glm::dvec3(c) * b2;
-    };
-    LowPoint p;
-    p.position = blend(s.positions[v[0]], s.positions[v[1]], s.positions[v[2]]);
-    const glm::dvec3 raw = blend(s.normals[v[0]], s.normals[v[1]], s.normals[v[2]]);
-    const double length = glm::length(raw);
-    p.normal = length > 0 ? raw / length : raw;
-    if (frame == Frame::smooth) {
-        const auto f = f64::cotan_frame_smooth(
-            raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
-            blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]]));
-        p.frame = {Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
-        return p;
-    }
-    if (!s.tangents.empty()) {
-        const glm::dvec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
-        const double handedness = -double(s.tangents[first].w); // glTF's w has v up
-        const auto f = frame == Frame::mikktspace ? f64::cotan_frame_mikktspace(raw, t, handedness)
-                                                  : f64::cotan_frame_vertex(raw, t, handedness);
-        p.frame = {Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
-        return p;
-    }
+    const std::uint32_t* v = &s.indices[3 * std::size_t(triangle)];
     const glm::dvec3 e1 = glm::dvec3(s.positions[v[1]]) - glm::dvec3(s.positions[v[0]]);
     const glm::dvec3 e2 = glm::dvec3(s.positions[v[2]]) - glm::dvec3(s.positions[v[0]]);
     const glm::dvec2 w1 = glm::dvec2(s.texcoords[v[1]]) - glm::dvec2(s.texcoords[v[0]]);
     const glm::dvec2 w2 = glm::dvec2(s.texcoords[v[2]]) - glm::dvec2(s.texcoords[v[0]]);
     const double determinant = w1.x * w2.y - w1.y * w2.x;
-    Differences<double> d; // steps of one along u and v, as a raster in uv makes them
-    if (determinant != 0 && frame != Frame::exact)
-        d = {Vector3d((e1 * w2.y - e2 * w1.y) / determinant), Vector3d((e2 * w1.x - e1 * w2.x) / determinant),
-             {1, 0}, {0, 1}};
-    else
-        d = {Vector3d(e1), Vector3d(e2), w1, w2};
-    p.frame = makeFrame(frame, Covector3d(p.normal), d);
+    if (determinant == 0 || frame == Frame::exact)
+        return {Vector3d(e1), Vector3d(e2), w1, w2};
+    return {Vector3d((e1 * w2.y - e2 * w1.y) / determinant), Vector3d((e2 * w1.x - e1 * w2.x) / determinant), {1, 0}, {0, 1}};
+}
+
+template<class Real>
+LowPointOf<Real> pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, Real b1, Real b2, const Differences<Real>& d)
+{
+    using f32::cotan_frame_mikktspace, f32::cotan_frame_smooth, f32::cotan_frame_vertex; // the arguments choose
+    using f64::cotan_frame_mikktspace, f64::cotan_frame_smooth, f64::cotan_frame_vertex;
+    using Vec3 = glm::vec<3, Real, glm::defaultp>;
+    const std::size_t first = 3 * std::size_t(triangle);
+    const std::uint32_t* v = &s.indices[first];
+    const Real b0 = 1 - b1 - b2;
+    auto blend = [&](const auto& a, const auto& b, const auto& c) { return Vec3(a) * b0 + Vec3(b) * b1 + Vec3(c) * b2; };
+    auto typed = [](const auto& f) {
+        return CotangentFrame<Real>{Covector3<Real>(f.t), Covector3<Real>(f.b), Covector3<Real>(f.n)};
+    };
+    LowPointOf<Real> p;
+    p.position = blend(s.positions[v[0]], s.positions[v[1]], s.positions[v[2]]);
+    const Vec3 raw = blend(s.normals[v[0]], s.normals[v[1]], s.normals[v[2]]);
+    const Real length = glm::length(raw);
+    p.normal = length > 0 ? raw / length : raw;
+    if (frame == Frame::smooth) {
+        p.frame = typed(cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
+                                           blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
+    } else if (!s.tangents.empty()) {
+        const Vec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
+        const Real handedness = Real(-s.tangents[first].w); // glTF's w has v up
+        p.frame = frame == Frame::mikktspace ? typed(cotan_frame_mikktspace(raw, t, handedness))
+                                             : typed(cotan_frame_vertex(raw, t, handedness));
+    } else {
+        p.frame = makeFrame(frame, Covector3<Real>(p.normal), d);
+    }
     return p;
 }
+
+template LowPointOf<float> pointOf(const LowSurface&, Frame, std::uint32_t, float, float, const Differences<float>&);
+template LowPointOf<double> pointOf(const LowSurface&, Frame, std::uint32_t, double, double, const Differences<double>&);
 
 } // namespace cotan

@@ -52,6 +52,36 @@ glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
 
 } // namespace
 
+// Barycentric coordinates of a triangle as it lies on the image.
+struct UvRaster::Weights {
+    glm::dvec2 edge1, edge2;
+    double perArea;
+
+    explicit Weights(const Shown& t)
+        : edge1(t.corner[1] - t.corner[0]), edge2(t.corner[2] - t.corner[0]), perArea(1 / cross(edge1, edge2))
+    {
+    }
+
+    UvPlace at(const Shown& t, glm::dvec2 p, bool covers) const
+    {
+        double b1 = cross(p - t.corner[0], edge2) * perArea, b2 = cross(edge1, p - t.corner[0]) * perArea;
+        if (t.mirrored)
+            std::swap(b1, b2);
+        return {t.triangle, float(b1), float(b2), covers};
+    }
+};
+
+bool UvRaster::covers(const Shown& t, glm::dvec2 p)
+{
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec2 a = t.corner[k], b = t.corner[(k + 1) % 3];
+        const double e = edge(a, b, p);
+        if (e < 0 || (e == 0 && !takesEdge(a, b)))
+            return false;
+    }
+    return true;
+}
+
 UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
     : width_(width), height_(height), rowFirst_(std::size_t(height) + 1, 0)
 {
@@ -103,15 +133,11 @@ UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ive
             rowShown_[next[std::size_t(y)]++] = std::uint32_t(i);
 }
 
-void UvRaster::scan(const Shown& t, int y, bool touching, std::vector<std::pair<int, UvPlace>>& found) const
+std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, double& low, double& high) const
 {
-    const glm::dvec2 *c = t.corner, edge1 = c[1] - c[0], edge2 = c[2] - c[0];
-    const double area = cross(edge1, edge2);
-    const double py = y + 0.5, reach = touching ? kReach : 0;
-    // The part of the triangle within reach of the row's centres.
-    double low = 1e30, high = -1e30;
+    low = 1e30, high = -1e30;
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec2 a = c[k], b = c[(k + 1) % 3];
+        const glm::dvec2 a = t.corner[k], b = t.corner[(k + 1) % 3];
         for (double at : {py - reach, py + reach})
             if ((a.y - at) * (b.y - at) <= 0 && a.y != b.y) {
                 const double x = a.x + (b.x - a.x) * ((at - a.y) / (b.y - a.y));
@@ -169,12 +195,56 @@ void UvRaster::scan(const Shown& t, int y, bool touching, std::vector<std::pair<
             touch(x);
 }
 
-void UvRaster::row(int y, bool touching, UvRow& result) const
+void UvRaster::scanTouching(const Shown& t, int y, const std::vector<std::uint8_t>* taken, Found& found) const
 {
-    thread_local std::vector<std::pair<int, UvPlace>> found;
+    const double py = y + 0.5;
+    double low, high;
+    const auto [first, last] = span(t, py, kReach, low, high);
+    const Weights weights(t);
+    for (int x = first; x <= last; ++x) {
+        if (taken && (*taken)[std::size_t(x)])
+            continue;
+        const glm::dvec2 p(x + 0.5, py);
+        if (!taken && covers(t, p)) {
+            found.push_back({x, weights.at(t, p, true)});
+            continue;
+        }
+        glm::dvec2 nearest = p;
+        double best = kReach * kReach;
+        bool reached = false;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec2 q = nearestOn(t.corner[k], t.corner[(k + 1) % 3], p);
+            const double d2 = glm::dot(q - p, q - p);
+            if (d2 <= best) {
+                best = d2;
+                nearest = q;
+                reached = true;
+            }
+        }
+        if (reached)
+            found.push_back({x, weights.at(t, nearest, false)});
+    }
+}
+
+void UvRaster::row(int y, UvReach reach, UvRow& result) const
+{
+    thread_local Found found;
+    thread_local std::vector<std::uint8_t> taken;
     found.clear();
-    for (std::size_t i = rowFirst_[std::size_t(y)]; i < rowFirst_[std::size_t(y) + 1]; ++i)
-        scan(shown_[rowShown_[i]], y, touching, found);
+    const auto from = rowShown_.begin() + std::ptrdiff_t(rowFirst_[std::size_t(y)]);
+    const auto to = rowShown_.begin() + std::ptrdiff_t(rowFirst_[std::size_t(y) + 1]);
+    for (auto i = from; i != to; ++i)
+        if (reach == UvReach::touching)
+            scanTouching(shown_[*i], y, nullptr, found);
+        else
+            scanCentres(shown_[*i], y, found);
+    if (reach == UvReach::gaps) {
+        taken.assign(std::size_t(width_), 0);
+        for (const auto& [x, place] : found)
+            taken[std::size_t(x)] = 1;
+        for (auto i = from; i != to; ++i)
+            scanTouching(shown_[*i], y, &taken, found);
+    }
     result.first.assign(std::size_t(width_) + 1, 0);
     for (const auto& [x, place] : found)
         ++result.first[std::size_t(x) + 1];
@@ -192,7 +262,7 @@ UvCoverage coverage(const UvRaster& raster)
     UvCoverage c;
     UvRow row;
     for (int y = 0; y < raster.height(); ++y) {
-        raster.row(y, false, row);
+        raster.row(y, UvReach::centres, row);
         for (std::size_t x = 0; x + 1 < row.first.size(); ++x) {
             const std::uint32_t n = row.first[x + 1] - row.first[x];
             c.covered += n > 0;

@@ -14,7 +14,7 @@ void UseRaster::addRow(int y, std::uint32_t number, std::vector<std::vector<Plac
 {
     UvRow row;
     for (int j = 0; j < foldV_; ++j) {
-        raster_.row(j == 0 ? y : 2 * height_ - 1 - y, true, row);
+        raster_.row(j == 0 ? y : 2 * height_ - 1 - y, UvReach::touching, row);
         for (int x = 0; x < width_ * foldU_; ++x) {
             const int column = x < width_ ? x : 2 * width_ - 1 - x;
             for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {

@@ -44,7 +44,7 @@ template<class Use> void forEachTexel(const UvRaster& raster, const Use& use)
 {
     UvRow row;
     for (int y = 0; y < raster.height(); ++y) {
-        raster.row(y, false, row);
+        raster.row(y, UvReach::centres, row);
         for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
             for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
                 use(std::size_t(y) * std::size_t(raster.width()) + x, std::size_t(row.places[i].triangle));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,13 @@ struct Hit {
     float b1 = 0, b2 = 0;        // barycentric coordinates of its corners 1 and 2
 };
 
+// A line through a point: what lies nearest to the point on it, either way?
+struct Probe {
+    glm::vec3 point, direction; // direction unit; zero: finds nothing
+    float reach = 0;            // how far either way
+    std::int64_t only = -1;     // only triangles of this instance count; -1: all
+};
+
 // All instances of some scenes in world space, in Embree's acceleration structure.
 class HighSurface {
 public:
@@ -41,6 +49,12 @@ public:
 
     // The nearest hit of a ray. Only triangles of the instance `only` count, unless it is -1.
     Hit trace(const Ray& ray, std::int64_t only = -1) const;
+    // For up to kPacket probes at once the hit nearest to the point; its distance is negative behind it. The two rays
+    // of each start `lift` on the other side of the point, so that a surface through the point is found.
+    static constexpr std::size_t kPacket = 16;
+    void nearest(std::span<const Probe> probes, float lift, std::span<Hit> hits) const;
+    // The same, but only one ray each, from `reach` in front of the point to as far behind it: the hit in front of all.
+    void outermost(std::span<const Probe> probes, std::span<Hit> hits) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -30,6 +31,13 @@ struct UvRow {
     std::vector<UvPlace> places;
 };
 
+// Which triangles a texel is asked about.
+enum class UvReach {
+    centres,  // those that cover its centre
+    gaps,     // those; where there is none, those that come within half a texel's diagonal of the centre
+    touching, // all that come within half a texel's diagonal of the centre
+};
+
 // The texels of an image under a layout of uv. Keeps, per row, a list of the triangles that may touch
 // it: some 8 bytes a triangle and row. Triangles without area in uv, or with uv that are not finite
 // or further than 1e6 from zero, touch nothing.
@@ -43,9 +51,8 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    // The places of the row y, 0 at the top. With `touching`, also triangles that come within half a
-    // texel's diagonal of the centre. May be called from several threads.
-    void row(int y, bool touching, UvRow& result) const;
+    // The places of the row y, 0 at the top. May be called from several threads.
+    void row(int y, UvReach reach, UvRow& result) const;
 
 private:
     struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
@@ -53,7 +60,14 @@ private:
         glm::dvec2 corner[3];
         bool mirrored; // corners 1 and 2 are exchanged
     };
-    void scan(const Shown& t, int y, bool touching, std::vector<std::pair<int, UvPlace>>& found) const;
+    struct Weights;
+    using Found = std::vector<std::pair<int, UvPlace>>;
+
+    static bool covers(const Shown& t, glm::dvec2 p);
+    // The texels of the line py that a triangle may reach, and where it begins and ends on it.
+    std::pair<int, int> span(const Shown& t, double py, double reach, double& low, double& high) const;
+    void scanCentres(const Shown& t, int y, Found& found) const;
+    void scanTouching(const Shown& t, int y, const std::vector<std::uint8_t>* taken, Found& found) const;
 
     int width_, height_;
     std::vector<Shown> shown_;

@@ -1,0 +1,178 @@
+// bake_time HIGH LOW [SIZE] [RUNS]: the baker against a bare Embree loop over the very same rays, one thread each,
+// in turns. Prints medians of processor time.
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <vector>
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/asset/load.hpp"
+#include "cotan/bake/bake.hpp"
+#include "cotan/bake/uv_raster.hpp"
+
+using namespace cotan;
+
+namespace {
+
+double seconds()
+{
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
+}
+
+double timed(const std::function<void()>& work)
+{
+    const double start = seconds();
+    work();
+    return seconds() - start;
+}
+
+double median(std::vector<double> v)
+{
+    std::sort(v.begin(), v.end());
+    return v[v.size() / 2];
+}
+
+struct Bare { // an Embree scene with nothing else around it
+    RTCDevice device = rtcNewDevice("threads=1");
+    RTCScene scene = rtcNewScene(device);
+
+    explicit Bare(const Scene& model)
+    {
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        for (const Instance& instance : model.instances) {
+            const Mesh& mesh = model.meshes[std::size_t(instance.mesh)];
+            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
+                                                                  mesh.vertexCount()));
+            for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+                const glm::vec3 p(instance.toWorld * glm::vec4(mesh.positions[i], 1));
+                std::copy(&p.x, &p.x + 3, v + 3 * i);
+            }
+            auto* f = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
+                                                                     mesh.triangleCount()));
+            std::copy(mesh.indices.begin(), mesh.indices.end(), f);
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometry(scene, geometry);
+            rtcReleaseGeometry(geometry);
+        }
+        rtcCommitScene(scene);
+    }
+};
+
+// The rays that bake() traces: forward, and back as far as the forward one found something.
+std::vector<RTCRayHit> raysOf(const LowSurface& low, const HighSurface& high, const Bare& bare, int size)
+{
+    const float diagonal = glm::length(high.high() - high.low()), reach = 0.05f * diagonal, lift = 1e-5f * diagonal;
+    std::vector<RTCRayHit> forward, back;
+    const UvRaster raster({low.texcoords, low.indices}, size, size);
+    UvRow row;
+    for (int y = 0; y < size; ++y) {
+        raster.row(y, UvReach::gaps, row);
+        for (std::size_t x = 0; x + 1 < row.first.size(); ++x) {
+            if (row.first[x] == row.first[x + 1])
+                continue;
+            const UvPlace& place = row.places[row.first[x]];
+            const LowPoint p = pointOf(low, Frame::exact, place.triangle, place.b1, place.b2);
+            for (float way : {1.0f, -1.0f}) {
+                const glm::vec3 d = glm::vec3(p.normal) * way, o = glm::vec3(p.position) - d * lift;
+                RTCRayHit r{};
+                r.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, reach + lift, ~0u, 0, 0};
+                r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+                if (way < 0 && forward.back().hit.geomID != RTC_INVALID_GEOMETRY_ID)
+                    r.ray.tfar = std::abs(forward.back().ray.tfar - lift) + lift;
+                (way > 0 ? forward : back).push_back(r);
+                if (way > 0) {
+                    RTCIntersectContext context;
+                    rtcInitIntersectContext(&context);
+                    rtcIntersect1(bare.scene, &context, &forward.back());
+                }
+            }
+        }
+    }
+    for (RTCRayHit& r : forward) {
+        r.ray.tfar = reach + lift;
+        r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    }
+    forward.resize(forward.size() / 16 * 16);
+    back.resize(forward.size());
+    forward.insert(forward.end(), back.begin(), back.end());
+    return forward;
+}
+
+std::vector<RTCRayHit16> packetsOf(const std::vector<RTCRayHit>& rays)
+{
+    std::vector<RTCRayHit16> packets(rays.size() / 16);
+    for (std::size_t i = 0; i < packets.size() * 16; ++i) {
+        RTCRay16& r = packets[i / 16].ray;
+        const RTCRay& s = rays[i].ray;
+        const std::size_t k = i % 16;
+        r.org_x[k] = s.org_x;
+        r.org_y[k] = s.org_y;
+        r.org_z[k] = s.org_z;
+        r.dir_x[k] = s.dir_x;
+        r.dir_y[k] = s.dir_y;
+        r.dir_z[k] = s.dir_z;
+        r.tnear[k] = 0;
+        r.tfar[k] = s.tfar;
+        r.time[k] = 0;
+        r.mask[k] = ~0u;
+        r.id[k] = r.flags[k] = 0;
+        packets[i / 16].hit.geomID[k] = packets[i / 16].hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    return packets;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc < 3) {
+        fmt::print(stderr, "usage: bake_time HIGH LOW [SIZE] [RUNS]\n");
+        return 1;
+    }
+    const int size = argc > 3 ? std::atoi(argv[3]) : 1024, runs = argc > 4 ? std::atoi(argv[4]) : 5;
+    const auto highScene = loadScene(argv[1]), lowScene = loadScene(argv[2]);
+    if (!highScene || !lowScene) {
+        fmt::print(stderr, "{}\n", (highScene ? lowScene : highScene).error().message);
+        return 2;
+    }
+    BakeOptions options;
+    options.frame = Frame::smooth;
+    options.width = options.height = size;
+    options.threads = 1;
+    const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentSource::generated);
+    const auto high = HighSurface::make({*highScene}, 1);
+    if (!low || !high)
+        return 2;
+    const Bare bare(*highScene);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    const std::vector<RTCRayHit> rays = raysOf(*low, *high, bare, size);
+    std::vector<double> ones, sixteens, bakes;
+    std::size_t bakedRays = 0;
+    for (int run = 0; run < runs; ++run) {
+        std::vector<RTCRayHit> one = rays;
+        ones.push_back(timed([&] { for (RTCRayHit& r : one) rtcIntersect1(bare.scene, &context, &r); }));
+        std::vector<RTCRayHit16> sixteen = packetsOf(rays);
+        sixteens.push_back(timed([&] { for (RTCRayHit16& r : sixteen) rtcIntersect16(valid, bare.scene, &context, &r); }));
+        bakes.push_back(timed([&] { bakedRays = bake(*low, *high, options)->statistics.rays; }));
+    }
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    const double one = double(rays.size()) / median(ones) / 1e6, sixteen = double(rays.size()) / median(sixteens) / 1e6,
+                 baker = double(bakedRays) / median(bakes) / 1e6;
+    fmt::print("{} rays, {}x{}, one thread, medians of {}\n", bakedRays, size, size, runs);
+    fmt::print("bare Embree, single rays  {:6.2f} M rays/s\nbare Embree, packets      {:6.2f} M rays/s\n", one, sixteen);
+    fmt::print("baker                     {:6.2f} M rays/s: {:.2f} and {:.2f} of these\n", baker, baker / one, baker / sixteen);
+    fmt::print("peak memory {} MiB (the recorded rays included)\n", usage.ru_maxrss / 1024);
+}
