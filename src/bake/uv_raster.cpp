@@ -16,32 +16,20 @@ constexpr int kMostCopies = 64;           // of one triangle that wraps: per axi
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
+// Twice the area of (a, b, p). Exactly the negative when a and b are exchanged, so that a point on
+// the edge between two triangles is on the same side for both.
+double edge(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
+{
+    const bool swapped = a.x > b.x || (a.x == b.x && a.y > b.y);
+    if (swapped)
+        std::swap(a, b);
+    const double e = cross(b - a, p - a);
+    return swapped ? -e : e;
+}
+
 // Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of
 // rasterisers.
 bool takesEdge(glm::dvec2 a, glm::dvec2 b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
-
-// Twice the area of (a, b, p), for points p of one row. Exactly the negative when a and b are exchanged,
-// so that a point on the edge between two triangles is on the same side for both. Along a row every
-// rounded step is monotone in p.x, and so is the value.
-struct RowEdge {
-    double alongRow, fall, from; // the value is alongRow - fall (p.x - from), negated if swapped
-    bool swapped, taken;
-
-    RowEdge(glm::dvec2 a, glm::dvec2 b, double py)
-        : swapped(a.x > b.x || (a.x == b.x && a.y > b.y)), taken(takesEdge(a, b))
-    {
-        if (swapped)
-            std::swap(a, b);
-        alongRow = (b.x - a.x) * (py - a.y);
-        fall = b.y - a.y;
-        from = a.x;
-    }
-    bool keeps(double px) const
-    {
-        const double e = alongRow - fall * (px - from);
-        return e == 0 ? taken : (e > 0) != swapped;
-    }
-};
 
 glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
 {
@@ -149,50 +137,30 @@ std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, doub
             high = std::max(high, a.x);
         }
     }
-    const int first = int(std::clamp(std::floor(low - 0.5 - reach), 0.0, double(width_)));
-    const int last = int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1));
-    const RowEdge edges[3] = {{c[0], c[1], py}, {c[1], c[2], py}, {c[2], c[0], py}};
-    const auto covers = [&](int x) {
-        return edges[0].keeps(x + 0.5) && edges[1].keeps(x + 0.5) && edges[2].keeps(x + 0.5);
-    };
-    const double perArea = 1 / area;
-    const auto add = [&](int x, glm::dvec2 p, bool covering) {
-        double b1 = cross(p - c[0], edge2) * perArea, b2 = cross(edge1, p - c[0]) * perArea;
-        if (t.mirrored)
-            std::swap(b1, b2);
-        found.push_back({x, {t.triangle, float(b1), float(b2), covering}});
-    };
-    const auto touch = [&](int x) {
+    return {int(std::clamp(std::floor(low - 0.5 - reach), 0.0, double(width_))),
+            int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1))};
+}
+
+void UvRaster::scanCentres(const Shown& t, int y, Found& found) const
+{
+    const double py = y + 0.5;
+    double low, high;
+    const auto [first, last] = span(t, py, 0, low, high);
+    const Weights weights(t);
+    // Well inside needs no test. Where a corner is close to the row an edge may lie along it, and where it meets the
+    // row is not known well.
+    int inner = first, outer = last + 1;
+    const bool corner = std::abs(t.corner[0].y - py) < 1e-3 || std::abs(t.corner[1].y - py) < 1e-3
+        || std::abs(t.corner[2].y - py) < 1e-3;
+    if (!corner) {
+        inner = int(std::clamp(std::ceil(low - 0.5 + 1e-4), double(first), double(last) + 1));
+        outer = int(std::clamp(std::floor(high - 0.5 - 1e-4) + 1, double(inner), double(last) + 1));
+    }
+    for (int x = first; x <= last; ++x) {
         const glm::dvec2 p(x + 0.5, py);
-        glm::dvec2 nearest = p;
-        double best = kReach * kReach;
-        bool reached = false;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec2 q = nearestOn(c[k], c[(k + 1) % 3], p);
-            const double d2 = glm::dot(q - p, q - p);
-            if (d2 <= best) {
-                best = d2;
-                nearest = q;
-                reached = true;
-            }
-        }
-        if (reached)
-            add(x, nearest, false);
-    };
-    // Each edge keeps one side of the row, so the centres covered lie in one run without a gap.
-    int begin = first, end = last + 1;
-    while (begin < end && !covers(begin))
-        ++begin;
-    while (begin < end && !covers(end - 1))
-        --end;
-    if (touching)
-        for (int x = first; x < begin; ++x)
-            touch(x);
-    for (int x = begin; x < end; ++x)
-        add(x, {x + 0.5, py}, true);
-    if (touching)
-        for (int x = end; x <= last; ++x)
-            touch(x);
+        if ((!corner && x >= inner && x < outer) || covers(t, p))
+            found.push_back({x, weights.at(t, p, true)});
+    }
 }
 
 void UvRaster::scanTouching(const Shown& t, int y, const std::vector<std::uint8_t>* taken, Found& found) const
