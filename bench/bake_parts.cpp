@@ -1,12 +1,11 @@
 // bake_parts LOW HIGH SIZE [THREADS] [PICTURE]: what each part of a bake takes, wall clock and processor seconds, and
 // the peak memory. HIGH may be grid:N for a wavy sphere of 2 N N triangles around the origin, radius 1.
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
 #include <string>
-
-#include <chrono>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -14,7 +13,6 @@
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/load.hpp"
 #include "cotan/bake/bake.hpp"
-#include "cotan/bake/uv_raster.hpp"
 
 using namespace cotan;
 
@@ -107,16 +105,6 @@ int main(int argc, char** argv)
     });
     if (low.empty() || high.empty())
         return 2;
-    part("raster", [&] {
-        const UvRaster raster({low[0].texcoords, low[0].indices}, options.width, options.height);
-        UvRow row;
-        std::size_t places = 0;
-        for (int y = 0; y < options.height; ++y) {
-            raster.row(y, true, row);
-            places += row.places.size();
-        }
-        return fmt::format("{} places, one thread; the bake does this again", places);
-    });
     Baked baked;
     part("bake", [&] {
         baked = std::move(*bake(low[0], high[0], options));
