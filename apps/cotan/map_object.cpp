@@ -80,7 +80,7 @@ Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const
         UvRow places;
         std::vector<glm::vec3> normals(std::size_t(map.width));
         for (int y = first; y < last; ++y) {
-            raster.row(y, true, places);
+            raster.row(y, UvReach::gaps, places);
             maps::decodeRow(map, y, s.from, normals);
             for (std::size_t x = 0; x < normals.size(); ++x) {
                 const UvPlace* place = placeOf(places, x);
