@@ -89,6 +89,25 @@ TEST(Recode, turning_green_twice_gives_the_same_bytes_and_keeps_lengths_and_alph
     EXPECT_EQ(back.data, map.data);
 }
 
+TEST(Recode, single_components_of_8_bits_go_the_same_way_as_whole_texels)
+{
+    Image map = makeImage(256, 3, PixelType::unorm8); // every code in every place, and some without length
+    for (std::size_t i = 0; i < map.pixelCount(); ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            map.bytes8()[4 * i + c] = std::uint8_t(c == i / 256 ? i % 256 : 128);
+    for (Expansion expansion : {Expansion::exact, Expansion::biased})
+        for (bool greenUp : {true, false}) {
+            const Convention to{.expansion = expansion, .greenUp = greenUp};
+            RecodeCounts counts, whole;
+            const Image a = recode(map, {.from = kGltf, .to = to, .type = PixelType::unorm8}, counts);
+            const Image b = recode(map, {.from = kGltf, .to = to, .type = PixelType::float32}, whole); // texel by texel
+            EXPECT_EQ(counts.invalid, whole.invalid);
+            EXPECT_EQ(counts.invalid, 3u);
+            for (std::size_t i = 0; i < map.pixelCount() * 4; ++i)
+                EXPECT_EQ(int(a.bytes8()[i]), int(std::clamp(b.floats()[i], 0.0f, 1.0f) * 255 + 0.5f)) << i;
+        }
+}
+
 TEST(Recode, flat_stays_flat_in_the_exact_form_even_with_dither)
 {
     Image flat = makeImage(16, 16, PixelType::unorm8);

@@ -1,7 +1,10 @@
 #include "cotan/maps/recode.hpp"
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -28,6 +31,75 @@ float steps(PixelType type)
     return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
 }
 
+// Where nothing but single components changes, 8 bits to 8 bits.
+struct Tables {
+    std::array<std::array<std::uint8_t, 256>, 3> stored{};
+    std::array<std::array<float, 256>, 3> square{}; // of the decoded component
+};
+
+bool byComponent(const Image& map, const RecodeSettings& s)
+{
+    return map.type == PixelType::unorm8 && s.type == PixelType::unorm8 && s.from.channels == Channels::xyz
+        && s.to.channels == Channels::xyz && s.strength == 1.0f && !s.normalise && !s.dither;
+}
+
+// By the functions that do whole texels; the other components keep the lengths from 0.
+Tables tablesOf(const RecodeSettings& s)
+{
+    Tables t;
+    Image out = makeImage(256, 1, PixelType::unorm8);
+    std::vector<glm::vec4> row(256);
+    for (int k = 0; k < 3; ++k) {
+        for (int code = 0; code < 256; ++code) {
+            glm::vec4 texel(0, 0, 0, 1);
+            texel[k] = float(code) * (1.0f / 255);
+            const float value = decodeTexel(texel, s.from)[k];
+            glm::vec3 normal(k == 2 ? 1.0f : 0.0f, 0, 1);
+            normal[k] = value;
+            row[std::size_t(code)] = encodeTexel(normal, s.to, true);
+            t.square[std::size_t(k)][std::size_t(code)] = value * value;
+        }
+        storeRow(out, 0, row);
+        for (std::size_t code = 0; code < 256; ++code)
+            t.stored[std::size_t(k)][code] = out.bytes8()[4 * code + std::size_t(k)];
+    }
+    return t;
+}
+
+void recodeRow(const Image& map, int y, const Tables& t, const std::array<std::uint8_t, 3>& flat, Image& out, std::size_t& invalid)
+{
+    const std::size_t start = std::size_t(y) * std::size_t(map.width) * 4, count = std::size_t(map.width);
+    const std::uint8_t* from = map.bytes8() + start;
+    std::uint8_t* to = out.bytes8() + start;
+    for (std::size_t i = 0; i < count; ++i, from += 4, to += 4) {
+        const bool valid = t.square[0][from[0]] + t.square[1][from[1]] + t.square[2][from[2]] >= 1e-6f;
+        invalid += !valid;
+        for (std::size_t k = 0; k < 3; ++k)
+            to[k] = valid ? t.stored[k][from[k]] : flat[k];
+        to[3] = from[3];
+    }
+}
+
+Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
+{
+    const Tables tables = tablesOf(s);
+    Image flatTexel = makeImage(1, 1, PixelType::unorm8);
+    const glm::vec4 encoded = encodeTexel(glm::vec3(0), s.to, true);
+    storeRow(flatTexel, 0, std::span(&encoded, 1));
+    const std::uint8_t* f = flatTexel.bytes8();
+    const std::array<std::uint8_t, 3> flat{f[0], f[1], f[2]};
+    Image out = makeImage(map.width, map.height, s.type, map.name);
+    std::atomic<std::size_t> invalid = 0;
+    forRowBands(map.height, [&](int first, int last) {
+        std::size_t here = 0;
+        for (int y = first; y < last; ++y)
+            recodeRow(map, y, tables, flat, out, here);
+        invalid += here;
+    });
+    counts = {invalid, 0};
+    return out;
+}
+
 } // namespace
 
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
@@ -51,6 +123,8 @@ glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y)
 
 Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
 {
+    if (byComponent(map, s))
+        return recodeByComponent(map, s, counts);
     Image out = makeImage(map.width, map.height, s.type, map.name);
     const bool keepAlpha = s.from.channels == Channels::xyz && s.to.channels == Channels::xyz;
     const float most = steps(s.type);
