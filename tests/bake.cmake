@@ -4,3 +4,4 @@ cotan_test(bake_test SEPARATE
   LIBRARIES cotan_bake cotan_asset cotan_truth cotan_core nlohmann_json::nlohmann_json)
 target_compile_definitions(bake_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_test cotan)
+target_sources(bake_test PRIVATE bake_features_test.cpp)

@@ -1,0 +1,267 @@
+// What `cotan bake` promises beyond a plain normal map, each on meshes whose answer geometry gives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+constexpr const char* kFaces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+// A square of the side `side` with its lower left corner at (x, y), tilted by `slope` along x, with uv
+// shifted by (u, v). OBJ's v runs upwards.
+std::string square(double x, double y, double z, double side, double slope = 0, double u = 0, double v = 0)
+{
+    std::string text;
+    for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        text += fmt::format("v {} {} {}\n", x + i * side, y + j * side, z + slope * i * side);
+    for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        text += fmt::format("vt {} {}\n", u + i, v + j);
+    return text;
+}
+
+std::string faces(int base)
+{
+    return fmt::format("f {0}/{0} {1}/{1} {2}/{2}\nf {0}/{0} {2}/{2} {3}/{3}\n", base, base + 1, base + 2, base + 3);
+}
+
+class BakeFeatures : public testing::Test {
+protected:
+    TemporaryFolder folder;
+
+    void write(const std::string& file, const std::string& text) { std::ofstream(folder / file) << text; }
+    ToolRun bake(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), {"bake", "--quiet", "--frame", "cotangent", "--json", "r.json"});
+        return runTool(words, folder.path());
+    }
+    nlohmann::json statistics() { return nlohmann::json::parse(readWhole(folder / "r.json"))["bake"]; }
+    Image picture(const std::string& file)
+    {
+        auto image = readImage(folder / file);
+        EXPECT_TRUE(image) << file;
+        return image ? std::move(*image) : makeImage(1, 1, PixelType::float32);
+    }
+};
+
+TEST_F(BakeFeatures, heightIsTheDisplacementInModelUnits)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    for (double height : {0.25, -0.125}) { // both exact in float
+        write("high.obj", square(-1, -1, height, 3) + kFaces);
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--max-distance", "1", "--bits", "32",
+                                "--size", "8x8", "-o", "h.exr"});
+        ASSERT_EQ(r.code, 0) << r.err;
+        const Image image = picture("h.exr");
+        ASSERT_EQ(image.type, PixelType::float32);
+        for (std::size_t i = 0; i < 64; ++i) // rays start 1e-5 of the diagonal of 4.2 off: rounding of that
+            EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-5);
+    }
+}
+
+TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("high.obj", square(-1, -1, -0.75, 3, 0.75) + kFaces); // the plane z = 0.75 x: normal (-3, 0, 4) / 5
+    const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "object-normal", "--max-distance", "2", "--bits", "16",
+                            "--size", "4x4", "-o", "n.png"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image image = picture("n.png");
+    const double expected[3] = {-0.6, 0, 0.8};
+    for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t k = 0; k < 3; ++k) // half a step of 16 bits is 1.5e-5 of [-1,1]
+            EXPECT_NEAR((255 * (image.words()[4 * i + k] / 65535.0) - 128) / 127, expected[k], 3e-5);
+}
+
+TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)
+{
+    // A wall along y that is endless for the eye hides exactly half of the cosine-weighted hemisphere at its foot.
+    write("low.obj", square(0, 0, 0, 0.001) + kFaces);
+    const std::string ground = square(-1, -1, 0, 3) + kFaces;
+    write("open.obj", ground);
+    write("wall.obj", ground + "v -0.0001 -1000 0\nv -0.0001 1000 0\nv -0.0001 1000 1000\nv -0.0001 -1000 1000\n"
+                               "vt 0 0\nf 5/5 6/5 7/5\nf 5/5 7/5 8/5\n");
+    for (const auto& [file, expected, tolerance] : {std::tuple("open.obj", 1.0, 0.0), {"wall.obj", 0.5, 0.02}}) {
+        const ToolRun r = bake({"--high", file, "--low", "low.obj", "--kind", "ao", "--ao-rays", "1024", "--max-distance", "0.1",
+                                "--bits", "32", "--size", "2x2", "-o", "ao.exr"});
+        ASSERT_EQ(r.code, 0) << r.err;
+        const Image image = picture("ao.exr");
+        for (std::size_t i = 0; i < 4; ++i) // 1024 directions: 1 / sqrt(4 * 1024) = 0.016 if they were random
+            EXPECT_NEAR(double(image.floats()[4 * i]), expected, tolerance) << file;
+    }
+}
+
+TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
+{
+    // Two sheets: a hidden one at 0.1, the outer one at 0.3. The nearest to the low mesh is the hidden one;
+    // from a cage at 0.5 the outer one comes first.
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
+    write("high.obj", square(-1, -1, 0.1, 3) + square(-1, -1, 0.3, 3) + faces(1) + faces(5));
+    for (const auto& [cage, height] : {std::pair(false, 0.1), {true, 0.3}}) {
+        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
+                                       "--max-distance", "1", "-o", "h.exr"};
+        if (cage)
+            words.insert(words.end(), {"--cage", "cage.obj"});
+        const ToolRun r = bake(words);
+        ASSERT_EQ(r.code, 0) << r.err;
+        const Image image = picture("h.exr");
+        for (std::size_t i = 0; i < 16; ++i)
+            EXPECT_NEAR(double(image.floats()[4 * i]), height, 2e-5); // lift of 1e-5 of the diagonal
+    }
+}
+
+TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
+{
+    // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher. 1003 touches neither.
+    write("low.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1, 0, 0, 1) + faces(1) + faces(5));
+    write("high.obj", square(-1, -1, 0.1, 3) + square(4, -1, 0.2, 3) + faces(1) + faces(5));
+    for (const auto& [tile, height, covered] : {std::tuple("1001", 0.1, 16), {"1011", 0.2, 16}, {"1003", 0.0, 0}}) {
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
+                                "--max-distance", "1", "--udim", tile, "-o", "h.exr"});
+        ASSERT_EQ(r.code, 0) << tile << r.err;
+        EXPECT_EQ(statistics()["covered"], covered) << tile;
+        const Image image = picture("h.exr");
+        for (std::size_t i = 0; i < 16; ++i)
+            EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-4) << tile; // lift of 1e-5 of the diagonal
+    }
+    for (const char* tile : {"1000", "2000", "0", "-1", "first"}) {
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--udim", tile, "-o", "bad.png"});
+        EXPECT_EQ(r.code, 1) << tile;
+        EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
+    }
+}
+
+TEST_F(BakeFeatures, severalHighMeshesAreOneSurface)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces);  // x < 0.5
+    write("right.obj", square(0.5, -1, 0.2, 2) + kFaces);  // x > 0.5
+    const ToolRun r = bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height", "--bits", "32",
+                            "--size", "4x1", "--max-distance", "1", "-o", "h.exr"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image image = picture("h.exr");
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(double(image.floats()[4 * i]), i < 2 ? 0.1 : 0.2, 1e-4);
+}
+
+TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
+{
+    // The partner of the low mesh is at 0.3; a stranger at 0.1 is nearer.
+    write("low.obj", "o door_low\n" + square(0, 0, 0, 1) + kFaces);
+    write("high.obj", "o wall_high\n" + square(-1, -1, 0.1, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.3, 3) + faces(5));
+    for (const auto& [match, height] : {std::pair(false, 0.1), {true, 0.3}}) {
+        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
+                                       "--max-distance", "1", "-o", "h.exr"};
+        if (match)
+            words.push_back("--match-by-name");
+        const ToolRun r = bake(words);
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_NEAR(double(picture("h.exr").floats()[0]), height, 1e-4);
+    }
+    write("low.obj", "o roof_low\n" + square(0, 0, 0, 1) + kFaces);
+    const ToolRun alone = bake({"--high", "high.obj", "--low", "low.obj", "--match-by-name", "-o", "none.png"});
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_EQ(lines(alone.err), 1) << alone.err;
+    EXPECT_NE(alone.err.find("roof_low"), std::string::npos) << alone.err;
+}
+
+TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("half.obj", square(-1.5, -1, 0.1, 2) + kFaces); // only over x < 0.5
+    ASSERT_EQ(bake({"--high", "half.obj", "--low", "low.obj", "--size", "8x8", "--max-distance", "1", "--mask", "mask.png",
+                    "-o", "m.png"}).code, 0);
+    EXPECT_EQ(statistics()["missed"], 32);
+    const Image mask = picture("mask.png");
+    for (std::size_t i = 0; i < 64; ++i) {
+        EXPECT_EQ(int(mask.bytes8()[4 * i]), i % 8 < 4 ? 0 : 255); // red where missed
+        EXPECT_EQ(int(mask.bytes8()[4 * i + 1]), i % 8 < 4 ? 179 : 0); // green 0.7 where found
+    }
+    write("twice.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1) + faces(1) + faces(5)); // one layout for both
+    write("wide.obj", square(-1, -1, 0.1, 9) + kFaces);
+    ASSERT_EQ(bake({"--high", "wide.obj", "--low", "twice.obj", "--size", "8x8", "--max-distance", "1", "--mask", "mask.png",
+                    "-o", "m.png"}).code, 0);
+    EXPECT_EQ(statistics()["claimed_twice"], 64);
+    const Image yellow = picture("mask.png");
+    for (std::size_t i = 0; i < 64; ++i) {
+        EXPECT_EQ(int(yellow.bytes8()[4 * i]), 255);
+        EXPECT_EQ(int(yellow.bytes8()[4 * i + 1]), 255);
+        EXPECT_EQ(int(yellow.bytes8()[4 * i + 2]), 0);
+    }
+}
+
+TEST_F(BakeFeatures, supersamplesAverageWhatOneSampleMisses)
+{
+    // The step at x = 0.5 runs through the middle of the only texel: four samples see both sides alike.
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces);
+    write("right.obj", square(0.5, -1, 0.3, 2) + kFaces);
+    for (const char* samples : {"4", "16"}) {
+        ASSERT_EQ(bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size",
+                        "1x1", "--samples", samples, "--max-distance", "1", "-o", "h.exr"}).code, 0);
+        EXPECT_NEAR(double(picture("h.exr").floats()[0]), 0.2, 1e-4) << samples;
+    }
+}
+
+TEST_F(BakeFeatures, hugeSizesAreRefusedWithoutMemory)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    for (const char* size : {"1000000x1000000", "99999999999x8", "16385x1", "-4x4", "8", "8x", "x8"}) {
+        const ToolRun r = bake({"--high", "low.obj", "--low", "low.obj", fmt::format("--size={}", size), "-o", "m.png"});
+        EXPECT_EQ(r.code, 1) << size;
+        EXPECT_EQ(lines(r.err), 1) << size << r.err;
+        EXPECT_LT(r.megabytes, 300) << size; // the program and its libraries; a map of that size has terabytes
+    }
+}
+
+TEST_F(BakeFeatures, oneTriangleIsEnoughAndPositionsThatAreNotNumbersAreRefused)
+{
+    write("low.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    const ToolRun one = bake({"--high", "low.obj", "--low", "low.obj", "--size", "8x8", "-o", "m.png"});
+    EXPECT_EQ(one.code, 0) << one.err;
+    write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    for (const auto& [high, low] : {std::pair("nan.obj", "low.obj"), {"low.obj", "nan.obj"}}) {
+        const ToolRun r = bake({"--high", high, "--low", low, "--size", "8x8", "-o", "bad.png"});
+        EXPECT_EQ(r.code, 2) << high;
+        EXPECT_EQ(lines(r.err), 1) << r.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
+    }
+}
+
+TEST_F(BakeFeatures, interruptedBakesLeaveNoFile)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        // Some 2 million texels of 65536 rays: hours, so the signal always comes in the middle.
+        if (::chdir(folder.path().c_str()) == 0)
+            ::execl(COTAN_TOOL, COTAN_TOOL, "bake", "--quiet", "--high", "low.obj", "--low", "low.obj", "--kind", "ao", "--ao-rays",
+                    "65536", "--size", "2048x1024", "-o", "m.png", static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    ASSERT_GT(child, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "ended before the signal";
+    ::kill(child, SIGINT);
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_FALSE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    std::vector<std::string> left;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        left.push_back(entry.path().filename().string());
+    EXPECT_EQ(left, std::vector<std::string>{"low.obj"}); // not even a half one under another name
+}
+
+} // namespace
+} // namespace cotan::test
