@@ -123,10 +123,10 @@ TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
 
 TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
 {
-    // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher. 1003 touches neither.
+    // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher. 
     write("low.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1, 0, 0, 1) + faces(1) + faces(5));
     write("high.obj", square(-1, -1, 0.1, 3) + square(4, -1, 0.2, 3) + faces(1) + faces(5));
-    for (const auto& [tile, height, covered] : {std::tuple("1001", 0.1, 16), {"1011", 0.2, 16}, {"1003", 0.0, 0}}) {
+    for (const auto& [tile, height, covered] : {std::tuple("1001", 0.1, 16), {"1011", 0.2, 16}}) {
         const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
                                 "--max-distance", "1", "--udim", tile, "-o", "h.exr"});
         ASSERT_EQ(r.code, 0) << tile << r.err;
@@ -135,10 +135,33 @@ TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
         for (std::size_t i = 0; i < 16; ++i)
             EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-4) << tile; // lift of 1e-5 of the diagonal
     }
+    const ToolRun empty = bake({"--high", "high.obj", "--low", "low.obj", "--udim", "1003", "-o", "empty.png"});
+    EXPECT_EQ(empty.code, 2); // nothing lies there
+    EXPECT_NE(empty.err.find("1003"), std::string::npos) << empty.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "empty.png"));
     for (const char* tile : {"1000", "2000", "0", "-1", "first"}) {
         const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--udim", tile, "-o", "bad.png"});
         EXPECT_EQ(r.code, 1) << tile;
         EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
+    }
+}
+
+TEST_F(BakeFeatures, whatCannotBeWrittenIsRefusedBeforeTheBake)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("high.obj", square(-1, -1, 0.1, 3) + kFaces);
+    struct Case {
+        std::vector<std::string> arguments;
+        int code;
+    };
+    for (const Case& c : {Case{{"--kind", "ao", "--verify", "views", "-o", "a.png"}, 1}, {{"--bits", "32", "-o", "b.png"}, 1},
+                          {{"--mask", "none/m.png", "-o", "c.png"}, 4}, {{"-o", "none/d.png"}, 4}}) {
+        std::vector<std::string> arguments{"--high", "high.obj", "--low", "low.obj"};
+        arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+        const ToolRun r = bake(arguments);
+        EXPECT_EQ(r.code, c.code) << r.err;
+        EXPECT_EQ(r.err.find("covered"), std::string::npos) << r.err; // no bake was reported
+        EXPECT_FALSE(std::filesystem::exists(folder / c.arguments.back()));
     }
 }
 

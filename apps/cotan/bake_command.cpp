@@ -1,5 +1,7 @@
 #include "commands.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
 
 #include <fmt/format.h>
@@ -62,6 +64,8 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
 {
     say(o.common, fmt::format("{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays a second",
                               s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6));
+    if (s.covered == 0)
+        warn(o.common, fmt::format("no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim));
     if (s.missed > 0)
         warn(o.common, fmt::format("{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask shows where)",
                                    percent(s.missed, s.covered), s.rayDistance));
@@ -85,12 +89,27 @@ Status checkWritable(const std::filesystem::path& file)
     return Done{};
 }
 
-Status run(const BakeCommandOptions& o)
+// Hours may pass before anything is written: what would fail then fails now.
+Status checkOutputs(const BakeCommandOptions& o)
 {
     if (o.common.output.empty())
         return usageError("-o: expected the file to write the map to");
-    // Hours may pass before the file is written: look at the folder first.
-    if (Status ok = checkWritable(o.common.output); !ok)
+    if (!o.verify.empty() && o.kind != "normal")
+        return usageError("--verify: only maps of the kind normal can be drawn and compared");
+    std::string extension = o.common.output.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
+        return usageError(fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.common.output.string()));
+    for (const std::filesystem::path& file : {o.common.output, std::filesystem::path(o.mask)})
+        if (!file.empty())
+            if (Status ok = checkWritable(file); !ok)
+                return ok;
+    return Done{};
+}
+
+Status run(const BakeCommandOptions& o)
+{
+    if (Status ok = checkOutputs(o); !ok)
         return ok;
     Stopwatch watch;
     const auto job = prepareBake(o);
@@ -106,6 +125,8 @@ Status run(const BakeCommandOptions& o)
     }
     if (!baked)
         return baked.error();
+    if (baked->statistics.covered + baked->statistics.touched == 0)
+        return inputError(fmt::format("{}: no triangle lies on tile {} of the texture coordinates (--udim)", o.low, o.udim));
     explain(o, *job, baked->statistics);
     if (!o.mask.empty())
         if (Status w = writeHeld(o.mask, maskOf(*baked)); !w)
@@ -128,8 +149,6 @@ Status run(const BakeCommandOptions& o)
                                   {"seconds", {{"load", loadSeconds}, {"pad", padSeconds}, {"write", writeSeconds}}},
                                   {"peak_megabytes", peakMegabytes()}};
     if (!o.verify.empty()) {
-        if (job->options.kind != BakeKind::normal)
-            return usageError("--verify: only maps of the kind normal can be drawn and compared");
         const auto verified = verifyBake(o, *job, image);
         if (!verified)
             return verified.error();

@@ -195,8 +195,8 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
     if (!state->device)
         return unavailableError("Embree: no device");
     state->scene = rtcNewScene(state->device);
-    // Robust: rays along edges find one of the two triangles.
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
+    // Robust: rays along edges find one of the two triangles. The filter is that of a match by name, where there is one.
+    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     for (Part& part : state->parts)
         state->attach(part);
     rtcCommitScene(state->scene);
