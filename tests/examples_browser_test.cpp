@@ -13,7 +13,7 @@ using nlohmann::json;
 
 const std::string kSources = COTAN_SOURCE_DIR;
 
-// Float differences of a pixel: a pixel is 1e-3 to 2e-3 of the distance to the eye in every page, and the text's own
+// Float differences of a pixel: a pixel is 2e-3 of the distance to the eye in both pages; the text's own
 // introduction promises 0.002 degrees at 1e-3; times five for the slopes of up to 53 degrees.
 constexpr double kDegrees = 0.01;
 
