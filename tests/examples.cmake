@@ -6,13 +6,21 @@ target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)
 
-# As its own CMakeLists.txt builds it, but within this build.
+# As their own CMakeLists.txt build them, but within this build.
+target_sources(examples_test PRIVATE examples_sheets_test.cpp)
 find_package(embree 3 CONFIG QUIET)
 if(embree_FOUND)
   add_executable(example_raytracing ${PROJECT_SOURCE_DIR}/examples/raytracing/main.cpp)
   target_compile_features(example_raytracing PRIVATE cxx_std_17)
   target_link_libraries(example_raytracing PRIVATE embree cotan_warnings)
-  target_sources(examples_test PRIVATE examples_raytracing_test.cpp)
   target_compile_definitions(examples_test PRIVATE COTAN_RAYTRACING="$<TARGET_FILE:example_raytracing>")
   add_dependencies(examples_test example_raytracing)
+endif()
+if(Vulkan_FOUND AND COTAN_GLSLANG)
+  set(GLSLANG ${COTAN_GLSLANG})
+  add_subdirectory(${PROJECT_SOURCE_DIR}/examples/vulkan ${CMAKE_CURRENT_BINARY_DIR}/examples_vulkan)
+  target_link_libraries(vulkan_example PRIVATE cotan_warnings)
+  target_compile_options(vulkan_example PRIVATE -Wno-missing-field-initializers) # Vulkan's structs: the rest is zero
+  target_compile_definitions(examples_test PRIVATE COTAN_VULKAN_EXAMPLE="$<TARGET_FILE:vulkan_example>")
+  add_dependencies(examples_test vulkan_example)
 endif()
