@@ -8,33 +8,19 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/uv_raster.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "tessellation_scene.hpp"
 
 namespace cotan {
 namespace {
 
 constexpr int kTexels = 1024; // a uv unit
 
-Scene asScene(const Tessellation& mesh)
-{
-    Scene scene;
-    Mesh m;
-    m.positions = mesh.positions;
-    m.normals = mesh.normals;
-    m.texcoords[0] = mesh.texcoords;
-    m.indices = mesh.indices;
-    scene.meshes.push_back(std::move(m));
-    scene.materials.emplace_back();
-    scene.instances.push_back({});
-    return scene;
-}
-
 // A map of the sphere of 12 segments in one frame, made texel by texel where it is asked.
 class BakedRelief {
 public:
     BakedRelief(Frame frame)
         : surface_(surfaces().front()), mesh_(tessellate(surface_, 12, false)), frame_(frame),
-          low_(*makeLowSurface(asScene(mesh_), -1, frame, TangentSource::generated)),
+          low_(*makeLowSurface(sceneOf(mesh_), -1, frame, TangentSource::generated)),
           raster_({low_.texcoords, low_.indices}, kTexels, kTexels)
     {
     }
@@ -152,7 +138,7 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
         for (Frame frame : {Frame::cotangent, Frame::cotangent2013, Frame::unit, Frame::orthonormal, Frame::gradient, Frame::exact,
                             Frame::smooth, Frame::vertex, Frame::mikktspace}) {
             const Tessellation mesh = tessellate(surface, 16, true);
-            const auto low = makeLowSurface(asScene(mesh), -1, frame, TangentSource::generated);
+            const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentSource::generated);
             ASSERT_TRUE(low);
             Random random(20);
             for (int i = 0; i < 2000; ++i) {

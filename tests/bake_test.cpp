@@ -6,26 +6,10 @@
 #include <utility>
 
 #include "cotan/bake/bake.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "tessellation_scene.hpp"
 
 namespace cotan {
 namespace {
-
-// A tessellated sphere or spout as the low mesh of a scene.
-Scene sceneOf(const Tessellation& mesh)
-{
-    Scene scene;
-    scene.name = "low";
-    Mesh m;
-    m.positions = mesh.positions;
-    m.normals = mesh.normals;
-    m.texcoords[0] = mesh.texcoords;
-    m.indices = mesh.indices;
-    scene.meshes.push_back(std::move(m));
-    scene.materials.emplace_back();
-    scene.instances.push_back({});
-    return scene;
-}
 
 double asStored(double component, int levels)
 {

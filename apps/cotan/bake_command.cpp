@@ -1,14 +1,14 @@
 #include "commands.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <csignal>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "cotan/asset/extension.hpp"
 #include "cotan/asset/image_file.hpp"
+#include "file_output.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 
@@ -81,14 +81,6 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
                                    "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame)));
 }
 
-Status checkWritable(const std::filesystem::path& file)
-{
-    const auto folder = file.parent_path().empty() ? std::filesystem::path(".") : file.parent_path();
-    if (!std::filesystem::is_directory(folder))
-        return outputError(fmt::format("{}: no such folder", folder.string()));
-    return Done{};
-}
-
 // Hours may pass before anything is written: what would fail then fails now.
 Status checkOutputs(const BakeCommandOptions& o)
 {
@@ -96,13 +88,12 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("-o: expected the file to write the map to");
     if (!o.verify.empty() && o.kind != "normal")
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
-    std::string extension = o.common.output.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lowerExtension(o.common.output);
     if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
         return usageError(fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.common.output.string()));
     for (const std::filesystem::path& file : {o.common.output, std::filesystem::path(o.mask)})
         if (!file.empty())
-            if (Status ok = checkWritable(file); !ok)
+            if (Status ok = checkFolderOf(file); !ok)
                 return ok;
     return Done{};
 }

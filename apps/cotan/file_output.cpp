@@ -38,4 +38,13 @@ Status writeFileWhole(const std::filesystem::path& file, const std::string& text
     return Done{};
 }
 
+Status checkFolderOf(const std::filesystem::path& file)
+{
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
+    return Done{};
+}
+
 } // namespace cotan::app

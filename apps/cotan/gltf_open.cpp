@@ -1,20 +1,16 @@
 #include "gltf_open.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <system_error>
-
 #include <fmt/format.h>
 
+#include "cotan/asset/extension.hpp"
 #include "cotan/asset/load.hpp"
+#include "file_output.hpp"
 
 namespace cotan::app {
 
 bool namedAsGltf(const std::filesystem::path& file)
 {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lowerExtension(file);
     return extension == ".gltf" || extension == ".glb";
 }
 
@@ -27,11 +23,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
     const auto extension = output.extension();
     if (extension != ".glb" && extension != ".gltf")
         return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", output.string()));
-    const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(folder, ignored))
-        return outputError(fmt::format("{}: the folder {} does not exist", output.string(), folder.string()));
-    return Done{};
+    return checkFolderOf(output);
 }
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)

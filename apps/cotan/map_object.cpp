@@ -16,16 +16,6 @@ namespace cotan::app {
 
 namespace {
 
-// The place that covers the texel's centre; where none does, the first that touches it. Null: none.
-const UvPlace* placeOf(const UvRow& row, std::size_t x)
-{
-    const UvPlace* best = nullptr;
-    for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
-        if (!best || (row.places[i].covers && !best->covers))
-            best = &row.places[i];
-    return best;
-}
-
 // A direction of picture space and a frame's coefficients differ by the way of green: v runs down the picture.
 glm::dvec3 upsideDown(const glm::dvec3& v) { return {v.x, -v.y, v.z}; }
 
@@ -83,12 +73,12 @@ Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const
             raster.row(y, UvReach::gaps, places);
             maps::decodeRow(map, y, s.from, normals);
             for (std::size_t x = 0; x < normals.size(); ++x) {
-                const UvPlace* place = placeOf(places, x);
-                if (!place)
+                if (places.first[x] == places.first[x + 1])
                     continue;
+                const UvPlace& place = places.places[places.first[x]];
                 ++found;
                 const std::size_t at = std::size_t(y) * normals.size() + x;
-                const LowPoint p = pointOf(*surface, *frame, place->triangle, double(place->b1), double(place->b2));
+                const LowPoint p = pointOf(*surface, *frame, place.triangle, double(place.b1), double(place.b2));
                 if (normals[x] == glm::vec3(0)) { // no direction: that of the surface
                     ++invalid;
                     values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);

@@ -18,7 +18,7 @@
 #include "assimp_convert.hpp"
 #include "assimp_files.hpp"
 #include "collada_check.hpp"
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
 #include "model_folder.hpp"
 #include "obj_check.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
 #include "image_convert.hpp"
 #include "image_formats.hpp"

@@ -10,7 +10,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 
 namespace cotan {
 

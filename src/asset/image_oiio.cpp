@@ -12,7 +12,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "image_convert.hpp"
 #include "image_formats.hpp"
 #include "image_limits.hpp"

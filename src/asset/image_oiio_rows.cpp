@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "image_limits.hpp"
 #include "image_oiio.hpp"
 

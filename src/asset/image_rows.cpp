@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cotan/asset/image_file.hpp"
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
 #include "image_formats.hpp"
 #include "image_png.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "extension.hpp"
+#include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
 
 namespace cotan {

@@ -147,17 +147,11 @@ public:
 private:
     void add(std::size_t x, std::size_t texel, std::uint32_t pattern)
     {
-        const UvPlace* chosen = nullptr;
-        int covering = 0;
-        for (std::uint32_t i = row_.first[x]; i < row_.first[x + 1]; ++i) {
-            const UvPlace& place = row_.places[i];
-            covering += place.covers;
-            if (!chosen || (place.covers && !chosen->covers))
-                chosen = &place; // the first that covers, else the first that touches
-        }
+        const UvPlace& chosen = row_.places[row_.first[x]]; // the first that covers, else the first that touches
+        const bool twice = chosen.covers && row_.first[x + 1] - row_.first[x] > 1;
         std::uint8_t& state = out_.states[base_ + texel];
-        state = std::uint8_t(state | (chosen->covers ? texelCovered : texelTouched) | (covering > 1 ? texelTwice : 0));
-        packet_.wanted[packet_.count++] = {texel, *chosen, pattern};
+        state = std::uint8_t(state | (chosen.covers ? texelCovered : texelTouched) | (twice ? texelTwice : 0));
+        packet_.wanted[packet_.count++] = {texel, chosen, pattern};
         if (packet_.count == kPacket)
             flush();
     }

@@ -210,11 +210,10 @@ HighSurface::HighSurface(HighSurface&&) noexcept = default;
 HighSurface& HighSurface::operator=(HighSurface&&) noexcept = default;
 HighSurface::~HighSurface() = default;
 
-Hit HighSurface::trace(const Ray& ray, std::int64_t only) const
+Hit HighSurface::trace(const Ray& ray) const
 {
-    RTCIntersectContext context = contextFor(only >= 0);
+    RTCIntersectContext context = contextFor(false);
     RTCRayHit r = toEmbree(ray);
-    r.ray.id = only < 0 ? kAny : std::uint32_t(only);
     rtcIntersect1(state_->scene, &context, &r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};

@@ -47,8 +47,8 @@ public:
     HighSurface& operator=(HighSurface&&) noexcept;
     ~HighSurface();
 
-    // The nearest hit of a ray. Only triangles of the instance `only` count, unless it is -1.
-    Hit trace(const Ray& ray, std::int64_t only = -1) const;
+    // The nearest hit of a ray.
+    Hit trace(const Ray& ray) const;
     // For up to kPacket probes at once the hit nearest to the point; its distance is negative behind it. The two rays
     // of each start `lift` on the other side of the point, so that a surface through the point is found.
     static constexpr std::size_t kPacket = 16;

@@ -34,7 +34,8 @@ struct UvRow {
 // Which triangles a texel is asked about.
 enum class UvReach {
     centres,  // those that cover its centre
-    gaps,     // those; where there is none, those that come within half a texel's diagonal of the centre
+    gaps,     // those; where there is none, those that come within half a texel's diagonal of the centre. So a texel's
+              // first place covers its centre if any does
     touching, // all that come within half a texel's diagonal of the centre
 };
 

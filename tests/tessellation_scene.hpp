@@ -1,0 +1,25 @@
+// A tessellated surface as a scene.
+#pragma once
+
+#include "cotan/scene/scene.hpp"
+#include "cotan/truth/tessellation.hpp"
+
+namespace cotan {
+
+// A tessellated sphere or spout as the low mesh of a scene.
+inline Scene sceneOf(const Tessellation& mesh)
+{
+    Scene scene;
+    scene.name = "low";
+    Mesh m;
+    m.positions = mesh.positions;
+    m.normals = mesh.normals;
+    m.texcoords[0] = mesh.texcoords;
+    m.indices = mesh.indices;
+    scene.meshes.push_back(std::move(m));
+    scene.materials.emplace_back();
+    scene.instances.push_back({});
+    return scene;
+}
+
+} // namespace cotan
