@@ -1,5 +1,7 @@
 # Run by bench/against-blender inside Blender: bakes the normals of HIGH onto LOW (OBJ files) with Cycles and prints
-# the seconds of the bake alone. blender -b --factory-startup -P blender_bake.py -- LOW HIGH SIZE THREADS [PICTURE]
+# the seconds of the bake alone. blender -b --factory-startup -P blender_bake.py -- LOW HIGH SIZE THREADS [FOLDER]
+# FOLDER gets the picture, blender.png, and the meshes as Blender had them, low.obj and high.obj.
+import os
 import resource
 import sys
 import time
@@ -7,7 +9,7 @@ import time
 import bpy
 
 low_file, high_file, size, threads = sys.argv[sys.argv.index("--") + 1:][:4]
-picture = sys.argv[sys.argv.index("--") + 5:]
+folder = "".join(sys.argv[sys.argv.index("--") + 5:])
 size, threads = int(size), int(threads)
 
 
@@ -20,9 +22,26 @@ def load(file):
     made = [o for o in bpy.data.objects if o not in before and o.type == "MESH"]
     if len(made) != 1:
         sys.exit(f"{file}: expected one mesh, found {len(made)}")
+    # Vertices that the file splits at seams are one again, and normals Blender's own: it bakes those of the file only
+    # where faces are marked smooth, which spoils them.
+    bpy.context.view_layer.objects.active = made[0]
+    if made[0].data.has_custom_normals:
+        bpy.ops.mesh.customdata_custom_splitnormals_clear()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.remove_doubles(threshold=1e-7)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    made[0].data.use_auto_smooth = False
     for polygon in made[0].data.polygons:
         polygon.use_smooth = True
     return made[0]
+
+
+def keep(thing, name):
+    bpy.ops.object.select_all(action="DESELECT")
+    thing.select_set(True)
+    bpy.ops.wm.obj_export(filepath=os.path.join(folder, name), export_selected_objects=True, export_normals=True,
+                          export_uv=True, export_materials=False)
 
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -59,8 +78,10 @@ bpy.ops.object.bake(type="NORMAL", use_selected_to_active=True, cage_extrusion=r
 after = resource.getrusage(resource.RUSAGE_SELF)
 wall = time.perf_counter() - start
 used = after.ru_utime + after.ru_stime - processor.ru_utime - processor.ru_stime
-if picture:
-    image.filepath_raw = picture[0]
+if folder:
+    image.filepath_raw = os.path.join(folder, "blender.png")
     image.file_format = "PNG"
     image.save()
+    keep(low, "low.obj")
+    keep(high, "high.obj")
 print(f"blender-bake {wall:.3f} {used:.3f}")
