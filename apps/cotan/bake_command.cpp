@@ -170,7 +170,8 @@ Command addBakeCommand(CLI::App& app)
     c->add_option("--udim", o->udim, "tile of the texture coordinates to bake")->check(CLI::Range(1001, 1999))->type_name("N")->capture_default_str();
     c->add_option("--tangents", o->tangents, "for the frames vertex and mikktspace: stored (generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
-    c->add_flag("--face-normals", o->faceNormals, "flat normals of the high mesh instead of smooth ones");
+    c->add_option("--high-normals", o->highNormals, "normals of the high mesh: smooth, curved (where its triangles are larger than texels) or face")
+        ->check(CLI::IsMember({"smooth", "curved", "face"}))->type_name("NAME")->capture_default_str();
     c->add_option("--bits", o->bits, "8, 16 or 32 (float; .exr or .tif)")->check(CLI::IsMember({8, 16, 32}))->type_name("N")->capture_default_str();
     c->add_flag("--dither", o->dither, "8 bit: round by a fixed pattern");
     c->add_option("--convention", o->convention, "how the map is stored: opengl (green up, flat is 128, as nearly all glTF files have it), gltf (to the letter of its text, 2c - 1), directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();

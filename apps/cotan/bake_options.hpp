@@ -13,11 +13,12 @@ struct BakeCommandOptions {
     CommonOptions common;
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored",
+                highNormals = "smooth";
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     float maxDistance = 0;
-    bool dither = false, matchByName = false, faceNormals = false;
+    bool dither = false, matchByName = false;
 };
 
 // Everything that was loaded and derived for one bake.

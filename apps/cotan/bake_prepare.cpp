@@ -117,7 +117,9 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
     job.options.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
     job.options.tile = tileOf(o.udim);
     job.options.maxDistance = o.maxDistance;
-    job.options.faceNormals = o.faceNormals;
+    job.options.highNormals = o.highNormals == "curved" ? HighNormals::curved
+        : o.highNormals == "face"                       ? HighNormals::face
+                                                        : HighNormals::smooth;
     job.options.occlusionRays = o.occlusionRays;
     job.options.threads = o.common.threads;
 
@@ -154,6 +156,8 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
             return matched.error();
         job.options.matched = std::move(*matched);
     }
+    if (job.options.highNormals == HighNormals::curved)
+        high->curve(o.common.threads);
     job.high.push_back(std::move(*high));
     return job;
 }

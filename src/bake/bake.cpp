@@ -74,19 +74,28 @@ public:
             high_.outermost(probes, hits);
     }
 
-    glm::vec3 normalOf(const Hit& hit) const { return options_.faceNormals ? hit.faceNormal : hit.normal; }
-
-    // What the map says of a hit; `where`: the point hit.
-    glm::vec3 value(const CotangentFrame<float>& frame, const Hit& hit, glm::vec3 where, std::uint32_t pattern) const
+    // The normal of the high surface where a probe's ray in this direction found it.
+    glm::vec3 normalOf(const Hit& hit, glm::vec3 direction) const
     {
-        const glm::vec3 normal = normalOf(hit);
+        switch (options_.highNormals) {
+        case HighNormals::smooth: break;
+        case HighNormals::curved: return high_.curvedNormal(hit, direction);
+        case HighNormals::face: return hit.faceNormal;
+        }
+        return hit.normal;
+    }
+
+    // What the map says of a probe's hit.
+    glm::vec3 value(const CotangentFrame<float>& frame, const Probe& probe, const Hit& hit, std::uint32_t pattern) const
+    {
+        const glm::vec3 normal = normalOf(hit, probe.direction);
         switch (options_.kind) {
         case BakeKind::normal: return encode(frame, Covector3f(normal));
         case BakeKind::objectNormal: return normal;
         case BakeKind::height: return {hit.distance, 0, 1};
         case BakeKind::occlusion: break;
         }
-        return {openness(where, normal, pattern), 0, 1};
+        return {openness(probe.point + probe.direction * hit.distance, normal, pattern), 0, 1};
     }
 
 private:
@@ -180,8 +189,7 @@ private:
                 state = std::uint8_t(state | texelMissed);
                 continue;
             }
-            const glm::vec3 where = probes[i].point + probes[i].direction * hits[i].distance;
-            const glm::vec3 value = baker_.value(points[i].frame, hits[i], where, w.pattern);
+            const glm::vec3 value = baker_.value(points[i].frame, probes[i], hits[i], w.pattern);
             sums_[w.texel] += value;
             ++found_[w.texel];
             if (options_.kind == BakeKind::normal && value.z < 0)
@@ -257,7 +265,7 @@ Image expectedNormals(const LowSurface& low, const HighSurface& high, const Bake
             baker.find({&probe, 1}, {&hit, 1});
             if (!hit.found)
                 continue;
-            const glm::vec3 n = baker.normalOf(hit);
+            const glm::vec3 n = baker.normalOf(hit, probe.direction);
             float* pixel = image.floats() + 4 * (std::size_t(y) * std::size_t(view.width) + std::size_t(x));
             pixel[0] = n.x;
             pixel[1] = n.y;

@@ -11,6 +11,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "curved_normals.hpp"
+
 namespace cotan {
 
 namespace {
@@ -18,6 +20,7 @@ namespace {
 struct Part { // one instance, in world space
     std::vector<glm::vec3> positions, normals;
     std::vector<std::uint32_t> indices;
+    std::vector<ShapeOperator> shapes; // of the vertices; empty: not prepared
 };
 
 Part placed(const Mesh& mesh, const glm::mat4& toWorld)
@@ -209,6 +212,28 @@ HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)
 HighSurface::HighSurface(HighSurface&&) noexcept = default;
 HighSurface& HighSurface::operator=(HighSurface&&) noexcept = default;
 HighSurface::~HighSurface() = default;
+
+void HighSurface::curve(int threads)
+{
+    for (Part& part : state_->parts) // behind the positions is one more, for Embree
+        part.shapes = shapeOperators({part.positions.data(), part.normals.size()}, part.normals, part.indices, threads);
+}
+
+glm::vec3 HighSurface::curvedNormal(const Hit& hit, glm::vec3 direction) const
+{
+    const Part& part = state_->parts[hit.instance];
+    if (part.shapes.empty())
+        return hit.normal;
+    CurvedTriangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = part.indices[3 * std::size_t(hit.triangle) + i];
+        triangle.positions[i] = part.positions[v];
+        triangle.normals[i] = part.normals[v];
+        triangle.shapes[i] = part.shapes[v];
+    }
+    const glm::vec3 n = cotan::curvedNormal(triangle, hit.b1, hit.b2, direction);
+    return glm::dot(n, n) > 0 ? n : hit.normal;
+}
 
 Hit HighSurface::trace(const Ray& ray) const
 {

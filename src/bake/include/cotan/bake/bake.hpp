@@ -17,6 +17,14 @@ enum class BakeKind {
     occlusion,    // share of the hemisphere above the high surface that is open, cosine weighted
 };
 
+// Which normals of the high surface count.
+enum class HighNormals {
+    smooth, // interpolated between vertices
+    curved, // of the curved surface through the vertices and their normals (HighSurface::curve): for meshes whose
+            // triangles are larger than texels
+    face,
+};
+
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
@@ -26,7 +34,7 @@ struct BakeOptions {
     float maxDistance = 0;       // model units, forward and back along the low normal; 0: 5 % of the high surface's box
     std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
                                  // low surface, and as far behind it
-    bool faceNormals = false;    // of the high surface instead of smooth ones
+    HighNormals highNormals = HighNormals::smooth;
     int occlusionRays = 64;
     std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that counts, -1: all;
                                        // empty: all

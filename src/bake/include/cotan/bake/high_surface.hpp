@@ -47,6 +47,13 @@ public:
     HighSurface& operator=(HighSurface&&) noexcept;
     ~HighSurface();
 
+    // Prepares curvedNormal(): fits how the normal turns around each vertex. 24 bytes a vertex.
+    // `threads`: 0 for all.
+    void curve(int threads);
+    // The normal of the curved surface through the vertices and their normals where the ray of this hit meets it
+    // (src/bake/curved_normals.hpp). Without curve(), and where the triangle is not nearly flat: the interpolated one.
+    glm::vec3 curvedNormal(const Hit& hit, glm::vec3 direction) const;
+
     // The nearest hit of a ray.
     Hit trace(const Ray& ray) const;
     // For up to kPacket probes at once the hit nearest to the point; its distance is negative behind it. The two rays

@@ -1,0 +1,168 @@
+// The curved surface through a mesh's vertices and normals, against the surface that the mesh was made of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/bake/high_surface.hpp"
+#include "cotan/truth/random.hpp"
+
+namespace cotan {
+namespace {
+
+// A relief of a few waves with slopes up to 0.7, and its normal.
+double height(double x, double y) { return 0.1 * std::sin(5 * x + 1) * std::cos(4 * y) + 0.05 * std::sin(3 * x - 2 * y); }
+glm::dvec3 normalAt(double x, double y)
+{
+    const double hx = 0.5 * std::cos(5 * x + 1) * std::cos(4 * y) + 0.15 * std::cos(3 * x - 2 * y);
+    const double hy = -0.4 * std::sin(5 * x + 1) * std::sin(4 * y) - 0.1 * std::cos(3 * x - 2 * y);
+    return glm::normalize(glm::dvec3(-hx, -hy, 1));
+}
+
+enum class Winding { outwards, inwards };
+
+// cells x cells quads over the unit square, each of two triangles; vertices in the middle of the square are moved to
+// make the mesh irregular, as real ones are.
+Scene relief(int cells, Winding winding = Winding::outwards)
+{
+    Scene scene;
+    scene.name = "relief";
+    Mesh mesh;
+    Random random(3);
+    for (int j = 0; j <= cells; ++j)
+        for (int i = 0; i <= cells; ++i) {
+            const bool inside = i > 0 && i < cells && j > 0 && j < cells;
+            const double x = (i + (inside ? 0.3 * random.range(-1, 1) : 0)) / cells;
+            const double y = (j + (inside ? 0.3 * random.range(-1, 1) : 0)) / cells;
+            mesh.positions.emplace_back(float(x), float(y), float(height(x, y)));
+            mesh.normals.emplace_back(normalAt(x, y));
+        }
+    for (int j = 0; j < cells; ++j)
+        for (int i = 0; i < cells; ++i) {
+            const auto a = std::uint32_t(j * (cells + 1) + i), b = a + 1, d = a + std::uint32_t(cells) + 1, c = d + 1;
+            for (std::uint32_t k : {a, b, c, a, c, d})
+                mesh.indices.push_back(k);
+        }
+    if (winding == Winding::inwards)
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({});
+    return scene;
+}
+
+// Where a ray from above meets the relief itself: Newton's method.
+glm::dvec3 truthAlong(glm::dvec3 origin, glm::dvec3 direction)
+{
+    double t = -origin.z / direction.z;
+    for (int i = 0; i < 30; ++i) {
+        const glm::dvec3 p = origin + t * direction, n = normalAt(p.x, p.y);
+        t += (height(p.x, p.y) - p.z) * n.z / glm::dot(direction, n);
+    }
+    const glm::dvec3 p = origin + t * direction;
+    return normalAt(p.x, p.y);
+}
+
+double degrees(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232; }
+
+struct Errors {
+    double interpolated = 0, curved = 0; // mean degrees
+};
+
+Errors errorsOf(const Scene& scene)
+{
+    auto surface = HighSurface::make({scene}, 1);
+    EXPECT_TRUE(surface);
+    surface->curve(1);
+    Errors errors;
+    Random random(11);
+    const int rays = 4000;
+    for (int i = 0; i < rays; ++i) {
+        const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5 * random.range(-1, 1), 0.5 * random.range(-1, 1), -1));
+        const glm::dvec3 target(random.range(0.2, 0.8), random.range(0.2, 0.8), 0);
+        const glm::vec3 origin(target - direction * (0.5 / -direction.z)), towards(direction);
+        const Hit hit = surface->trace({origin, towards, 0, 10});
+        if (!hit.found) {
+            ADD_FAILURE() << "ray " << i;
+            break;
+        }
+        const glm::dvec3 truth = truthAlong(glm::dvec3(origin), glm::dvec3(towards));
+        errors.interpolated += degrees(glm::dvec3(hit.normal), truth) / rays;
+        errors.curved += degrees(glm::dvec3(surface->curvedNormal(hit, towards)), truth) / rays;
+    }
+    return errors;
+}
+
+TEST(Curved, errorsFallByTheThirdPowerOfTheEdgeWhereInterpolationsFallByTheSecond)
+{
+    const Errors coarse = errorsOf(relief(12)), fine = errorsOf(relief(24));
+    // Halving the edges: 4 for the second power, 8 for the third. Irregular neighbours vary, hence the margins.
+    EXPECT_GT(coarse.interpolated / fine.interpolated, 3.2);
+    EXPECT_LT(coarse.interpolated / fine.interpolated, 4.8);
+    EXPECT_GT(coarse.curved / fine.curved, 7);
+    EXPECT_LT(coarse.curved, coarse.interpolated / 5);
+    EXPECT_LT(fine.curved, fine.interpolated / 10);
+}
+
+TEST(Curved, theSideOnWhichTrianglesRunDoesNotMatter)
+{
+    // The same triangles the other way round: only rounding differs, 1e-7 on steps of a tenth.
+    EXPECT_NEAR(errorsOf(relief(12)).curved, errorsOf(relief(12, Winding::inwards)).curved, 1e-4);
+}
+
+TEST(Curved, aMeshWithoutSharedVerticesIsNoWorseThanInterpolated)
+{
+    Scene scene = relief(12);
+    Mesh apart;
+    for (std::uint32_t v : scene.meshes[0].indices) {
+        apart.indices.push_back(std::uint32_t(apart.positions.size()));
+        apart.positions.push_back(scene.meshes[0].positions[v]);
+        apart.normals.push_back(scene.meshes[0].normals[v]);
+    }
+    scene.meshes[0] = apart;
+    const Errors errors = errorsOf(scene);
+    EXPECT_LT(errors.curved, errors.interpolated);
+}
+
+TEST(Curved, flatFacesStayFlat)
+{
+    Scene scene = relief(6);
+    Mesh flat;
+    const Mesh& mesh = scene.meshes[0];
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+        for (const glm::vec3& p : {a, b, c}) {
+            flat.indices.push_back(std::uint32_t(flat.positions.size()));
+            flat.positions.push_back(p);
+            flat.normals.push_back(glm::normalize(glm::cross(b - a, c - a)));
+        }
+    }
+    scene.meshes[0] = flat;
+    auto surface = HighSurface::make({scene}, 1);
+    ASSERT_TRUE(surface);
+    surface->curve(1);
+    Random random(5);
+    for (int i = 0; i < 300; ++i) {
+        const Hit hit = surface->trace({{float(random.range(0.1, 0.9)), float(random.range(0.1, 0.9)), 1}, {0, 0, -1}, 0, 10});
+        ASSERT_TRUE(hit.found);
+        // Positions of a face lie in its plane but for their rounding, 6e-8, over edges of a sixth: 2e-5 degrees.
+        EXPECT_LT(degrees(glm::dvec3(surface->curvedNormal(hit, {0, 0, -1})), glm::dvec3(hit.faceNormal)), 1e-3);
+    }
+}
+
+TEST(Curved, rayAlongTheTriangleAndUnpreparedSurfaceGiveTheInterpolatedNormal)
+{
+    auto surface = HighSurface::make({relief(8)}, 1);
+    ASSERT_TRUE(surface);
+    const Hit hit = surface->trace({{0.4f, 0.6f, 1}, {0, 0, -1}, 0, 10});
+    ASSERT_TRUE(hit.found);
+    EXPECT_EQ(surface->curvedNormal(hit, {0, 0, -1}), hit.normal);
+    surface->curve(1);
+    EXPECT_NE(surface->curvedNormal(hit, {0, 0, -1}), hit.normal);
+    const glm::vec3 along = glm::normalize(glm::cross(hit.faceNormal, glm::vec3(0, 1, 0)));
+    EXPECT_EQ(surface->curvedNormal(hit, along), hit.normal);
+}
+
+} // namespace
+} // namespace cotan
