@@ -1,14 +1,14 @@
 # The printed shader text, compiled and run in every language that this machine can run.
 if(COTAN_GLSLANG)
   cotan_test(shader_test
-    SOURCES shader_test.cpp shader_cases.cpp shader_run_cpp.cpp shader_run_browser.cpp
+    SOURCES shader_test.cpp shader_cases.cpp shader_light.cpp shader_draw.cpp shader_compute.cpp shader_run_cpp.cpp shader_run_browser.cpp
     LIBRARIES cotan_shader_text cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_definitions(shader_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
     COTAN_CXX="${CMAKE_CXX_COMPILER}" COTAN_GLSLANG_PATH="${COTAN_GLSLANG}")
   add_dependencies(shader_test cotan)
   if(TARGET cotan_cost)
     # The devices and buffers of the pricing.
-    target_sources(shader_test PRIVATE shader_run_vulkan.cpp)
+    target_sources(shader_test PRIVATE shader_run_vulkan.cpp shader_draw_vulkan.cpp)
     target_include_directories(shader_test PRIVATE ${PROJECT_SOURCE_DIR}/src/cost)
     target_link_libraries(shader_test PRIVATE cotan_cost Vulkan::Headers)
     target_compile_definitions(shader_test PRIVATE COTAN_WITH_VULKAN)

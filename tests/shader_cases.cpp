@@ -56,12 +56,13 @@ glm::dvec3 decoded(const Vectors& v, const Convention& c = {})
     return f64::cotan_decode(v.texel, toFormat<f64::cotan_normal_format>(c));
 }
 
-Case frameCase(const std::string& label, Choice choice)
+// drawn: with the function that takes derivatives itself.
+Case frameCase(const std::string& label, Choice choice, bool drawn = false)
 {
     Case c;
     c.name = label;
     const bool total = info(choice.frame).total;
-    choice.callerDifferences = true;
+    choice.callerDifferences = !drawn;
     c.text = [choice](Language l) {
         Choice in = choice;
         in.language = l;
@@ -77,7 +78,7 @@ Case frameCase(const std::string& label, Choice choice)
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
     if (info(frame).source != FrameSource::vertices) {
-        c.call = made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
+        c.call = drawn ? "cotan_perturb_normal(n, p, uv, m)" : made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
         c.expected = [=](const Vectors& v) {
             const glm::dvec3 n = total ? glm::dvec3(v.n) : unitOf(v.n);
             return f64::cotan_apply(evaluate(frame, n, glm::dvec3(v.dpdx), glm::dvec3(v.dpdy), glm::dvec2(v.duvdx), glm::dvec2(v.duvdy)), decoded(v, convention));
@@ -94,19 +95,24 @@ Case frameCase(const std::string& label, Choice choice)
     return c;
 }
 
-Case uvSetsCase()
+glm::dvec3 ofTwoSets(const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
+{
+    const auto a = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdx, v.duvdy);
+    const auto b = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, otherDx, otherDy);
+    const glm::dvec2 slope = f64::cotan_slope_of_texel(decoded(v));
+    return f64::cotan_resolve_gradient(a.n, f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
+}
+
+Case uvSetsCase(bool drawn = false)
 {
     Choice choice;
     choice.frame = Frame::gradient;
     choice.uvSets = 2;
-    Case c = frameCase("gradient, two uv sets", choice);
-    c.call = "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
-    c.expected = [](const Vectors& v) {
-        const auto a = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdx, v.duvdy);
-        const auto b = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdy, v.duvdx);
-        const glm::dvec2 slope = f64::cotan_slope_of_texel(decoded(v));
-        return f64::cotan_resolve_gradient(
-            a.n, f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
+    Case c = frameCase("gradient, two uv sets", choice, drawn);
+    c.call = drawn ? "cotan_perturb_normal(n, p, uv, m, uv * 3.0, m)"
+                   : "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
+    c.expected = [drawn](const Vectors& v) {
+        return drawn ? ofTwoSets(v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0) : ofTwoSets(v, v.duvdy, v.duvdx);
     };
     return c;
 }
@@ -164,6 +170,25 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE("blend linear", cotan_blend_linear(m, m2)));
 }
 
+// Every frame in each form; drawn: every frame from screen derivatives.
+std::vector<Case> frameCases(bool drawn)
+{
+    std::vector<Case> all;
+    for (const FrameInfo& f : frames()) {
+        if (drawn && f.source != FrameSource::differences)
+            continue;
+        Choice choice;
+        choice.frame = f.frame;
+        choice.form = Form::total;
+        all.push_back(frameCase(std::string(f.name), choice, drawn));
+        if (!shader_text::hasFusedForm(f.frame))
+            continue;
+        choice.form = Form::fused;
+        all.push_back(frameCase(std::string(f.name) + ", fused", choice, drawn));
+    }
+    return all;
+}
+
 } // namespace
 
 std::vector<Sample> samples()
@@ -195,22 +220,21 @@ std::vector<Sample> samples()
         v.n.z = bad;
         all.push_back({v, Kind::nonFinite});
     }
+    for (const Sample& lit : litSamples())
+        all.push_back(lit);
+    return all;
+}
+
+std::vector<Case> drawnCases()
+{
+    std::vector<Case> all = frameCases(true);
+    all.push_back(uvSetsCase(true));
     return all;
 }
 
 std::vector<Case> cases()
 {
-    std::vector<Case> all;
-    for (const FrameInfo& f : frames()) {
-        Choice choice;
-        choice.frame = f.frame;
-        choice.form = Form::total;
-        all.push_back(frameCase(std::string(f.name), choice));
-        if (!shader_text::hasFusedForm(f.frame))
-            continue;
-        choice.form = Form::fused;
-        all.push_back(frameCase(std::string(f.name) + ", fused", choice));
-    }
+    std::vector<Case> all = frameCases(false);
     for (Channels channels : {Channels::orthographic, Channels::stereographic, Channels::slope}) {
         Choice choice;
         choice.convention.channels = channels;
@@ -223,6 +247,8 @@ std::vector<Case> cases()
     }
     all.push_back(uvSetsCase());
     addLines(all);
+    for (Case& lit : litCases())
+        all.push_back(std::move(lit));
     return all;
 }
 

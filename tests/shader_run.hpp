@@ -1,6 +1,7 @@
 // Files and processes of the parity test.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -35,6 +36,19 @@ inline std::vector<Vectors> vectorsOf(const std::vector<Sample>& samples)
 inline bool shell(const std::string& line, const std::filesystem::path& log)
 {
     return std::system(("(" + line + ") > '" + log.string() + "' 2>&1").c_str()) == 0;
+}
+
+// SPIR-V's bytes by glslang. stage: as it calls it, `comp`. label: for what is thrown.
+std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label);
+
+// A case as a compute shader: inputs at binding 0, outputs at binding 1.
+std::string computeSpirv(const Case& c, bool hlsl);
+
+inline std::vector<std::uint32_t> wordsOf(const std::string& spirv)
+{
+    std::vector<std::uint32_t> words(spirv.size() / 4);
+    std::memcpy(words.data(), spirv.data(), words.size() * 4);
+    return words;
 }
 
 // Three numbers each, case by case.

@@ -45,7 +45,7 @@ std::string fromBase64(const std::string& text)
     return bytes;
 }
 
-// A fragment shader that calls the function which takes derivatives itself: compiled, not run.
+// A fragment shader over the largest set, compiled only.
 json fragmentOf(const FrameInfo& f)
 {
     shader_text::Choice choice;
@@ -61,7 +61,8 @@ json fragmentOf(const FrameInfo& f)
     return {{"name", f.name}, {"essl", essl}, {"wgsl", wgsl}};
 }
 
-Results resultsOf(const std::string& label, const json& found, std::size_t sampleCount)
+// key: of the list in `found`. count: vectors of three of one case.
+Results resultsOf(const std::string& label, const json& found, const char* key, std::size_t count)
 {
     Results results{label, {}, {}};
     if (found.contains("error"))
@@ -70,24 +71,36 @@ Results resultsOf(const std::string& label, const json& found, std::size_t sampl
         results.skipped = found["skipped"];
         return results;
     }
-    for (const json& text : found["results"])
-        results.values.push_back(valuesOf<float>(fromBase64(text), 1, sampleCount).at(0));
+    for (const json& text : found[key])
+        results.values.push_back(valuesOf<float>(fromBase64(text), 1, count).at(0));
     return results;
 }
 
 } // namespace
 
-std::array<Results, 2> runBrowser(const std::vector<Case>& cases, const std::vector<Sample>& samples)
+BrowserResults runBrowser(const std::vector<Case>& cases, const std::vector<Sample>& samples,
+                          const std::vector<Case>& drawn, const std::vector<Corner>& corners)
 {
+    const auto nothing = [](const std::string& why) {
+        const Results essl{"essl", why, {}}, wgsl{"wgsl", why, {}};
+        return BrowserResults{essl, wgsl, essl, wgsl};
+    };
     TemporaryFolder folder;
     const std::string f = folder.path().string();
     if (!shell("command -v chromium", folder / "log"))
-        return {Results{"essl", "no chromium", {}}, Results{"wgsl", "no chromium", {}}};
+        return nothing("no chromium");
     writeItems(folder / "in", vectorsOf(samples));
-    json work{{"input", toBase64(readWhole(folder / "in"))}, {"cases", json::array()}, {"fragments", json::array()}};
-    for (const Case& c : cases)
-        work["cases"].push_back(
-            {{"name", c.name}, {"call", c.call}, {"essl", c.text(Language::essl)}, {"wgsl", c.text(Language::wgsl)}});
+    writeItems(folder / "corners", corners);
+    json work{{"input", toBase64(readWhole(folder / "in"))},
+              {"corners", toBase64(readWhole(folder / "corners"))},
+              {"target", kTarget},
+              {"cases", json::array()},
+              {"drawn", json::array()},
+              {"fragments", json::array()}};
+    for (const auto& [key, list] : {std::pair("cases", &cases), {"drawn", &drawn}})
+        for (const Case& c : *list)
+            work[key].push_back(
+                {{"name", c.name}, {"call", c.call}, {"essl", c.text(Language::essl)}, {"wgsl", c.text(Language::wgsl)}});
     for (const FrameInfo& frame : frames())
         if (frame.source == FrameSource::differences)
             work["fragments"].push_back(fragmentOf(frame));
@@ -100,16 +113,16 @@ std::array<Results, 2> runBrowser(const std::vector<Case>& cases, const std::vec
           folder / "log");
     const std::string dom = readWhole(folder / "dom");
     const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
-    if (begin == std::string::npos || end == std::string::npos) {
-        const std::string why = "chromium printed no result: " + dom.substr(0, 80);
-        return {Results{"essl", why, {}}, Results{"wgsl", why, {}}};
-    }
+    if (begin == std::string::npos || end == std::string::npos)
+        return nothing("chromium printed no result: " + dom.substr(0, 80));
     std::string text = dom.substr(begin + 8, end - begin - 8);
     for (const auto& [from, to] : {std::pair<std::string, std::string>("&lt;", "<"), {"&gt;", ">"}, {"&amp;", "&"}})
         for (std::size_t at; (at = text.find(from)) != std::string::npos;)
             text.replace(at, from.size(), to);
     const json found = json::parse(text);
-    return {resultsOf("essl", found["essl"], samples.size()), resultsOf("wgsl", found["wgsl"], samples.size())};
+    const std::size_t pixels = 2 * kTarget * kTarget;
+    return {resultsOf("essl", found["essl"], "results", samples.size()), resultsOf("wgsl", found["wgsl"], "results", samples.size()),
+            resultsOf("essl", found["essl"], "pixels", pixels), resultsOf("wgsl", found["wgsl"], "pixels", pixels)};
 }
 
 } // namespace cotan::test

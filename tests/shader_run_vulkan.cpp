@@ -7,45 +7,6 @@ namespace cotan::test {
 
 namespace {
 
-using shader_text::Language;
-
-std::string shaderOf(const Case& c, bool hlsl)
-{
-    auto in = [](int i) { return "inputs[i * 16u + " + std::to_string(i) + "u]"; };
-    auto vec = [&](const std::string& type, int i, int n) {
-        std::string text = type + "(";
-        for (int k = 0; k < n; ++k)
-            text += (k ? ", " : "") + in(i + k);
-        return text + ")";
-    };
-    const std::string v2 = hlsl ? "float2" : "vec2", v3 = hlsl ? "float3" : "vec3";
-    const std::string body = "    " + v3 + " n = " + vec(v3, 0, 3) + ";\n    " + v3 + " dpdx = " + vec(v3, 3, 3) + ";\n    "
-        + v3 + " dpdy = " + vec(v3, 6, 3) + ";\n    " + v2 + " duvdx = " + vec(v2, 9, 2) + ";\n    " + v2 + " duvdy = "
-        + vec(v2, 11, 2) + ";\n    " + v3 + " m = " + vec(v3, 13, 3) + ";\n    " + v3 + " r = " + c.call
-        + ";\n    outputs[i * 3u] = r.x;\n    outputs[i * 3u + 1u] = r.y;\n    outputs[i * 3u + 2u] = r.z;\n}\n";
-    if (hlsl)
-        return "[[vk::binding(0)]] StructuredBuffer<float> inputs;\n[[vk::binding(1)]] RWStructuredBuffer<float> outputs;\n"
-            + c.text(Language::hlsl)
-            + "[numthreads(1, 1, 1)]\nvoid main(uint3 id : SV_DispatchThreadID)\n{\n    uint i = id.x;\n" + body;
-    return "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer In { float inputs[]; };\n"
-           "layout(std430, binding = 1) buffer Out { float outputs[]; };\n"
-        + c.text(Language::glsl) + "void main()\n{\n    uint i = gl_GlobalInvocationID.x;\n" + body;
-}
-
-std::vector<std::uint32_t> compile(const Case& c, bool hlsl)
-{
-    TemporaryFolder folder;
-    const std::string f = folder.path().string();
-    writeText(folder / "a.comp", shaderOf(c, hlsl));
-    const std::string flags = hlsl ? " -D -V -e main" : " -V";
-    if (!shell(COTAN_GLSLANG_PATH + flags + " -S comp -o '" + f + "/spv' '" + f + "/a.comp'", folder / "log"))
-        throw std::runtime_error(c.name + ": " + readWhole(folder / "log"));
-    const std::string bytes = readWhole(folder / "spv");
-    std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), words.size() * 4);
-    return words;
-}
-
 class Computer {
 public:
     Computer(cost::Device& device, const std::vector<Sample>& samples) : device_(device), samples_(samples)
@@ -123,7 +84,7 @@ Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& sam
             results.skipped.clear();
             Computer computer(device, samples);
             for (const Case& c : cases)
-                results.values.push_back(computer.run(compile(c, hlsl)));
+                results.values.push_back(computer.run(wordsOf(computeSpirv(c, hlsl))));
             return results;
         }
     } catch (const vk::SystemError& e) {

@@ -2,6 +2,7 @@
 // compiles as it stands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,19 @@ constexpr double kFloatDegrees = 1.2e-3;
 // The text in C++ double is the same operations as the portable text, but for GLM's order of sums;
 // the 1e-16 that fused.h adds to m.z is 1e-11 radians beside a determinant of 1e-5.
 constexpr double kDoubleDegrees = 1e-9;
+
+// Of what one rounding of the result and one of each input change together (`Case::allowance`): a
+// stable evaluation in float is exact for inputs some roundings away. Loosest is pow where the
+// driver makes it of exp2 and log2: 2^-21 absolute for log2 (Vulkan's bound) is a base 5.5
+// roundings away; exp2(-9.28) is good to 22 units in the last place, 44 roundings. Then some
+// twenty multiplications and sums.
+constexpr double kFloatRoundings = 64;
+constexpr double kDoubleRoundings = 1e-6; // 2^-29 of them, with reserve for kinks
+
+// Drawn, the differences are those of interpolated values. An interpolator that counts from the
+// target's corner adds up to 32 differences, each rounded: 32 * 6e-8 of a difference. Both of each
+// pair, amplified as above: 2 * 1.9e-6 * 2 * 2 * 1.6 * 1.7 rad = 2.4e-3 degrees, besides those above.
+constexpr double kDrawnDegrees = 3.6e-3;
 
 const std::vector<Case>& allCases()
 {
@@ -61,6 +75,38 @@ double worst(const Case& c, const Results& r, std::size_t index)
     return most;
 }
 
+struct LightError {
+    double relative = 0;  // to the largest channel
+    double roundings = 0; // see kFloatRoundings
+};
+
+LightError worstLight(const Case& c, const Results& r, std::size_t index)
+{
+    LightError most;
+    for (std::size_t s = 0; s < allSamples().size(); ++s) {
+        if (allSamples()[s].kind != Kind::light)
+            continue;
+        const glm::dvec3 expected = c.expected(allSamples()[s].v), allowed = c.allowance(allSamples()[s].v);
+        for (int k = 0; k < 3; ++k) {
+            const double off = std::abs(r.values[index][s][k] - expected[k]);
+            const double size = std::max({std::abs(expected.x), std::abs(expected.y), std::abs(expected.z)});
+            if (off == 0)
+                continue;
+            // Written such that a NaN counts as large.
+            most.relative = off / size <= most.relative ? most.relative : off / size;
+            most.roundings = off / allowed[k] <= most.roundings ? most.roundings : off / allowed[k];
+        }
+    }
+    return most;
+}
+
+void expectLight(const Case& c, const Results& r, std::size_t index)
+{
+    const LightError most = worstLight(c, r, index);
+    fmt::print("| {:24} | {:10} | {:.1e} relative, {:.1e} roundings |\n", c.name, r.language, most.relative, most.roundings);
+    EXPECT_LT(most.roundings, r.language == "cpp double" ? kDoubleRoundings : kFloatRoundings) << r.language << ", " << c.name;
+}
+
 void expectParity(const Results& r)
 {
     if (!r.skipped.empty())
@@ -69,6 +115,10 @@ void expectParity(const Results& r)
     const double limit = r.language == "cpp double" ? kDoubleDegrees : kFloatDegrees;
     for (std::size_t k = 0; k < allCases().size(); ++k) {
         const Case& c = allCases()[k];
+        if (c.light) {
+            expectLight(c, r, k);
+            continue;
+        }
         const double most = worst(c, r, k);
         fmt::print("| {:24} | {:10} | {:.1e} |\n", c.name, r.language, most);
         EXPECT_LT(most, limit) << r.language << ", " << c.name;
@@ -78,15 +128,65 @@ void expectParity(const Results& r)
 TEST(ShaderParity, cppFloat) { expectParity(runCpp(allCases(), allSamples(), false)); }
 TEST(ShaderParity, cppDouble) { expectParity(runCpp(allCases(), allSamples(), true)); }
 TEST(ShaderParity, metalTextAsCpp) { expectParity(runMsl(allCases(), allSamples())); }
+TEST(ShaderParity, spirvCrossMetalTextOfTheGlslAsCpp) { expectParity(runSpirvCross(allCases(), allSamples())); }
 #ifdef COTAN_WITH_VULKAN
 TEST(ShaderParity, glslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), false)); }
 TEST(ShaderParity, hlslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), true)); }
 #endif
+// y of window space runs along with clip space's in WebGL and Vulkan, against it in WebGPU.
+void expectDrawn(const Results& r)
+{
+    if (!r.skipped.empty())
+        GTEST_SKIP() << r.language << ": " << r.skipped;
+    const std::vector<Case> drawn = drawnCases();
+    const std::vector<Vectors> drawnTiles = tiles();
+    ASSERT_EQ(r.values.size(), drawn.size());
+    for (std::size_t c = 0; c < drawn.size(); ++c)
+        for (int turn = 0; turn < 2; ++turn) {
+            const bool along = (turn == 0) != (r.language == "wgsl");
+            double most = 0;
+            for (int row = 0; row < kTarget; ++row)
+                for (int column = 0; column < kTarget; ++column) {
+                    const int tileRow = (along ? row : kTarget - 1 - row) / kTile;
+                    Vectors v = drawnTiles[static_cast<std::size_t>(tileRow * kTiles + column / kTile)];
+                    v.dpdy = along ? v.dpdy : -v.dpdy;
+                    v.duvdy = along ? v.duvdy : -v.duvdy;
+                    const std::size_t pixel = static_cast<std::size_t>((turn * kTarget + row) * kTarget + column);
+                    most = std::max(most, degreesApart(r.values[c][pixel], drawn[c].expected(v)));
+                }
+            fmt::print("| {:24} | {:10} | {:.1e} | drawn, y {} |\n", drawn[c].name, r.language, most, along ? "along" : "against");
+            EXPECT_LT(most, kDrawnDegrees) << r.language << ", " << drawn[c].name << ", along: " << along;
+        }
+}
+
+#ifdef COTAN_WITH_VULKAN
+TEST(ShaderParity, glslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), false)); }
+TEST(ShaderParity, hlslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), true)); }
+#endif
 TEST(ShaderParity, webGl2AndWebGpu)
 {
-    const auto [essl, wgsl] = runBrowser(allCases(), allSamples());
-    expectParity(essl);
-    expectParity(wgsl);
+    const BrowserResults r = runBrowser(allCases(), allSamples(), drawnCases(), corners(tiles()));
+    expectParity(r.essl);
+    expectParity(r.wgsl);
+    expectDrawn(r.drawnEssl);
+    expectDrawn(r.drawnWgsl);
+}
+
+// Nothing of light.h is left out above.
+TEST(ShaderParity, everyFunctionOfLightIsRun)
+{
+    std::string run;
+    for (const Case& c : litCases())
+        run += c.text(Language::glsl);
+    Choice choice;
+    const std::vector<std::string> without = makeShaderText(choice)->functions;
+    choice.lights = true;
+    const std::vector<std::string> with = makeShaderText(choice)->functions;
+    EXPECT_GE(with.size(), without.size() + 12);
+    for (const std::string& function : with) {
+        const bool light = std::find(without.begin(), without.end(), function) == without.end();
+        EXPECT_TRUE(!light || run.find(" " + function + "(") != std::string::npos) << function;
+    }
 }
 
 TEST(ShaderText, theSameChoiceGivesTheSameBytesInEveryLanguage)

@@ -1,0 +1,166 @@
+// Lighting in every language: what is lit, and how far from the portable text in double a result is.
+#include <cmath>
+#include <limits>
+
+#include "cotan/truth/patch.hpp"
+#include "shader_cases.hpp"
+
+namespace cotan::test {
+
+namespace {
+
+using shader_text::Language;
+
+// The sixteen numbers, read as a lit surface.
+struct Lit {
+    f64::cotan_surface s;
+    glm::dvec3 l;
+    double x; // -1.5 to 1.5: a distance, a step's argument
+    double y; // 0 to 1: a range, an exposure, also the occlusion
+};
+
+using Numbers = std::array<double, 16>;
+
+Numbers numbersOf(const Vectors& v)
+{
+    return {v.n.x,     v.n.y,     v.n.z,     v.dpdx.x,  v.dpdx.y,  v.dpdx.z,  v.dpdy.x,  v.dpdy.y,
+            v.dpdy.z,  v.duvdx.x, v.duvdx.y, v.duvdy.x, v.duvdy.y, v.texel.x, v.texel.y, v.texel.z};
+}
+
+Lit litOf(const Numbers& v)
+{
+    Lit lit;
+    lit.s.base_color = lit.s.emissive = {v[13], v[14], v[15]};
+    lit.s.metallic = v[9];
+    lit.s.roughness = v[10];
+    lit.s.occlusion = v[12];
+    lit.s.n = {v[0], v[1], v[2]};
+    lit.s.v = {v[6], v[7], v[8]};
+    lit.l = {v[3], v[4], v[5]};
+    lit.x = v[11];
+    lit.y = v[12];
+    return lit;
+}
+
+constexpr char kLitText[] =
+    "COTAN_FUNCTION cotan_vec3 cotan_case(cotan_vec3 n, cotan_vec3 l, cotan_vec3 v, cotan_vec2 material, "
+    "cotan_vec2 xy, cotan_vec3 color)\n{\n"
+    "    cotan_surface s;\n"
+    "    s.base_color = color;\n    s.metallic = material.x;\n    s.roughness = material.y;\n"
+    "    s.occlusion = xy.y;\n    s.emissive = color;\n    s.n = n;\n    s.v = v;\n"
+    "    cotan_real x = xy.x;\n    cotan_real y = xy.y;\n    return ";
+
+template<class Function>
+Case litCase(const std::string& label, const std::string& line, Function function)
+{
+    Case c;
+    c.name = label;
+    c.light = true;
+    c.call = "cotan_case(n, dpdx, dpdy, duvdx, duvdy, m)";
+    c.text = [line](Language l) { return shader_text::translate(l, kLitText + line + ";\n}\n"); };
+    c.expected = [function](const Vectors& v) { return function(litOf(numbersOf(v))); };
+    // Unit vectors are rounded in proportion to one, other numbers in proportion to themselves.
+    c.allowance = [function](const Vectors& v) {
+        const Numbers numbers = numbersOf(v);
+        const glm::dvec3 value = function(litOf(numbers));
+        glm::dvec3 sum(std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)}) * kRounding);
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const double step = kRounding * (k < 9 ? 1.0 : std::abs(numbers[k]));
+            glm::dvec3 most(0);
+            for (double side : {-step, step}) {
+                Numbers moved = numbers;
+                moved[k] += side;
+                most = glm::max(most, glm::abs(function(litOf(moved)) - value));
+            }
+            sum += most;
+        }
+        return sum;
+    };
+    return c;
+}
+
+// A line of portable text that is also C++, read with f64's names.
+#define COTAN_LIT_CASE(label, ...)                              \
+    litCase(label, #__VA_ARGS__, [](const Lit& lit) -> glm::dvec3 { \
+        using namespace f64;                                    \
+        const cotan_surface& s = lit.s;                         \
+        const glm::dvec3 l = lit.l;                             \
+        const double x = lit.x, y = lit.y;                      \
+        (void)s, (void)l, (void)x, (void)y;                     \
+        return __VA_ARGS__;                                     \
+    })
+
+// A unit vector at the cosine `c` from z.
+glm::vec3 leaned(Random& random, glm::vec3 z, double c)
+{
+    const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(z), random.direction()));
+    return glm::vec3(glm::normalize(glm::dvec3(z) * c + side * std::sqrt(1 - c * c)));
+}
+
+Vectors randomLit(Random& random)
+{
+    auto unit = [&] { return static_cast<float>(random.range(0, 1)); };
+    Vectors v;
+    v.n = glm::vec3(random.direction());
+    v.dpdx = leaned(random, v.n, random.range(0.02, 1));
+    v.dpdy = leaned(random, v.n, random.range(0.02, 1));
+    v.duvdx = {unit(), unit()};
+    v.duvdy = {static_cast<float>(random.range(-1.5, 1.5)), unit()};
+    v.texel = {unit(), unit(), unit()};
+    return v;
+}
+
+} // namespace
+
+std::vector<Sample> litSamples()
+{
+    Random random(402);
+    std::vector<Sample> all;
+    for (int k = 0; k < 512; ++k)
+        all.push_back({randomLit(random), Kind::light});
+    const glm::vec3 up(0, 1, 0);
+    using Change = void (*)(Random&, Vectors&, glm::vec3);
+    const Change changes[] = {
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, -0.3); },              // lit from behind
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, -0.3); },              // seen from behind
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, 1e-4); },              // grazing light
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, 1e-5); },              // grazing view
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.dpdy = leaned(r, v.n, 0.01), 0.99); },
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = -v.dpdy; },                             // no half vector
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n = v.dpdy; },                        // head on
+        [](Random&, Vectors& v, glm::vec3) { v.duvdx.y = 0; },                                // a mirror
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy; v.duvdx.y = 0; }, // its glint
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy; v.duvdx.y = 0.2f; },
+        [](Random&, Vectors& v, glm::vec3) { v.duvdx = {0, 1}; },                             // chalk
+        [](Random&, Vectors& v, glm::vec3) { v.duvdx = {1, 0.5f}; v.texel = {0, 0, 0}; },     // black metal
+        [](Random&, Vectors& v, glm::vec3) { v.texel = {1, 1, 1}; v.duvdy = {1, 1}; },        // distance = range
+        [](Random&, Vectors& v, glm::vec3) { v.texel = {0.0031308f, 0.04045f, 1e-9f}; v.duvdy = {0, 0}; },
+        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = y; },                           // straight up
+        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = -y; },                          // straight down
+    };
+    for (Change change : changes)
+        for (int k = 0; k < 4; ++k) {
+            Vectors v = randomLit(random);
+            change(random, v, up);
+            all.push_back({v, Kind::light});
+        }
+    return all;
+}
+
+std::vector<Case> litCases()
+{
+    std::vector<Case> all;
+    all.push_back(COTAN_LIT_CASE("saturate, smooth", cotan_vec3(cotan_saturate(x), cotan_smooth(-y, y + cotan_real(0.1), x), cotan_smooth(y + cotan_real(0.1), -y, x))));
+    all.push_back(COTAN_LIT_CASE("half vector", cotan_half_vector(l, s.v)));
+    all.push_back(COTAN_LIT_CASE("reflect pbr", cotan_reflect_pbr(s, l)));
+    all.push_back(COTAN_LIT_CASE("reflect Blinn-Phong", cotan_reflect_blinn_phong(s, l)));
+    all.push_back(COTAN_LIT_CASE("environment", cotan_environment(l, s.roughness)));
+    all.push_back(COTAN_LIT_CASE("reflect environment", cotan_reflect_environment(s)));
+    all.push_back(COTAN_LIT_CASE("falloff", cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)), cotan_light_falloff(y, cotan_real(0.0)))));
+    all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
+    all.push_back(COTAN_LIT_CASE("linear to sRGB", cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y), cotan_linear_to_srgb(s.base_color.z))));
+    all.push_back(COTAN_LIT_CASE("sRGB to linear", cotan_vec3(cotan_srgb_to_linear(s.base_color.x), cotan_srgb_to_linear(s.base_color.y), cotan_srgb_to_linear(s.base_color.z))));
+    return all;
+}
+
+} // namespace cotan::test
