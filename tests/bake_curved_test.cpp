@@ -88,8 +88,8 @@ Errors errorsOf(const Scene& scene)
             break;
         }
         const glm::dvec3 truth = truthAlong(glm::dvec3(origin), glm::dvec3(towards));
-        errors.interpolated += degrees(glm::dvec3(hit.normal), truth) / rays;
-        errors.curved += degrees(glm::dvec3(surface->curvedNormal(hit, towards)), truth) / rays;
+        errors.interpolated += degrees(glm::dvec3(surface->normalOf(hit, HighNormals::smooth, towards)), truth) / rays;
+        errors.curved += degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, towards)), truth) / rays;
     }
     return errors;
 }
@@ -147,7 +147,7 @@ TEST(Curved, flatFacesStayFlat)
         const Hit hit = surface->trace({{float(random.range(0.1, 0.9)), float(random.range(0.1, 0.9)), 1}, {0, 0, -1}, 0, 10});
         ASSERT_TRUE(hit.found);
         // Positions of a face lie in its plane but for their rounding, 6e-8, over edges of a sixth: 2e-5 degrees.
-        EXPECT_LT(degrees(glm::dvec3(surface->curvedNormal(hit, {0, 0, -1})), glm::dvec3(hit.faceNormal)), 1e-3);
+        EXPECT_LT(degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, {0, 0, -1})), glm::dvec3(hit.faceNormal)), 1e-3);
     }
 }
 
@@ -157,11 +157,12 @@ TEST(Curved, rayAlongTheTriangleAndUnpreparedSurfaceGiveTheInterpolatedNormal)
     ASSERT_TRUE(surface);
     const Hit hit = surface->trace({{0.4f, 0.6f, 1}, {0, 0, -1}, 0, 10});
     ASSERT_TRUE(hit.found);
-    EXPECT_EQ(surface->curvedNormal(hit, {0, 0, -1}), hit.normal);
+    const glm::vec3 interpolated = surface->normalOf(hit, HighNormals::smooth, {0, 0, -1});
+    EXPECT_EQ(surface->normalOf(hit, HighNormals::curved, {0, 0, -1}), interpolated);
     surface->curve(1);
-    EXPECT_NE(surface->curvedNormal(hit, {0, 0, -1}), hit.normal);
+    EXPECT_NE(surface->normalOf(hit, HighNormals::curved, {0, 0, -1}), interpolated);
     const glm::vec3 along = glm::normalize(glm::cross(hit.faceNormal, glm::vec3(0, 1, 0)));
-    EXPECT_EQ(surface->curvedNormal(hit, along), hit.normal);
+    EXPECT_EQ(surface->normalOf(hit, HighNormals::curved, along), interpolated);
 }
 
 } // namespace

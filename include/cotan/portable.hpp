@@ -1,15 +1,34 @@
 // The portable text of shaders/cotan/ as C++: once over float in cotan::f32, once over double in
 // cotan::f64. The same names as in a shader: cotan::f32::cotan_frame_cotangent and so on.
-// For other scalar types (half, an operation counter) include the text the same way.
+// For other scalar types (half, an operation counter) include the text the same way, with a
+// cotan_inverse_power_of_two of theirs.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #define COTAN_LANG_CPP
+
+namespace cotan {
+
+// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: positive, from 2^-125 to below 2^127 (double: 2^-1021,
+// 2^1023).
+inline float cotan_inverse_power_of_two(float m)
+{
+    return std::bit_cast<float>(0x7f000000u - (std::bit_cast<std::uint32_t>(m) & 0x7f800000u));
+}
+inline double cotan_inverse_power_of_two(double m)
+{
+    constexpr std::uint64_t kExponent = 0x7ff0000000000000u, kTwiceOne = 0x7fe0000000000000u;
+    return std::bit_cast<double>(kTwiceOne - (std::bit_cast<std::uint64_t>(m) & kExponent));
+}
+
+} // namespace cotan
 
 namespace cotan::f32 {
 #define COTAN_CPP_REAL float

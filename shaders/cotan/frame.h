@@ -407,8 +407,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_
     cotan_frame f;
     f.n = cotan_safe_normal(n, zero, zero);
     bool finite = cotan_sum_abs(t) + cotan_sum_abs(b) <= COTAN_HUGE;
-    t = finite ? t : zero;
-    b = finite ? b : zero;
+    t = finite ? t : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    b = finite ? b : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(t), cotan_max_abs(b)));
     t = t * rescale;
     b = b * rescale;

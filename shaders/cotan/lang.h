@@ -9,7 +9,8 @@
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later
 //   COTAN_LANG_CPP    C++20 over GLM; COTAN_CPP_REAL names the scalar type. Included through
-//                     <cotan/portable.hpp>, once per scalar type, inside a namespace.
+//                     <cotan/portable.hpp>, once per scalar type, inside a namespace. It asks for
+//                     cotan_inverse_power_of_two of that type, as portable.hpp has it.
 //
 // What the text may use: scalars and vectors of two to four components, structs, functions,
 // selects. What it may not: matrices (row and column order differ between the languages),
@@ -59,8 +60,6 @@ using glm::mix;
 using std::abs;
 using std::copysign;
 using std::exp2;
-using std::ilogb;
-using std::ldexp;
 using std::pow;
 using std::sqrt;
 inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
@@ -83,7 +82,7 @@ inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
 {
     m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
-    return ldexp(cotan_real(1), -ilogb(m));
+    return cotan_inverse_power_of_two(m);
 }
 #else
 COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)

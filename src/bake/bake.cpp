@@ -16,25 +16,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cotan/bake/low_points.hpp"
 #include "cotan/bake/uv_raster.hpp"
 
 namespace cotan {
 
 namespace {
-
-constexpr std::size_t kPacket = HighSurface::kPacket;
-
-// A sample of the map that is on its way: where it belongs, and its place on the low surface.
-struct Wanted {
-    std::size_t texel = 0;    // of the row
-    UvPlace place;
-    std::uint32_t pattern = 0; // for directions that differ from texel to texel
-};
-
-struct Packet {
-    std::array<Wanted, kPacket> wanted;
-    std::size_t count = 0;
-};
 
 class Baker {
 public:
@@ -49,56 +36,66 @@ public:
     float distance() const { return distance_; }
     std::size_t raysEach() const { return options_.cage.empty() ? 2 : 1; }
 
-    // The line on which the high surface is looked for from a place of the low one.
-    Probe probe(glm::vec3 position, glm::vec3 normal, const UvPlace& place) const
+    // The lines on which the high surface is looked for from places of the low one.
+    void aim(const LowPoints& points, std::span<const UvPlace> places, Probes& probes) const
     {
-        Probe p{position, normal, distance_, -1};
+        probes.count = places.size();
+        probes.point = points.position;
+        probes.direction = points.normal;
+        probes.reach.fill(distance_);
+        probes.only.fill(Probes::kAny);
         if (!options_.matched.empty())
-            p.only = options_.matched[low_.triangleInstance[place.triangle]];
-        if (!options_.cage.empty()) {
-            const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-            const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
-                + options_.cage[v[2]] * place.b2;
-            p.reach = glm::length(cage - position);
-            p.direction = p.reach > 0 ? (cage - position) / p.reach : glm::vec3(0);
-        }
-        return p;
+            for (std::size_t i = 0; i < places.size(); ++i) // -1 becomes kAny
+                probes.only[i] = std::uint32_t(options_.matched[low_.triangleInstance[places[i].triangle]]);
+        if (!options_.cage.empty())
+            for (std::size_t i = 0; i < places.size(); ++i)
+                aimFromCage(places[i], i, probes);
     }
 
     // The points of the high surface that belong to places of the low one.
-    void find(std::span<const Probe> probes, std::span<Hit> hits) const
+    void find(const Probes& probes, Hits& hits) const
     {
         if (options_.cage.empty())
-            high_.nearest(probes, lift_, hits);
+            high_.nearest(probes, lift_, options_.highNormals, hits);
         else
-            high_.outermost(probes, hits);
+            high_.outermost(probes, options_.highNormals, hits);
     }
 
-    // The normal of the high surface where a probe's ray in this direction found it.
-    glm::vec3 normalOf(const Hit& hit, glm::vec3 direction) const
+    // What the map says of each hit. Returns how many rays that took.
+    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits, std::span<const glm::ivec2> samples,
+                         Lanes3& values) const
     {
-        switch (options_.highNormals) {
-        case HighNormals::smooth: break;
-        case HighNormals::curved: return high_.curvedNormal(hit, direction);
-        case HighNormals::face: return hit.faceNormal;
-        }
-        return hit.normal;
-    }
-
-    // What the map says of a probe's hit.
-    glm::vec3 value(const CotangentFrame<float>& frame, const Probe& probe, const Hit& hit, std::uint32_t pattern) const
-    {
-        const glm::vec3 normal = normalOf(hit, probe.direction);
         switch (options_.kind) {
-        case BakeKind::normal: return encode(frame, Covector3f(normal));
-        case BakeKind::objectNormal: return normal;
-        case BakeKind::height: return {hit.distance, 0, 1};
+        case BakeKind::normal: encode(points, hits.normal, values); return 0;
+        case BakeKind::objectNormal: values = hits.normal; return 0;
+        case BakeKind::height:
+            for (std::size_t i = 0; i < kLanes; ++i)
+                values.set(i, {hits.distance[i], 0, 1});
+            return 0;
         case BakeKind::occlusion: break;
         }
-        return {openness(probe.point + probe.direction * hit.distance, normal, pattern), 0, 1};
+        std::size_t rays = 0;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (hits.found(i)) {
+                const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
+                const std::uint32_t pattern = std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
+                values.set(i, {openness(where, hits.normal.at(i), pattern), 0, 1});
+                rays += std::size_t(options_.occlusionRays);
+            }
+        return rays;
     }
 
 private:
+    void aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) const
+    {
+        const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
+        const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
+            + options_.cage[v[2]] * place.b2;
+        const glm::vec3 way = cage - probes.point.at(i);
+        probes.reach[i] = glm::length(way);
+        probes.direction.set(i, probes.reach[i] > 0 ? way / probes.reach[i] : glm::vec3(0));
+    }
+
     // Cosine-weighted directions of a golden-ratio spiral, turned by the texel's own angle.
     float openness(glm::vec3 where, glm::vec3 n, std::uint32_t pattern) const
     {
@@ -122,83 +119,71 @@ private:
     float lift_ = 0;
 };
 
-// Rows of texels from the rows of their samples. One for each thread: keeps what neighbours share.
-class RowBaker {
+// Bakes the texels of blocks of rows. One for each thread: keeps its memory.
+class BlockBaker {
 public:
-    RowBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options, Baked& out)
-        : low_(low), baker_(baker), raster_(raster), options_(options), out_(out), sums_(std::size_t(out.width)),
-          found_(std::size_t(out.width))
+    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options, Baked& out)
+        : low_(low), baker_(baker), raster_(raster), options_(options), out_(out)
     {
     }
 
-    // Returns how many rays were traced.
-    std::size_t bake(int y)
+    // Bakes rows from `first` to before `last`, whose samples are a block of the raster. Returns how many rays were traced.
+    std::size_t bake(int block, int first, int last)
     {
-        const std::size_t samples = std::size_t(options_.samples);
-        base_ = std::size_t(y) * std::size_t(out_.width);
-        std::fill(sums_.begin(), sums_.end(), glm::vec3(0));
-        std::fill(found_.begin(), found_.end(), 0);
+        raster_.firsts(block, samples_);
+        base_ = std::size_t(first) * std::size_t(out_.width);
+        found_.assign(std::size_t(last - first) * std::size_t(out_.width), 0);
         rays_ = 0;
-        for (std::size_t sub = 0; sub < samples; ++sub) {
-            const std::size_t line = std::size_t(y) * samples + sub;
-            raster_.row(int(line), UvReach::gaps, row_);
-            for (std::size_t x = 0; x + 1 < row_.first.size(); ++x)
-                if (row_.first[x] < row_.first[x + 1])
-                    add(x, x / samples, std::uint32_t(x) * 7919u + std::uint32_t(line) * 104729u);
+        for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
+            const std::size_t count = std::min(kLanes, samples_.places.size() - i);
+            bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
         }
-        flush();
-        for (std::size_t x = 0; x < sums_.size(); ++x)
-            if (found_[x] > 0)
-                out_.values[base_ + x] = sums_[x] / float(found_[x]);
+        for (const glm::ivec2& sample : samples_.again)
+            mark(texelOf(sample), texelTwice);
+        for (std::size_t i = 0; i < found_.size(); ++i)
+            if (found_[i] > 0)
+                finish(out_.values[base_ + i], found_[i]);
         return rays_;
     }
 
 private:
-    void add(std::size_t x, std::size_t texel, std::uint32_t pattern)
+    std::size_t texelOf(glm::ivec2 sample) const
     {
-        const UvPlace& chosen = row_.places[row_.first[x]]; // the first that covers, else the first that touches
-        const bool twice = chosen.covers && row_.first[x + 1] - row_.first[x] > 1;
-        std::uint8_t& state = out_.states[base_ + texel];
-        state = std::uint8_t(state | (chosen.covers ? texelCovered : texelTouched) | (twice ? texelTwice : 0));
-        packet_.wanted[packet_.count++] = {texel, chosen, pattern};
-        if (packet_.count == kPacket)
-            flush();
+        const glm::ivec2 texel = options_.samples > 1 ? sample / options_.samples : sample;
+        return std::size_t(texel.y) * std::size_t(out_.width) + std::size_t(texel.x);
+    }
+    void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
+
+    void bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
+    {
+        pointsOf(low_, options_.frame, places, points_);
+        baker_.aim(points_, places, probes_);
+        baker_.find(probes_, hits_);
+        rays_ += samples.size() * baker_.raysEach() + baker_.valuesOf(points_, probes_, hits_, samples, values_);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const std::size_t texel = texelOf(samples[i]);
+            int flags = places[i].covers ? texelCovered : texelTouched;
+            if (hits_.found(i)) {
+                const glm::vec3 value = values_.at(i);
+                out_.values[texel] += value;
+                ++found_[texel - base_];
+                if (options_.kind == BakeKind::normal && value.z < 0)
+                    flags |= texelNegative;
+            } else {
+                flags |= texelMissed;
+            }
+            mark(texel, flags);
+        }
     }
 
-    void flush()
+    // From the sum over samples to the texel.
+    void finish(glm::vec3& value, int count) const
     {
-        std::array<LowPointOf<float>, kPacket> points;
-        std::array<Probe, kPacket> probes;
-        std::array<Hit, kPacket> hits;
-        const std::size_t count = packet_.count;
-        for (std::size_t i = 0; i < count; ++i) {
-            const UvPlace& place = packet_.wanted[i].place;
-            if (place.triangle != triangle_) {
-                triangle_ = place.triangle;
-                const Differences<double> d = differencesOf(low_, options_.frame, triangle_);
-                differences_ = {Vector3f(d.dpdx.raw()), Vector3f(d.dpdy.raw()), d.duvdx, d.duvdy};
-            }
-            points[i] = pointOf<float>(low_, options_.frame, triangle_, place.b1, place.b2, differences_);
-            probes[i] = baker_.probe(points[i].position, points[i].normal, place);
-        }
-        baker_.find({probes.data(), count}, {hits.data(), count});
-        for (std::size_t i = 0; i < count; ++i) {
-            const Wanted& w = packet_.wanted[i];
-            std::uint8_t& state = out_.states[base_ + w.texel];
-            if (!hits[i].found) {
-                state = std::uint8_t(state | texelMissed);
-                continue;
-            }
-            const glm::vec3 value = baker_.value(points[i].frame, probes[i], hits[i], w.pattern);
-            sums_[w.texel] += value;
-            ++found_[w.texel];
-            if (options_.kind == BakeKind::normal && value.z < 0)
-                state = std::uint8_t(state | texelNegative);
-            if (options_.kind == BakeKind::occlusion)
-                rays_ += std::size_t(options_.occlusionRays);
-        }
-        rays_ += count * baker_.raysEach();
-        packet_.count = 0;
+        value /= float(count);
+        if (options_.kind != BakeKind::normal && options_.kind != BakeKind::objectNormal)
+            return;
+        const float length = glm::length(value);
+        value = length > 1e-6f ? value / length : glm::vec3(0);
     }
 
     const LowSurface& low_;
@@ -206,13 +191,13 @@ private:
     const UvRaster& raster_;
     const BakeOptions& options_;
     Baked& out_;
+    UvFirsts samples_;
     std::size_t base_ = 0, rays_ = 0;
-    std::vector<glm::vec3> sums_;
-    std::vector<int> found_;
-    UvRow row_;
-    Packet packet_;
-    std::uint32_t triangle_ = ~0u;
-    Differences<float> differences_;
+    std::vector<std::uint8_t> found_; // how many samples of each texel found something
+    LowPoints points_;
+    Probes probes_;
+    Hits hits_;
+    Lanes3 values_;
 };
 
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
@@ -259,13 +244,15 @@ Image expectedNormals(const LowSurface& low, const HighSurface& high, const Bake
             if (!seen.found || glm::dot(seen.faceNormal, d) >= 0)
                 continue;
             const UvPlace place{seen.triangle, seen.b1, seen.b2, true};
-            const LowPoint point = pointOf(low, options.frame, place.triangle, place.b1, place.b2);
-            const Probe probe = baker.probe(glm::vec3(point.position), glm::vec3(point.normal), place);
-            Hit hit;
-            baker.find({&probe, 1}, {&hit, 1});
-            if (!hit.found)
+            LowPoints point;
+            Probes probe;
+            Hits hit;
+            pointsOf(low, options.frame, {&place, 1}, point);
+            baker.aim(point, {&place, 1}, probe);
+            baker.find(probe, hit);
+            if (!hit.found(0))
                 continue;
-            const glm::vec3 n = baker.normalOf(hit, probe.direction);
+            const glm::vec3 n = hit.normal.at(0);
             float* pixel = image.floats() + 4 * (std::size_t(y) * std::size_t(view.width) + std::size_t(x));
             pixel[0] = n.x;
             pixel[1] = n.y;
@@ -294,20 +281,17 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     std::atomic<std::size_t> rays = 0;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<int>(0, options.height, 8), [&](const tbb::blocked_range<int>& range) {
-            RowBaker rows(low, baker, raster, options, out);
-            for (int y = range.begin(); y != range.end(); ++y) {
-                rays += rows.bake(y);
-                if (progress)
+        const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
+        tbb::parallel_for(tbb::blocked_range<int>(0, raster.blocks()), [&](const tbb::blocked_range<int>& range) {
+            BlockBaker baking(low, baker, raster, options, out);
+            for (int block = range.begin(); block != range.end(); ++block) {
+                const int first = block * rows, last = std::min(first + rows, options.height);
+                rays += baking.bake(block, first, last);
+                for (int y = first; progress && y < last; ++y)
                     progress();
             }
         });
     });
-    if (options.kind == BakeKind::normal || options.kind == BakeKind::objectNormal)
-        for (glm::vec3& v : out.values) {
-            const float length = glm::length(v);
-            v = length > 1e-6f ? v / length : glm::vec3(0);
-        }
     BakeStatistics& s = out.statistics;
     s.texels = out.states.size();
     for (std::uint8_t state : out.states) {

@@ -61,13 +61,11 @@ RTCRayHit toEmbree(const Ray& ray)
 }
 
 // Rays carry the instance that they look for as their id.
-constexpr std::uint32_t kAny = ~0u;
-
 void keepOnly(const RTCFilterFunctionNArguments* a)
 {
     for (unsigned i = 0; i < a->N; ++i) {
         const std::uint32_t only = RTCRayN_id(a->ray, a->N, i);
-        if (a->valid[i] && only != kAny && RTCHitN_geomID(a->hit, a->N, i) != only)
+        if (a->valid[i] && only != Probes::kAny && RTCHitN_geomID(a->hit, a->N, i) != only)
             a->valid[i] = 0;
     }
 }
@@ -82,42 +80,61 @@ RTCIntersectContext contextFor(bool filtered)
     return context;
 }
 
+RTCIntersectContext contextFor(const Probes& probes)
+{
+    return contextFor(std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
+                                  [](std::uint32_t only) { return only != Probes::kAny; }));
+}
+
+static_assert(Hits::kNothing == RTC_INVALID_GEOMETRY_ID && kLanes == 16);
+
 struct Packet {
-    alignas(64) int valid[HighSurface::kPacket];
+    Lanes<int> valid;
     RTCRayHit16 rays;
 
-    // The ray from `offset` before the probe's point along direction * way.
-    void set(std::size_t i, const Probe& probe, float offset, float way, float farthest)
+    // The rays from `offset` before each probe's point along direction * way.
+    Packet(const Probes& probes, const Lanes<float>& offset, float way, const Lanes<float>& farthest)
     {
-        const glm::vec3 direction = probe.direction * way, origin = probe.point - direction * offset;
         RTCRay16& r = rays.ray;
-        r.org_x[i] = origin.x;
-        r.org_y[i] = origin.y;
-        r.org_z[i] = origin.z;
-        r.dir_x[i] = direction.x;
-        r.dir_y[i] = direction.y;
-        r.dir_z[i] = direction.z;
-        r.tnear[i] = 0;
-        r.tfar[i] = farthest;
-        r.time[i] = 0;
-        r.mask[i] = ~0u;
-        r.id[i] = probe.only < 0 ? kAny : std::uint32_t(probe.only);
-        r.flags[i] = 0;
-        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        valid[i] = glm::dot(direction, direction) > 0 && farthest > 0 ? -1 : 0;
+        const int count = int(probes.count);
+        for (int lane = 0; lane < int(kLanes); ++lane) {
+            const auto i = std::size_t(lane);
+            const glm::vec3 direction = probes.direction.at(i) * way, origin = probes.point.at(i) - direction * offset[i];
+            r.org_x[i] = origin.x;
+            r.org_y[i] = origin.y;
+            r.org_z[i] = origin.z;
+            r.dir_x[i] = direction.x;
+            r.dir_y[i] = direction.y;
+            r.dir_z[i] = direction.z;
+            r.tnear[i] = 0;
+            r.tfar[i] = farthest[i];
+            r.time[i] = 0;
+            r.mask[i] = ~0u;
+            r.id[i] = probes.only[i];
+            r.flags[i] = 0;
+            rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+            const bool looks = (glm::dot(direction, direction) > 0) & (farthest[i] > 0) & (lane < count);
+            valid[i] = looks ? -1 : 0;
+        }
     }
-    void fill(std::size_t from)
-    {
-        for (std::size_t i = from; i < HighSurface::kPacket; ++i)
-            set(i, {}, 0, 1, 0);
-    }
-    bool found(std::size_t i) const { return valid[i] && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+    void trace(RTCScene scene, RTCIntersectContext& context) { rtcIntersect16(valid.data(), scene, &context, &rays); }
+    bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 };
 
-bool anyOnly(std::span<const Probe> probes)
+// Of each lane the hit of `second` where `chosen` is not zero, otherwise that of `first`.
+void choose(const RTCHit16& first, const RTCHit16& second, const Lanes<int>& chosen, Hits& hits)
 {
-    return std::any_of(probes.begin(), probes.end(), [](const Probe& p) { return p.only >= 0; });
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const bool other = chosen[i] != 0;
+        hits.instance[i] = other ? second.geomID[i] : first.geomID[i];
+        hits.triangle[i] = other ? second.primID[i] : first.primID[i];
+        hits.b1[i] = other ? second.u[i] : first.u[i];
+        hits.b2[i] = other ? second.v[i] : first.v[i];
+        hits.face.x[i] = other ? second.Ng_x[i] : first.Ng_x[i];
+        hits.face.y[i] = other ? second.Ng_y[i] : first.Ng_y[i];
+        hits.face.z[i] = other ? second.Ng_z[i] : first.Ng_z[i];
+    }
 }
 
 } // namespace
@@ -138,27 +155,48 @@ struct HighSurface::State {
             rtcReleaseDevice(device);
     }
 
-    Hit hit(std::uint32_t instance, std::uint32_t triangle, float b1, float b2, glm::vec3 face, float distance) const
+    glm::vec3 smoothNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2) const
     {
         const Part& part = parts[instance];
         const std::uint32_t* v = &part.indices[3 * std::size_t(triangle)];
-        Hit h;
-        h.found = true;
-        h.distance = distance;
-        h.instance = instance;
-        h.triangle = triangle;
-        h.b1 = b1;
-        h.b2 = b2;
-        h.faceNormal = glm::normalize(face);
-        const glm::vec3 n = part.normals[v[0]] * (1 - b1 - b2) + part.normals[v[1]] * b1 + part.normals[v[2]] * b2;
-        const float length = glm::length(n);
-        h.normal = length > 1e-6f ? n / length : h.faceNormal;
-        return h;
+        return part.normals[v[0]] * (1 - b1 - b2) + part.normals[v[1]] * b1 + part.normals[v[2]] * b2;
     }
-    Hit hit(const RTCRayHit16& r, std::size_t i, float distance) const
+    // Zero where there is none.
+    glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2, glm::vec3 direction) const
     {
-        return hit(r.hit.geomID[i], r.hit.primID[i], r.hit.u[i], r.hit.v[i],
-                   {r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]}, distance);
+        const Part& part = parts[instance];
+        if (part.shapes.empty())
+            return glm::vec3(0);
+        CurvedTriangle corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t v = part.indices[3 * std::size_t(triangle) + i];
+            corners.positions[i] = part.positions[v];
+            corners.normals[i] = part.normals[v];
+            corners.shapes[i] = part.shapes[v];
+        }
+        return cotan::curvedNormal(corners, b1, b2, direction);
+    }
+    // The normals of hits that are complete otherwise.
+    void findNormals(const Probes& probes, HighNormals normals, Hits& hits) const
+    {
+        const bool faces = normals == HighNormals::face;
+        if (!faces)
+            for (std::size_t i = 0; i < probes.count; ++i)
+                if (hits.found(i))
+                    hits.normal.set(i, smoothNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i]));
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const glm::vec3 n = hits.normal.at(i);
+            const float length = glm::length(n);
+            hits.normal.set(i, !faces && length > 1e-6f ? n / length : glm::normalize(hits.face.at(i)));
+        }
+        if (normals == HighNormals::curved)
+            for (std::size_t i = 0; i < probes.count; ++i)
+                if (hits.found(i)) {
+                    const glm::vec3 n = curvedNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i],
+                                                     probes.direction.at(i));
+                    if (glm::dot(n, n) > 0)
+                        hits.normal.set(i, n);
+                }
     }
 
     void attach(Part& part)
@@ -219,20 +257,19 @@ void HighSurface::curve(int threads)
         part.shapes = shapeOperators({part.positions.data(), part.normals.size()}, part.normals, part.indices, threads);
 }
 
-glm::vec3 HighSurface::curvedNormal(const Hit& hit, glm::vec3 direction) const
+glm::vec3 HighSurface::normalOf(const Hit& hit, HighNormals normals, glm::vec3 direction) const
 {
-    const Part& part = state_->parts[hit.instance];
-    if (part.shapes.empty())
-        return hit.normal;
-    CurvedTriangle triangle;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t v = part.indices[3 * std::size_t(hit.triangle) + i];
-        triangle.positions[i] = part.positions[v];
-        triangle.normals[i] = part.normals[v];
-        triangle.shapes[i] = part.shapes[v];
-    }
-    const glm::vec3 n = cotan::curvedNormal(triangle, hit.b1, hit.b2, direction);
-    return glm::dot(n, n) > 0 ? n : hit.normal;
+    Probes probe;
+    probe.count = 1;
+    probe.direction.set(0, direction);
+    Hits hits;
+    hits.instance[0] = hit.instance;
+    hits.triangle[0] = hit.triangle;
+    hits.b1[0] = hit.b1;
+    hits.b2[0] = hit.b2;
+    hits.face.set(0, hit.faceNormal);
+    state_->findNormals(probe, normals, hits);
+    return hits.normal.at(0);
 }
 
 Hit HighSurface::trace(const Ray& ray) const
@@ -242,43 +279,49 @@ Hit HighSurface::trace(const Ray& ray) const
     rtcIntersect1(state_->scene, &context, &r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
-    return state_->hit(r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}, r.ray.tfar);
+    return {true, r.ray.tfar, glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z)), r.hit.geomID, r.hit.primID,
+            r.hit.u, r.hit.v};
 }
 
-void HighSurface::nearest(std::span<const Probe> probes, float lift, std::span<Hit> hits) const
+void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    RTCIntersectContext context = contextFor(anyOnly(probes));
-    Packet outwards, inwards;
-    for (std::size_t i = 0; i < probes.size(); ++i)
-        outwards.set(i, probes[i], lift, 1, probes[i].reach > 0 ? probes[i].reach + lift : 0);
-    outwards.fill(probes.size());
-    rtcIntersect16(outwards.valid, state_->scene, &context, &outwards.rays);
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-        // Nothing further away than what is found already.
-        const float left = outwards.found(i) ? std::abs(outwards.rays.ray.tfar[i] - lift) : probes[i].reach;
-        inwards.set(i, probes[i], lift, -1, probes[i].reach > 0 ? left + lift : 0);
+    RTCIntersectContext context = contextFor(probes);
+    Lanes<float> lifts, farthest;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        lifts[i] = lift;
+        farthest[i] = probes.reach[i] > 0 ? probes.reach[i] + lift : 0;
     }
-    inwards.fill(probes.size());
-    rtcIntersect16(inwards.valid, state_->scene, &context, &inwards.rays);
-    for (std::size_t i = 0; i < probes.size(); ++i) {
+    Packet outwards(probes, lifts, 1, farthest);
+    outwards.trace(state_->scene, context);
+    for (std::size_t i = 0; i < kLanes; ++i) { // nothing further away than what is found already
+        const float found = std::abs(outwards.rays.ray.tfar[i] - lift) + lift;
+        farthest[i] = outwards.found(i) ? found : farthest[i];
+    }
+    Packet inwards(probes, lifts, -1, farthest);
+    inwards.trace(state_->scene, context);
+    Lanes<int> behind;
+    for (std::size_t i = 0; i < kLanes; ++i) {
         const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
-        if (inwards.found(i) && (!outwards.found(i) || std::abs(in) < std::abs(out)))
-            hits[i] = state_->hit(inwards.rays, i, -in);
-        else
-            hits[i] = outwards.found(i) ? state_->hit(outwards.rays, i, out) : Hit{};
+        const bool nearer = inwards.found(i) & (!outwards.found(i) | (std::abs(in) < std::abs(out)));
+        behind[i] = nearer ? 1 : 0;
+        hits.distance[i] = nearer ? -in : out;
     }
+    choose(outwards.rays.hit, inwards.rays.hit, behind, hits);
+    state_->findNormals(probes, normals, hits);
 }
 
-void HighSurface::outermost(std::span<const Probe> probes, std::span<Hit> hits) const
+void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    RTCIntersectContext context = contextFor(anyOnly(probes));
-    Packet packet;
-    for (std::size_t i = 0; i < probes.size(); ++i)
-        packet.set(i, probes[i], probes[i].reach, -1, 2 * probes[i].reach);
-    packet.fill(probes.size());
-    rtcIntersect16(packet.valid, state_->scene, &context, &packet.rays);
-    for (std::size_t i = 0; i < probes.size(); ++i)
-        hits[i] = packet.found(i) ? state_->hit(packet.rays, i, probes[i].reach - packet.rays.ray.tfar[i]) : Hit{};
+    RTCIntersectContext context = contextFor(probes);
+    Lanes<float> farthest;
+    for (std::size_t i = 0; i < kLanes; ++i)
+        farthest[i] = 2 * probes.reach[i];
+    Packet packet(probes, probes.reach, -1, farthest);
+    packet.trace(state_->scene, context);
+    for (std::size_t i = 0; i < kLanes; ++i)
+        hits.distance[i] = probes.reach[i] - packet.rays.ray.tfar[i];
+    choose(packet.rays.hit, packet.rays.hit, {}, hits);
+    state_->findNormals(probes, normals, hits);
 }
 
 bool HighSurface::blocked(const Ray& ray) const

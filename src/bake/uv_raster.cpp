@@ -71,7 +71,7 @@ bool UvRaster::covers(const Shown& t, glm::dvec2 p)
 }
 
 UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
-    : width_(width), height_(height), rowFirst_(std::size_t(height) + 1, 0)
+    : width_(width), height_(height), blockFirst_(std::size_t(blocks()) + 1, 0)
 {
     const glm::dvec2 size(width, height);
     for (std::size_t f = 0; f + 2 < triangles.indices.size(); f += 3) {
@@ -94,31 +94,29 @@ UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ive
         }
         for (int j = from.y; j <= to.y; ++j)
             for (int i = from.x; i <= to.x; ++i) {
-                Shown t{std::uint32_t(f / 3), {}, area < 0};
+                Shown t{std::uint32_t(f / 3), {}, area < 0, 0, 0};
                 for (int k = 0; k < 3; ++k)
                     t.corner[k] = (uv[k] - glm::dvec2(i, j)) * size;
                 if (t.mirrored)
                     std::swap(t.corner[1], t.corner[2]);
-                shown_.push_back(t);
+                const double top = std::min({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+                const double bottom = std::max({t.corner[0].y, t.corner[1].y, t.corner[2].y});
+                t.firstRow = int(std::clamp(std::floor(top - 0.5 - kReach), 0.0, double(height)));
+                t.lastRow = int(std::clamp(std::ceil(bottom - 0.5 + kReach), -1.0, double(height) - 1));
+                if (t.firstRow <= t.lastRow)
+                    shown_.push_back(t);
             }
     }
-    auto rowsOf = [&](const Shown& t) {
-        const double low = std::min({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-        const double high = std::max({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-        const int first = int(std::clamp(std::floor(low - 0.5 - kReach), 0.0, double(height)));
-        const int last = int(std::clamp(std::ceil(high - 0.5 + kReach), -1.0, double(height) - 1));
-        return std::pair(first, last);
-    };
     for (const Shown& t : shown_)
-        for (auto [y, last] = rowsOf(t); y <= last; ++y)
-            ++rowFirst_[std::size_t(y) + 1];
-    for (std::size_t y = 1; y < rowFirst_.size(); ++y)
-        rowFirst_[y] += rowFirst_[y - 1];
-    rowShown_.resize(rowFirst_.back());
-    std::vector<std::size_t> next(rowFirst_.begin(), rowFirst_.end() - 1);
+        for (int block = t.firstRow / kBlockRows; block * kBlockRows <= t.lastRow; ++block)
+            ++blockFirst_[std::size_t(block) + 1];
+    for (std::size_t block = 1; block < blockFirst_.size(); ++block)
+        blockFirst_[block] += blockFirst_[block - 1];
+    blockShown_.resize(blockFirst_.back());
+    std::vector<std::size_t> next(blockFirst_.begin(), blockFirst_.end() - 1);
     for (std::size_t i = 0; i < shown_.size(); ++i)
-        for (auto [y, last] = rowsOf(shown_[i]); y <= last; ++y)
-            rowShown_[next[std::size_t(y)]++] = std::uint32_t(i);
+        for (int block = shown_[i].firstRow / kBlockRows; block * kBlockRows <= shown_[i].lastRow; ++block)
+            blockShown_[next[std::size_t(block)]++] = std::uint32_t(i);
 }
 
 std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, double& low, double& high) const
@@ -141,7 +139,8 @@ std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, doub
             int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1))};
 }
 
-void UvRaster::scanCentres(const Shown& t, int y, Found& found) const
+template<class Emit>
+void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
 {
     const double py = y + 0.5;
     double low, high;
@@ -159,22 +158,23 @@ void UvRaster::scanCentres(const Shown& t, int y, Found& found) const
     for (int x = first; x <= last; ++x) {
         const glm::dvec2 p(x + 0.5, py);
         if ((!corner && x >= inner && x < outer) || covers(t, p))
-            found.push_back({x, weights.at(t, p, true)});
+            emit(x, weights.at(t, p, true));
     }
 }
 
-void UvRaster::scanTouching(const Shown& t, int y, const std::vector<std::uint8_t>* taken, Found& found) const
+template<class Emit>
+void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const
 {
     const double py = y + 0.5;
     double low, high;
     const auto [first, last] = span(t, py, kReach, low, high);
     const Weights weights(t);
     for (int x = first; x <= last; ++x) {
-        if (taken && (*taken)[std::size_t(x)])
+        if (taken && taken[x])
             continue;
         const glm::dvec2 p(x + 0.5, py);
         if (!taken && covers(t, p)) {
-            found.push_back({x, weights.at(t, p, true)});
+            emit(x, weights.at(t, p, true));
             continue;
         }
         glm::dvec2 nearest = p;
@@ -190,7 +190,7 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::vector<std::uint8_
             }
         }
         if (reached)
-            found.push_back({x, weights.at(t, nearest, false)});
+            emit(x, weights.at(t, nearest, false));
     }
 }
 
@@ -199,19 +199,21 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
     thread_local Found found;
     thread_local std::vector<std::uint8_t> taken;
     found.clear();
-    const auto from = rowShown_.begin() + std::ptrdiff_t(rowFirst_[std::size_t(y)]);
-    const auto to = rowShown_.begin() + std::ptrdiff_t(rowFirst_[std::size_t(y) + 1]);
-    for (auto i = from; i != to; ++i)
-        if (reach == UvReach::touching)
-            scanTouching(shown_[*i], y, nullptr, found);
-        else
-            scanCentres(shown_[*i], y, found);
+    const auto emit = [](int x, const UvPlace& place) { found.push_back({x, place}); };
+    const auto eachShown = [&](const auto& scan) {
+        for (std::uint32_t i : shownIn(y / kBlockRows))
+            if (shown_[i].firstRow <= y && y <= shown_[i].lastRow)
+                scan(shown_[i]);
+    };
+    if (reach == UvReach::touching)
+        eachShown([&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
+    else
+        eachShown([&](const Shown& t) { scanCentres(t, y, emit); });
     if (reach == UvReach::gaps) {
         taken.assign(std::size_t(width_), 0);
         for (const auto& [x, place] : found)
             taken[std::size_t(x)] = 1;
-        for (auto i = from; i != to; ++i)
-            scanTouching(shown_[*i], y, &taken, found);
+        eachShown([&](const Shown& t) { scanTouching(t, y, taken.data(), emit); });
     }
     result.first.assign(std::size_t(width_) + 1, 0);
     for (const auto& [x, place] : found)
@@ -223,6 +225,36 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
     next.assign(result.first.begin(), result.first.end() - 1);
     for (const auto& [x, place] : found) // in the order of the triangles
         result.places[next[std::size_t(x)]++] = place;
+}
+
+void UvRaster::firsts(int block, UvFirsts& result) const
+{
+    result.texels.clear();
+    result.places.clear();
+    result.again.clear();
+    const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+    thread_local std::vector<std::uint8_t> taken;
+    taken.assign(std::size_t(bottom - top + 1) * std::size_t(width_), 0);
+    const auto eachRow = [&](const auto& scan) {
+        for (std::uint32_t i : shownIn(block)) {
+            const Shown& t = shown_[i];
+            for (int y = std::max(top, t.firstRow); y <= std::min(bottom, t.lastRow); ++y)
+                scan(t, y, &taken[std::size_t(y - top) * std::size_t(width_)]);
+        }
+    };
+    const auto take = [&](int x, int y, const UvPlace& place, std::uint8_t* row) {
+        if (row[x])
+            return result.again.push_back({x, y});
+        row[x] = 1;
+        result.texels.push_back({x, y});
+        result.places.push_back(place);
+    };
+    eachRow([&](const Shown& t, int y, std::uint8_t* row) {
+        scanCentres(t, y, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+    });
+    eachRow([&](const Shown& t, int y, std::uint8_t* row) {
+        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+    });
 }
 
 UvCoverage coverage(const UvRaster& raster)

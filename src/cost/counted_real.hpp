@@ -95,10 +95,9 @@ struct CountedReal {
     {
         return counted(&Operations::bits, std::copysign(a.value, s.value));
     }
-    friend int ilogb(CountedReal a) { return std::ilogb(a.value); }
-    friend CountedReal ldexp(CountedReal a, int e)
+    friend CountedReal cotan_inverse_power_of_two(CountedReal a)
     {
-        return counted(&Operations::bits, std::ldexp(a.value, e));
+        return counted(&Operations::bits, std::ldexp(1.0, -std::ilogb(a.value)));
     }
     friend CountedReal exp2(CountedReal a) { return CountedReal(std::exp2(a.value)); }
     friend CountedReal pow(CountedReal a, CountedReal b)

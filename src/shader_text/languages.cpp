@@ -66,6 +66,8 @@ using namespace metal;
 )";
 
 constexpr std::string_view kCppPrelude = R"(#include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace cotan_shader {
 
@@ -91,10 +93,26 @@ inline cotan_real min(cotan_real a, cotan_real b) { return b < a ? b : a; }
 using std::abs;
 using std::copysign;
 using std::exp2;
-using std::ilogb;
-using std::ldexp;
 using std::pow;
 using std::sqrt;
+
+// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: in [1e-37, 1e37].
+inline float cotan_inverse_power_of_two(float m)
+{
+    std::uint32_t bits;
+    std::memcpy(&bits, &m, sizeof m);
+    bits = 0x7f000000u - (bits & 0x7f800000u);
+    std::memcpy(&m, &bits, sizeof m);
+    return m;
+}
+inline double cotan_inverse_power_of_two(double m)
+{
+    std::uint64_t bits;
+    std::memcpy(&bits, &m, sizeof m);
+    bits = 0x7fe0000000000000u - (bits & 0x7ff0000000000000u);
+    std::memcpy(&m, &bits, sizeof m);
+    return m;
+}
 
 )";
 

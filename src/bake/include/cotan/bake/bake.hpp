@@ -17,14 +17,6 @@ enum class BakeKind {
     occlusion,    // share of the hemisphere above the high surface that is open, cosine weighted
 };
 
-// Which normals of the high surface count.
-enum class HighNormals {
-    smooth, // interpolated between vertices
-    curved, // of the curved surface through the vertices and their normals (HighSurface::curve): for meshes whose
-            // triangles are larger than texels
-    face,
-};
-
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;

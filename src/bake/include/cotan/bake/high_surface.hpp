@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "cotan/bake/lanes.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
 
@@ -22,18 +22,43 @@ struct Ray {
 struct Hit {
     bool found = false;
     float distance = 0;
-    glm::vec3 normal{0};         // unit, smooth (interpolated), not turned towards the ray
-    glm::vec3 faceNormal{0};     // unit
+    glm::vec3 faceNormal{0};     // unit, not turned towards the ray
     std::uint32_t instance = 0;  // of the scenes, counted on; empty ones left out
     std::uint32_t triangle = 0;  // of that instance
     float b1 = 0, b2 = 0;        // barycentric coordinates of its corners 1 and 2
 };
 
-// A line through a point: what lies nearest to the point on it, either way?
-struct Probe {
-    glm::vec3 point, direction; // direction unit; zero: finds nothing
-    float reach = 0;            // how far either way
-    std::int64_t only = -1;     // only triangles of this instance count; -1: all
+// Up to kLanes lines, each through a point: what lies on the line near the point, either way?
+struct Probes {
+    static constexpr std::uint32_t kAny = ~0u;
+
+    std::size_t count = 0;       // of the lanes that look for something
+    Lanes3 point, direction;     // direction unit; zero: finds nothing
+    Lanes<float> reach{};        // how far either way; zero: finds nothing
+    Lanes<std::uint32_t> only{}; // only triangles of this instance count; kAny: all
+};
+
+// What each of them found.
+struct Hits {
+    static constexpr std::uint32_t kNothing = ~0u;
+
+    Lanes<float> distance{};         // along the direction; negative behind the point
+    Lanes3 normal;                   // unit, not turned towards the ray
+    Lanes3 face;                     // normal of the triangle hit, any length
+    Lanes<std::uint32_t> instance{}; // of the scenes, counted on; kNothing where nothing was found
+    Lanes<std::uint32_t> triangle{}; // of that instance
+    Lanes<float> b1{}, b2{};         // barycentric coordinates of its corners 1 and 2
+
+    bool found(std::size_t i) const { return instance[i] != kNothing; }
+};
+
+// Which normals of the high surface count.
+enum class HighNormals {
+    smooth, // interpolated between vertices; those of the faces where they cancel out
+    curved, // of the curved surface through the vertices and their normals, where the ray meets it: for meshes whose
+            // triangles are larger than texels (src/bake/curved_normals.hpp). After curve(); smooth without, and where
+            // a triangle is not nearly flat
+    face,
 };
 
 // All instances of some scenes in world space, in Embree's acceleration structure.
@@ -47,21 +72,18 @@ public:
     HighSurface& operator=(HighSurface&&) noexcept;
     ~HighSurface();
 
-    // Prepares curvedNormal(): fits how the normal turns around each vertex. 24 bytes a vertex.
-    // `threads`: 0 for all.
+    // Prepares curved normals: fits how the normal turns around each vertex. 24 bytes a vertex. `threads`: 0 for all.
     void curve(int threads);
-    // The normal of the curved surface through the vertices and their normals where the ray of this hit meets it
-    // (src/bake/curved_normals.hpp). Without curve(), and where the triangle is not nearly flat: the interpolated one.
-    glm::vec3 curvedNormal(const Hit& hit, glm::vec3 direction) const;
+    // The normal at a hit, unit, not turned towards the ray. `direction`: of the ray, either way.
+    glm::vec3 normalOf(const Hit& hit, HighNormals normals, glm::vec3 direction) const;
 
     // The nearest hit of a ray.
     Hit trace(const Ray& ray) const;
-    // For up to kPacket probes at once the hit nearest to the point; its distance is negative behind it. The two rays
-    // of each start `lift` on the other side of the point, so that a surface through the point is found.
-    static constexpr std::size_t kPacket = 16;
-    void nearest(std::span<const Probe> probes, float lift, std::span<Hit> hits) const;
+    // For each probe the hit nearest to the point. The two rays of each start `lift` on the other side of the point, so
+    // that a surface through the point is found.
+    void nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const;
     // The same, but only one ray each, from `reach` in front of the point to as far behind it: the hit in front of all.
-    void outermost(std::span<const Probe> probes, std::span<Hit> hits) const;
+    void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
 

@@ -39,8 +39,17 @@ enum class UvReach {
     touching, // all that come within half a texel's diagonal of the centre
 };
 
-// The texels of an image under a layout of uv. Keeps, per row, a list of the triangles that may touch
-// it: some 8 bytes a triangle and row. Triangles without area in uv, or with uv that are not finite
+// The texels of a block of rows that show something, each with one place: that of the first triangle that covers its
+// centre; where there is none, of the first that comes within half a texel's diagonal of it. Neighbours on a triangle
+// mostly follow one another.
+struct UvFirsts {
+    std::vector<glm::ivec2> texels; // beside places
+    std::vector<UvPlace> places;
+    std::vector<glm::ivec2> again;  // texels whose centre another triangle covers too; one that many cover comes again
+};
+
+// The texels of an image under a layout of uv. Keeps, per block of rows, a list of the triangles that
+// may touch it. Triangles without area in uv, or with uv that are not finite
 // or further than 1e6 from zero, touch nothing.
 class UvRaster {
 public:
@@ -55,11 +64,17 @@ public:
     // The places of the row y, 0 at the top. May be called from several threads.
     void row(int y, UvReach reach, UvRow& result) const;
 
+    // The first places of the texels in rows from kBlockRows * block on. May be called from several threads.
+    static constexpr int kBlockRows = 8;
+    int blocks() const { return (height_ + kBlockRows - 1) / kBlockRows; }
+    void firsts(int block, UvFirsts& result) const;
+
 private:
     struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
         std::uint32_t triangle;
         glm::dvec2 corner[3];
         bool mirrored; // corners 1 and 2 are exchanged
+        int firstRow, lastRow; // that it may touch
     };
     struct Weights;
     using Found = std::vector<std::pair<int, UvPlace>>;
@@ -67,13 +82,20 @@ private:
     static bool covers(const Shown& t, glm::dvec2 p);
     // The texels of the line py that a triangle may reach, and where it begins and ends on it.
     std::pair<int, int> span(const Shown& t, double py, double reach, double& low, double& high) const;
-    void scanCentres(const Shown& t, int y, Found& found) const;
-    void scanTouching(const Shown& t, int y, const std::vector<std::uint8_t>* taken, Found& found) const;
+    // Call emit(x, place) for each texel of the row y. `taken`: texels that are not asked about; null: none.
+    template<class Emit> void scanCentres(const Shown& t, int y, const Emit& emit) const;
+    template<class Emit> void scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const;
+    // The triangles of a block, in order, as indices into shown_.
+    std::span<const std::uint32_t> shownIn(int block) const
+    {
+        const std::size_t from = blockFirst_[std::size_t(block)], to = blockFirst_[std::size_t(block) + 1];
+        return {blockShown_.data() + from, to - from};
+    }
 
     int width_, height_;
     std::vector<Shown> shown_;
-    std::vector<std::size_t> rowFirst_;   // height + 1
-    std::vector<std::uint32_t> rowShown_; // indices into shown_, in order
+    std::vector<std::size_t> blockFirst_; // blocks + 1
+    std::vector<std::uint32_t> blockShown_;
 };
 
 // Counts over a whole layout.

@@ -1,0 +1,30 @@
+// Numbers of sixteen texels beside one another, so that the compiler computes several at a time and Embree takes them
+// as one packet. Loops over lanes go over all, also those that hold nothing: theirs are numbers that nobody reads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace cotan {
+
+inline constexpr std::size_t kLanes = 16;
+
+template<class T>
+struct alignas(64) Lanes : std::array<T, kLanes> {};
+
+struct Lanes3 {
+    Lanes<float> x{}, y{}, z{};
+
+    glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    void set(std::size_t i, glm::vec3 v)
+    {
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+};
+
+} // namespace cotan

@@ -1,0 +1,23 @@
+// Many points of the low surface at once, in float: what the baker spends its time on beside the rays.
+#pragma once
+
+#include <span>
+
+#include "cotan/bake/lanes.hpp"
+#include "cotan/bake/low_surface.hpp"
+#include "cotan/bake/uv_raster.hpp"
+
+namespace cotan {
+
+struct LowPoints {
+    Lanes3 position, normal; // world; the normal unit as interpolated, or zero where unknown
+    Lanes3 t, b, n;          // the frame
+};
+
+// The points at up to kLanes places. The same as pointOf in double, to rounding.
+void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points);
+
+// Unit texels of these frames, as encode has them.
+void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels);
+
+} // namespace cotan

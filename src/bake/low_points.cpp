@@ -1,0 +1,143 @@
+#include "cotan/bake/low_points.hpp"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+// What frames are made from, beside the normal.
+struct Ingredients {
+    Lanes<float> b1{}, b2{};
+    Lanes3 raw;                       // normal, not normalised
+    Lanes3 u, v;                      // of `smooth`: cotangents; u of `vertex` and `mikktspace`: tangent
+    Lanes<float> handedness{};
+    Lanes3 dpdx, dpdy;                // of the others: differences
+    Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
+};
+
+struct Run { // of lanes on one triangle
+    std::size_t from, to;
+};
+
+template<class Vec>
+void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
+{
+    const glm::vec3 p(a), q(b), r(c);
+    for (std::size_t i = run.from; i < run.to; ++i) {
+        const float b1 = in.b1[i], b2 = in.b2[i];
+        out.set(i, p * (1 - b1 - b2) + q * b1 + r * b2);
+    }
+}
+
+void gather(const LowSurface& s, Frame frame, std::uint32_t triangle, Run run, Ingredients& in, LowPoints& points)
+{
+    const std::size_t first = 3 * std::size_t(triangle);
+    const std::uint32_t *v = &s.indices[first], a = v[0], b = v[1], c = v[2];
+    blend(s.positions[a], s.positions[b], s.positions[c], in, run, points.position);
+    blend(s.normals[a], s.normals[b], s.normals[c], in, run, in.raw);
+    if (frame == Frame::smooth) {
+        blend(s.cotangentsU[a], s.cotangentsU[b], s.cotangentsU[c], in, run, in.u);
+        blend(s.cotangentsV[a], s.cotangentsV[b], s.cotangentsV[c], in, run, in.v);
+    } else if (!s.tangents.empty()) {
+        blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2], in, run, in.u);
+        for (std::size_t i = run.from; i < run.to; ++i)
+            in.handedness[i] = -s.tangents[first].w; // glTF's w has v up
+    } else {
+        const Differences<double> d = differencesOf(s, frame, triangle);
+        const glm::vec3 dpdx(d.dpdx.raw()), dpdy(d.dpdy.raw());
+        const glm::vec2 duvdx(d.duvdx), duvdy(d.duvdy);
+        for (std::size_t i = run.from; i < run.to; ++i) {
+            in.dpdx.set(i, dpdx);
+            in.dpdy.set(i, dpdy);
+            in.ux[i] = duvdx.x;
+            in.uy[i] = duvdy.x;
+            in.vx[i] = duvdx.y;
+            in.vy[i] = duvdy.y;
+        }
+    }
+}
+
+// Everything that is called becomes part of the loop: only so the compiler takes several lanes at a time.
+template<class Make>
+[[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
+{
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const f32::cotan_frame f = make(i);
+        points.t.set(i, f.t);
+        points.b.set(i, f.b);
+        points.n.set(i, f.n);
+    }
+}
+
+template<class Make>
+[[gnu::flatten]] void makeFromDifferences(const Ingredients& in, LowPoints& points, const Make& make)
+{
+    makeEach(points, [&](std::size_t i) {
+        return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]), glm::vec2(in.uy[i], in.vy[i]));
+    });
+}
+
+#define COTAN_TEXT(name) [](const auto&... arguments) { return f32::cotan_frame_##name(arguments...); }
+
+void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoints& points)
+{
+    if (frame == Frame::smooth)
+        return makeEach(points, [&](std::size_t i) { return f32::cotan_frame_smooth(in.raw.at(i), in.u.at(i), in.v.at(i)); });
+    if (!s.tangents.empty() && frame == Frame::mikktspace)
+        return makeEach(points, [&](std::size_t i) {
+            return f32::cotan_frame_mikktspace(in.raw.at(i), in.u.at(i), in.handedness[i]);
+        });
+    if (!s.tangents.empty())
+        return makeEach(points, [&](std::size_t i) {
+            return f32::cotan_frame_vertex(in.raw.at(i), in.u.at(i), in.handedness[i]);
+        });
+    switch (frame) { // the frames that one would bake; the others one at a time
+    case Frame::cotangent: return makeFromDifferences(in, points, COTAN_TEXT(cotangent));
+    case Frame::orthonormal: return makeFromDifferences(in, points, COTAN_TEXT(orthonormal));
+    case Frame::gradient: return makeFromDifferences(in, points, COTAN_TEXT(gradient));
+    case Frame::exact: return makeFromDifferences(in, points, COTAN_TEXT(exact));
+    default: break;
+    }
+    makeFromDifferences(in, points, [&](const auto&... arguments) { return evaluate(frame, arguments...); });
+}
+
+#undef COTAN_TEXT
+
+[[gnu::flatten]] void normalise(const Lanes3& raw, Lanes3& unit)
+{
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const glm::vec3 n = raw.at(i);
+        const float length = glm::length(n);
+        unit.set(i, length > 0 ? n / length : glm::vec3(0));
+    }
+}
+
+} // namespace
+
+void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points)
+{
+    Ingredients in;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        in.b1[i] = places[i].b1;
+        in.b2[i] = places[i].b2;
+    }
+    for (Run run{0, 0}; run.from < places.size(); run.from = run.to) {
+        const std::uint32_t triangle = places[run.from].triangle;
+        while (run.to < places.size() && places[run.to].triangle == triangle)
+            ++run.to;
+        gather(surface, frame, triangle, run, in, points);
+    }
+    normalise(in.raw, points.normal);
+    makeFrames(surface, frame, in, points);
+}
+
+[[gnu::flatten]] void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)
+{
+    for (std::size_t i = 0; i < kLanes; ++i)
+        texels.set(i, f32::cotan_encode({points.t.at(i), points.b.at(i), points.n.at(i)}, targets.at(i)));
+}
+
+} // namespace cotan
