@@ -10,7 +10,7 @@ export function useCotanFrame(BABYLON, material, cotan) {
       this.doNotSerialize = true;
     }
     // Babylon's frame is reversed in left-handed scenes, and who sets invertNormalMapX and Y (the glTF loader, say) counts
-    // on it. Its own tangentSpaceParams turn round in mirrors too, which this frame does not want.
+    // on it. Its own tangentSpaceParams also turn round in mirrors, which this frame does not want.
     getUniforms() {
       return {
         ubo: [{ name: 'cotanSigns', size: 2, type: 'vec2' }],
