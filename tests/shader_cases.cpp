@@ -170,25 +170,6 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE("blend linear", cotan_blend_linear(m, m2)));
 }
 
-// Every frame in each form; drawn: every frame from screen derivatives.
-std::vector<Case> frameCases(bool drawn)
-{
-    std::vector<Case> all;
-    for (const FrameInfo& f : frames()) {
-        if (drawn && f.source != FrameSource::differences)
-            continue;
-        Choice choice;
-        choice.frame = f.frame;
-        choice.form = Form::total;
-        all.push_back(frameCase(std::string(f.name), choice, drawn));
-        if (!shader_text::hasFusedForm(f.frame))
-            continue;
-        choice.form = Form::fused;
-        all.push_back(frameCase(std::string(f.name) + ", fused", choice, drawn));
-    }
-    return all;
-}
-
 } // namespace
 
 std::vector<Sample> samples()
@@ -222,6 +203,24 @@ std::vector<Sample> samples()
     }
     for (const Sample& lit : litSamples())
         all.push_back(lit);
+    return all;
+}
+
+std::vector<Case> frameCases(bool drawn)
+{
+    std::vector<Case> all;
+    for (const FrameInfo& f : frames()) {
+        if (drawn && f.source != FrameSource::differences)
+            continue;
+        Choice choice;
+        choice.frame = f.frame;
+        choice.form = Form::total;
+        all.push_back(frameCase(std::string(f.name), choice, drawn));
+        if (!shader_text::hasFusedForm(f.frame))
+            continue;
+        choice.form = Form::fused;
+        all.push_back(frameCase(std::string(f.name) + ", fused", choice, drawn));
+    }
     return all;
 }
 
