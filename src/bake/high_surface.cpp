@@ -1,7 +1,9 @@
 #include "cotan/bake/high_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -119,18 +121,24 @@ struct Packet {
     bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 };
 
-// Of each lane the hit of `second` where `chosen` is not zero, otherwise that of `first`.
-void choose(const RTCHit16& first, const RTCHit16& second, const Lanes<int>& chosen, Hits& hits)
+// a where all bits of `mask` are set, b where none is. By bits, which leaves the compiler no branch to make of it.
+template<class T> T pick(std::uint32_t mask, T a, T b)
+{
+    return std::bit_cast<T>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
+
+// Of each lane the hit of `second` where `mask` is set, otherwise that of `first`.
+void choose(const RTCHit16& first, const RTCHit16& second, const Lanes<std::uint32_t>& masks, Hits& hits)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
-        const bool other = chosen[i] != 0;
-        hits.instance[i] = other ? second.geomID[i] : first.geomID[i];
-        hits.triangle[i] = other ? second.primID[i] : first.primID[i];
-        hits.b1[i] = other ? second.u[i] : first.u[i];
-        hits.b2[i] = other ? second.v[i] : first.v[i];
-        hits.face.x[i] = other ? second.Ng_x[i] : first.Ng_x[i];
-        hits.face.y[i] = other ? second.Ng_y[i] : first.Ng_y[i];
-        hits.face.z[i] = other ? second.Ng_z[i] : first.Ng_z[i];
+        const std::uint32_t other = masks[i];
+        hits.instance[i] = pick(other, second.geomID[i], first.geomID[i]);
+        hits.triangle[i] = pick(other, second.primID[i], first.primID[i]);
+        hits.b1[i] = pick(other, second.u[i], first.u[i]);
+        hits.b2[i] = pick(other, second.v[i], first.v[i]);
+        hits.face.x[i] = pick(other, second.Ng_x[i], first.Ng_x[i]);
+        hits.face.y[i] = pick(other, second.Ng_y[i], first.Ng_y[i]);
+        hits.face.z[i] = pick(other, second.Ng_z[i], first.Ng_z[i]);
     }
 }
 
@@ -161,15 +169,16 @@ struct HighSurface::State {
     // The normals of hits that are complete otherwise.
     void findNormals(std::size_t count, HitNormals normals, Hits& hits) const
     {
-        const bool faces = normals == HitNormals::faces;
-        if (!faces)
+        // Longer than this, the interpolated normal counts.
+        const float least = normals == HitNormals::faces ? std::numeric_limits<float>::infinity() : 1e-6f;
+        if (normals == HitNormals::smooth)
             for (std::size_t i = 0; i < count; ++i)
                 if (hits.found(i))
                     hits.normal.set(i, smoothNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i]));
         for (std::size_t i = 0; i < kLanes; ++i) {
-            const glm::vec3 n = hits.normal.at(i);
+            const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
             const float length = glm::length(n);
-            hits.normal.set(i, !faces && length > 1e-6f ? n / length : glm::normalize(hits.face.at(i)));
+            hits.normal.set(i, length > least ? n / length : face);
         }
     }
 
@@ -252,11 +261,11 @@ void HighSurface::nearest(const Probes& probes, float lift, HitNormals normals, 
     }
     Packet inwards(probes, lifts, -1, farthest);
     inwards.trace(state_->scene, context);
-    Lanes<int> behind;
+    Lanes<std::uint32_t> behind;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
         const bool nearer = inwards.found(i) & (!outwards.found(i) | (std::abs(in) < std::abs(out)));
-        behind[i] = nearer ? 1 : 0;
+        behind[i] = nearer ? ~0u : 0u;
         hits.distance[i] = nearer ? -in : out;
     }
     choose(outwards.rays.hit, inwards.rays.hit, behind, hits);

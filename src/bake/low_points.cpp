@@ -106,12 +106,13 @@ void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoin
 
 #undef COTAN_TEXT
 
-[[gnu::flatten]] void normalise(const Lanes3& raw, Lanes3& unit)
+// Zero stays zero.
+[[gnu::flatten, gnu::noinline]] void normalise(const Lanes3& raw, Lanes3& unit)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const glm::vec3 n = raw.at(i);
-        const float length = glm::length(n);
-        unit.set(i, length > 0 ? n / length : glm::vec3(0));
+        const float length = std::sqrt(glm::dot(n, n));
+        unit.set(i, length > 0 ? n / length : n);
     }
 }
 
@@ -136,8 +137,13 @@ void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> p
 
 [[gnu::flatten]] void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)
 {
-    for (std::size_t i = 0; i < kLanes; ++i)
-        texels.set(i, f32::cotan_encode({points.t.at(i), points.b.at(i), points.n.at(i)}, targets.at(i)));
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        f32::cotan_frame f;
+        f.t = points.t.at(i);
+        f.b = points.b.at(i);
+        f.n = points.n.at(i);
+        texels.set(i, f32::cotan_encode(f, targets.at(i)));
+    }
 }
 
 } // namespace cotan
