@@ -121,25 +121,26 @@ struct Packet {
     bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 };
 
-// a where all bits of `mask` are set, b where none is. By bits, which leaves the compiler no branch to make of it.
-template<class T> T pick(std::uint32_t mask, T a, T b)
-{
-    return std::bit_cast<T>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
-}
-
-// Of each lane the hit of `second` where `mask` is set, otherwise that of `first`.
-void choose(const RTCHit16& first, const RTCHit16& second, const Lanes<std::uint32_t>& masks, Hits& hits)
+// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes no
+// branch of it.
+template<class T>
+void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
-        const std::uint32_t other = masks[i];
-        hits.instance[i] = pick(other, second.geomID[i], first.geomID[i]);
-        hits.triangle[i] = pick(other, second.primID[i], first.primID[i]);
-        hits.b1[i] = pick(other, second.u[i], first.u[i]);
-        hits.b2[i] = pick(other, second.v[i], first.v[i]);
-        hits.face.x[i] = pick(other, second.Ng_x[i], first.Ng_x[i]);
-        hits.face.y[i] = pick(other, second.Ng_y[i], first.Ng_y[i]);
-        hits.face.z[i] = pick(other, second.Ng_z[i], first.Ng_z[i]);
+        const auto a = std::bit_cast<std::uint32_t>(first[i]), b = std::bit_cast<std::uint32_t>(second[i]);
+        picked[i] = std::bit_cast<T>((a & ~masks[i]) | (b & masks[i]));
     }
+}
+
+void pick(const Lanes<std::uint32_t>& masks, const RTCHit16& first, const RTCHit16& second, Hits& hits)
+{
+    pick(masks, first.geomID, second.geomID, hits.instance.data());
+    pick(masks, first.primID, second.primID, hits.triangle.data());
+    pick(masks, first.u, second.u, hits.b1.data());
+    pick(masks, first.v, second.v, hits.b2.data());
+    pick(masks, first.Ng_x, second.Ng_x, hits.face.x);
+    pick(masks, first.Ng_y, second.Ng_y, hits.face.y);
+    pick(masks, first.Ng_z, second.Ng_z, hits.face.z);
 }
 
 } // namespace
@@ -160,21 +161,32 @@ struct HighSurface::State {
             rtcReleaseDevice(device);
     }
 
-    glm::vec3 smoothNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2) const
+    // The interpolated normals of hits, of any length. Where the corners are is asked for all before the first is used,
+    // so that the waits for memory overlap.
+    void interpolateNormals(std::size_t count, Hits& hits) const
     {
-        const Part& part = parts[instance];
-        const std::uint32_t* v = &part.indices[3 * std::size_t(triangle)];
-        return part.normals[v[0]] * (1 - b1 - b2) + part.normals[v[1]] * b1 + part.normals[v[2]] * b2;
+        Lanes<const std::uint32_t*> corners;
+        Lanes<const glm::vec3*> normals;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Part& part = parts[hits.found(i) ? hits.instance[i] : 0];
+            corners[i] = &part.indices[hits.found(i) ? 3 * std::size_t(hits.triangle[i]) : 0];
+            normals[i] = part.normals.data();
+            __builtin_prefetch(corners[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const float b1 = hits.b1[i], b2 = hits.b2[i];
+            const std::uint32_t* c = corners[i];
+            const glm::vec3* n = normals[i];
+            hits.normal.set(i, n[c[0]] * (1 - b1 - b2) + n[c[1]] * b1 + n[c[2]] * b2);
+        }
     }
     // The normals of hits that are complete otherwise.
     void findNormals(std::size_t count, HitNormals normals, Hits& hits) const
     {
+        if (normals == HitNormals::smooth)
+            interpolateNormals(count, hits);
         // Longer than this, the interpolated normal counts.
         const float least = normals == HitNormals::faces ? std::numeric_limits<float>::infinity() : 1e-6f;
-        if (normals == HitNormals::smooth)
-            for (std::size_t i = 0; i < count; ++i)
-                if (hits.found(i))
-                    hits.normal.set(i, smoothNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i]));
         for (std::size_t i = 0; i < kLanes; ++i) {
             const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
             const float length = glm::length(n);
@@ -268,7 +280,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HitNormals normals, 
         behind[i] = nearer ? ~0u : 0u;
         hits.distance[i] = nearer ? -in : out;
     }
-    choose(outwards.rays.hit, inwards.rays.hit, behind, hits);
+    pick(behind, outwards.rays.hit, inwards.rays.hit, hits);
     state_->findNormals(probes.count, normals, hits);
 }
 
@@ -282,7 +294,7 @@ void HighSurface::outermost(const Probes& probes, HitNormals normals, Hits& hits
     packet.trace(state_->scene, context);
     for (std::size_t i = 0; i < kLanes; ++i)
         hits.distance[i] = probes.reach[i] - packet.rays.ray.tfar[i];
-    choose(packet.rays.hit, packet.rays.hit, {}, hits);
+    pick({}, packet.rays.hit, packet.rays.hit, hits);
     state_->findNormals(probes.count, normals, hits);
 }
 

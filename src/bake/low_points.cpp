@@ -8,15 +8,7 @@ namespace cotan {
 
 namespace {
 
-// What frames are made from, beside the normal.
-struct Ingredients {
-    Lanes<float> b1{}, b2{};
-    Lanes3 raw;                       // normal, not normalised
-    Lanes3 u, v;                      // of `smooth`: cotangents; u of `vertex` and `mikktspace`: tangent
-    Lanes<float> handedness{};
-    Lanes3 dpdx, dpdy;                // of the others: differences
-    Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
-};
+using Ingredients = LowPoints::Ingredients;
 
 struct Run { // of lanes on one triangle
     std::size_t from, to;
@@ -120,7 +112,7 @@ void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoin
 
 void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points)
 {
-    Ingredients in;
+    Ingredients& in = points.from;
     for (std::size_t i = 0; i < places.size(); ++i) {
         in.b1[i] = places[i].b1;
         in.b2[i] = places[i].b2;
