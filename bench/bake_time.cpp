@@ -1,6 +1,7 @@
 // bake_time HIGH LOW [SIZE] [RUNS]: the baker against a bare Embree loop over the very same rays, one thread each,
 // in turns. Prints medians of processor time.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
@@ -73,13 +74,34 @@ std::vector<RTCRayHit> raysOf(const LowSurface& low, const HighSurface& high, co
     const float diagonal = glm::length(high.high() - high.low()), reach = 0.05f * diagonal, lift = 1e-5f * diagonal;
     std::vector<RTCRayHit> forward, back;
     const UvRaster raster({low.texcoords, low.indices}, size, size);
-    UvRow row;
-    for (int y = 0; y < size; ++y) {
-        raster.row(y, UvReach::gaps, row);
-        for (std::size_t x = 0; x + 1 < row.first.size(); ++x) {
-            if (row.first[x] == row.first[x + 1])
-                continue;
-            const UvPlace& place = row.places[row.first[x]];
+    struct Texel { glm::ivec2 at; UvPlace place; };
+    std::vector<Texel> texels;
+    UvFirsts firsts;
+    for (int block = 0; block < raster.blocks(); ++block) {
+        raster.firsts(block, firsts);
+        for (std::size_t i = 0; i < firsts.places.size(); ++i)
+            texels.push_back({firsts.texels[i], firsts.places[i]});
+    }
+    const int order = std::getenv("ORDER") ? std::atoi(std::getenv("ORDER")) : 0;
+    std::stable_sort(texels.begin(), texels.end(), [&](const Texel& a, const Texel& b) {
+        auto key = [&](const Texel& t) -> std::array<int, 4> {
+            const int x = t.at.x, y = t.at.y, f = int(t.place.triangle);
+            switch (order) {
+            case 1: return {y, x, 0, 0};
+            case 2: return {y / 8, f, y / 4, x / 4};
+            case 3: return {y / 8, f, y / 2, x / 8};
+            case 4: return {y / 4, x / 4, 0, 0};
+            case 5: return {y / 8, f, x, y};
+            case 6: return {y / 8, f, x / 2, y};
+            case 7: return {y / 8, f, x / 4, y};
+            }
+            return {0, 0, 0, 0};
+        };
+        return key(a) < key(b);
+    });
+    for (const Texel& t : texels) {
+        const UvPlace& place = t.place;
+        {
             const LowPoint p = pointOf(low, Frame::exact, place.triangle, place.b1, place.b2);
             for (float way : {1.0f, -1.0f}) {
                 const glm::vec3 d = glm::vec3(p.normal) * way, o = glm::vec3(p.position) - d * lift;

@@ -144,7 +144,7 @@ public:
             mark(texelOf(sample), texelTwice);
         for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
-                out_.values[base_ + i] = finished(sums_[i] / float(found_[i]));
+                out_.values[base_ + i] = found_[i] == 1 ? sums_[i] : finished(sums_[i] / float(found_[i]));
             if (const int state = out_.states[base_ + i])
                 count(state, statistics);
         }

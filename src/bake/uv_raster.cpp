@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,7 +13,13 @@ namespace {
 
 constexpr double kFarthest = 1e6;         // uv beyond have no texel of their own in float
 constexpr double kReach = 0.70710678;     // half the diagonal of a texel
+constexpr int kTile = 4;                  // side of the squares in which first places come
 constexpr int kMostCopies = 64;           // of one triangle that wraps: per axis
+
+struct UvFirst {
+    glm::ivec2 texel;
+    UvPlace place;
+};
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -229,12 +236,16 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
 
 void UvRaster::firsts(int block, UvFirsts& result) const
 {
-    result.texels.clear();
-    result.places.clear();
-    result.again.clear();
     const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+    const int across = (width_ + kTile - 1) / kTile; // tiles
     thread_local std::vector<std::uint8_t> taken;
+    thread_local std::vector<UvFirst> found;
+    thread_local std::vector<std::uint32_t> next; // of each tile, where in the result its next texel goes
     taken.assign(std::size_t(bottom - top + 1) * std::size_t(width_), 0);
+    next.assign(std::size_t(kBlockRows / kTile * across) + 1, 0);
+    found.clear();
+    result.again.clear();
+    const auto tileOf = [&](glm::ivec2 texel) { return std::size_t((texel.y - top) / kTile * across + texel.x / kTile); };
     const auto eachRow = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(block)) {
             const Shown& t = shown_[i];
@@ -242,19 +253,27 @@ void UvRaster::firsts(int block, UvFirsts& result) const
                 scan(t, y, &taken[std::size_t(y - top) * std::size_t(width_)]);
         }
     };
-    const auto take = [&](int x, int y, const UvPlace& place, std::uint8_t* row) {
-        if (row[x])
-            return result.again.push_back({x, y});
-        row[x] = 1;
-        result.texels.push_back({x, y});
-        result.places.push_back(place);
+    const auto take = [&](glm::ivec2 texel, const UvPlace& place, std::uint8_t* row) {
+        if (row[texel.x])
+            return result.again.push_back(texel);
+        row[texel.x] = 1;
+        found.push_back({texel, place});
+        ++next[tileOf(texel) + 1];
     };
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanCentres(t, y, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+        scanCentres(t, y, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
     });
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
     });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    result.texels.resize(found.size());
+    result.places.resize(found.size());
+    for (const UvFirst& f : found) {
+        const std::uint32_t at = next[tileOf(f.texel)]++;
+        result.texels[at] = f.texel;
+        result.places[at] = f.place;
+    }
 }
 
 UvCoverage coverage(const UvRaster& raster)
