@@ -120,6 +120,13 @@ private:
     float lift_ = 0;
 };
 
+using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
+
+struct Counts {
+    std::size_t rays = 0;
+    StateCounts states{};
+};
+
 // Bakes the texels of blocks of rows. One for each thread: keeps its memory.
 class BlockBaker {
 public:
@@ -129,7 +136,7 @@ public:
     }
 
     // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and rays.
-    void bake(int block, int first, int last, BakeStatistics& statistics)
+    void bake(int block, int first, int last, Counts& counts)
     {
         raster_.firsts(block, samples_);
         base_ = std::size_t(first) * std::size_t(out_.width);
@@ -138,15 +145,14 @@ public:
         found_.assign(texels, 0);
         for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
             const std::size_t count = std::min(kLanes, samples_.places.size() - i);
-            statistics.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
+            counts.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
         }
         for (const glm::ivec2& sample : samples_.again)
             mark(texelOf(sample), texelTwice);
         for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
                 out_.values[base_ + i] = found_[i] == 1 ? sums_[i] : finished(sums_[i] / float(found_[i]));
-            if (const int state = out_.states[base_ + i])
-                count(state, statistics);
+            ++counts.states[out_.states[base_ + i]];
         }
     }
 
@@ -191,15 +197,6 @@ private:
         return length > 1e-6f ? mean / length : glm::vec3(0);
     }
 
-    static void count(int state, BakeStatistics& s)
-    {
-        s.covered += (state & texelCovered) != 0;
-        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0;
-        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0;
-        s.negative += (state & texelNegative) != 0;
-        s.twice += (state & texelTwice) != 0;
-    }
-
     const LowSurface& low_;
     const Baker& baker_;
     const UvRaster& raster_;
@@ -215,14 +212,17 @@ private:
     Lanes3 values_;
 };
 
-void add(const BakeStatistics& counted, BakeStatistics& s)
+void countTexels(const StateCounts& states, BakeStatistics& s)
 {
-    s.covered += counted.covered;
-    s.touched += counted.touched;
-    s.missed += counted.missed;
-    s.negative += counted.negative;
-    s.twice += counted.twice;
-    s.rays += counted.rays;
+    for (std::size_t state = 0; state < states.size(); ++state) {
+        const std::size_t texels = states[state];
+        s.texels += texels;
+        s.covered += (state & texelCovered) != 0 ? texels : 0;
+        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0 ? texels : 0;
+        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0 ? texels : 0;
+        s.negative += (state & texelNegative) != 0 ? texels : 0;
+        s.twice += (state & texelTwice) != 0 ? texels : 0;
+    }
 }
 
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
@@ -309,19 +309,19 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
         tbb::parallel_for(tbb::blocked_range<int>(0, raster.blocks()), [&](const tbb::blocked_range<int>& range) {
             BlockBaker baking(low, baker, raster, options, out);
-            BakeStatistics counted;
+            Counts counts;
             for (int block = range.begin(); block != range.end(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
-                baking.bake(block, first, last, counted);
+                baking.bake(block, first, last, counts);
                 for (int y = first; progress && y < last; ++y)
                     progress();
             }
             const std::lock_guard lock(counting);
-            add(counted, out.statistics);
+            out.statistics.rays += counts.rays;
+            countTexels(counts.states, out.statistics);
         });
     });
     BakeStatistics& s = out.statistics;
-    s.texels = out.states.size();
     countTriangles(low, s);
     s.rayDistance = baker.distance();
     s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -74,7 +74,7 @@ private:
         std::uint32_t triangle;
         glm::dvec2 corner[3];
         bool mirrored; // corners 1 and 2 are exchanged
-        int firstRow, lastRow; // that it may touch
+        glm::ivec2 first, last; // columns and rows that it may touch
     };
     struct Weights;
     using Found = std::vector<std::pair<int, UvPlace>>;
