@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cotan/bake/bake.hpp"
+#include "cotan/bake/low_points.hpp"
 #include "cotan/bake/uv_raster.hpp"
 #include "tessellation_scene.hpp"
 
@@ -141,19 +142,32 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
             const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentSource::generated);
             ASSERT_TRUE(low);
             Random random(20);
-            for (int i = 0; i < 2000; ++i) {
-                const TrianglePoint at = randomPoint(random, mesh);
-                const auto triangle = std::uint32_t(at.triangle);
-                const float b1 = float(at.weights[1]), b2 = float(at.weights[2]);
-                const Differences<double> d = differencesOf(*low, frame, triangle);
-                const LowPoint exact = pointOf<double>(*low, frame, triangle, b1, b2, d);
-                const auto single = pointOf<float>(*low, frame, triangle, b1, b2,
-                    {Vector3f(d.dpdx.raw()), Vector3f(d.dpdy.raw()), d.duvdx, d.duvdy});
-                const glm::dvec3 target = glm::normalize(exact.normal + 0.6 * random.direction());
-                const glm::dvec3 m = encode(exact.frame, Covector3d(target));
+            LowPoints points;
+            for (int i = 0; i < 200; ++i) {
+                std::vector<UvPlace> places; // up to a packet's, now and then several on one triangle
+                while (places.size() < std::size_t(1 + i % 16)) {
+                    const TrianglePoint at = randomPoint(random, mesh);
+                    places.push_back({std::uint32_t(at.triangle), float(at.weights[1]), float(at.weights[2]), true});
+                    if (places.size() % 3 == 2)
+                        places.push_back({std::uint32_t(at.triangle), 0.25f, 0.5f, true});
+                }
+                places.resize(std::min(places.size(), kLanes));
+                pointsOf(*low, frame, places, points);
+                std::vector<glm::dvec3> expected;
+                Lanes3 targets, texels;
+                for (std::size_t k = 0; k < places.size(); ++k) {
+                    const LowPoint exact = pointOf(*low, frame, places[k].triangle, places[k].b1, places[k].b2);
+                    EXPECT_LT(glm::length(glm::dvec3(points.position.at(k)) - exact.position), 1e-5); // float near 1
+                    EXPECT_LT(glm::length(glm::dvec3(points.normal.at(k)) - exact.normal), 1e-6);
+                    const glm::dvec3 target = glm::normalize(exact.normal + 0.6 * random.direction());
+                    targets.set(k, glm::vec3(target));
+                    expected.push_back(encode(exact.frame, Covector3d(target)));
+                }
+                encode(points, targets, texels);
                 // A frame as skewed as a sphere's at its poles loses two digits of float's seven; an 8-bit texel
                 // is 0.4 degrees wide, a 16-bit one 0.002.
-                EXPECT_LT(degreesBetween(glm::dvec3(encode(single.frame, Covector3f(target))), m), 1e-3) << name(frame);
+                for (std::size_t k = 0; k < places.size(); ++k)
+                    EXPECT_LT(degreesBetween(glm::dvec3(texels.at(k)), expected[k]), 1e-3) << name(frame);
             }
         }
 }

@@ -112,6 +112,44 @@ TEST(UvRaster, gapsAreWhatTouchingFindsWhereNoCentreIsCovered)
     }
 }
 
+TEST(UvRaster, firstsAreTheFirstOfEachTexel)
+{
+    const Layout l = jitteredGrid(6);
+    Layout twice = l; // and all of it once more
+    twice.indices.insert(twice.indices.end(), l.indices.begin(), l.indices.end());
+    const UvRaster raster(twice.view(), 61, 43); // neither a multiple of a square nor of a block
+    std::map<std::pair<int, int>, UvPlace> firsts;
+    std::set<std::pair<int, int>> again;
+    for (int block = 0; block < raster.blocks(); ++block) {
+        UvFirsts found;
+        raster.firsts(block, found);
+        ASSERT_EQ(found.texels.size(), found.places.size());
+        for (std::size_t i = 0; i < found.texels.size(); ++i) {
+            const glm::ivec2 t = found.texels[i];
+            EXPECT_EQ(t.y / UvRaster::kBlockRows, block);
+            EXPECT_TRUE(firsts.emplace(std::pair(t.x, t.y), found.places[i]).second);
+        }
+        for (glm::ivec2 t : found.again)
+            again.emplace(t.x, t.y);
+    }
+    UvRow row;
+    for (int y = 0; y < 43; ++y) {
+        raster.row(y, UvReach::gaps, row);
+        for (int x = 0; x < 61; ++x) {
+            const std::size_t i = row.first[std::size_t(x)], end = row.first[std::size_t(x) + 1];
+            const auto found = firsts.find({x, y});
+            ASSERT_EQ(found != firsts.end(), i < end);
+            if (i == end)
+                continue;
+            EXPECT_EQ(found->second.triangle, row.places[i].triangle);
+            EXPECT_EQ(found->second.b1, row.places[i].b1);
+            EXPECT_EQ(found->second.b2, row.places[i].b2);
+            EXPECT_EQ(found->second.covers, row.places[i].covers);
+            EXPECT_EQ(again.count({x, y}) > 0, row.places[i].covers);
+        }
+    }
+}
+
 TEST(UvRaster, overlapsAreCounted)
 {
     Layout l = fan({0.5f, 0.5f});

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <span>
 
@@ -119,6 +119,13 @@ private:
     float lift_ = 0;
 };
 
+using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
+
+struct Counts {
+    std::size_t rays = 0;
+    StateCounts states{};
+};
+
 // Bakes the texels of blocks of rows. One for each thread: keeps its memory.
 class BlockBaker {
 public:
@@ -127,26 +134,29 @@ public:
     {
     }
 
-    // Bakes rows from `first` to before `last`, whose samples are a block of the raster. Returns how many rays were traced.
-    std::size_t bake(int block, int first, int last)
+    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and rays.
+    void bake(int block, int first, int last, Counts& counts)
     {
         raster_.firsts(block, samples_);
         base_ = std::size_t(first) * std::size_t(out_.width);
-        found_.assign(std::size_t(last - first) * std::size_t(out_.width), 0);
-        rays_ = 0;
+        const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
+        sums_.assign(texels, glm::vec3(0));
+        found_.assign(texels, 0);
         for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
             const std::size_t count = std::min(kLanes, samples_.places.size() - i);
-            bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
+            counts.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
         }
         for (const glm::ivec2& sample : samples_.again)
             mark(texelOf(sample), texelTwice);
-        for (std::size_t i = 0; i < found_.size(); ++i)
+        for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
-                finish(out_.values[base_ + i], found_[i]);
-        return rays_;
+                out_.values[base_ + i] = found_[i] == 1 ? sums_[i] : finished(sums_[i] / float(found_[i]));
+            ++counts.states[out_.states[base_ + i]];
+        }
     }
 
 private:
+    // Of the texel that a sample belongs to.
     std::size_t texelOf(glm::ivec2 sample) const
     {
         const glm::ivec2 texel = options_.samples > 1 ? sample / options_.samples : sample;
@@ -154,18 +164,19 @@ private:
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
-    void bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
+    // Returns how many rays were traced.
+    std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
     {
         pointsOf(low_, options_.frame, places, points_);
         baker_.aim(points_, places, probes_);
         baker_.find(probes_, hits_);
-        rays_ += samples.size() * baker_.raysEach() + baker_.valuesOf(points_, probes_, hits_, samples, values_);
+        const std::size_t more = baker_.valuesOf(points_, probes_, hits_, samples, values_);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const std::size_t texel = texelOf(samples[i]);
             int flags = places[i].covers ? texelCovered : texelTouched;
             if (hits_.found(i)) {
                 const glm::vec3 value = values_.at(i);
-                out_.values[texel] += value;
+                sums_[texel - base_] += value;
                 ++found_[texel - base_];
                 if (options_.kind == BakeKind::normal && value.z < 0)
                     flags |= texelNegative;
@@ -174,16 +185,15 @@ private:
             }
             mark(texel, flags);
         }
+        return samples.size() * baker_.raysEach() + more;
     }
 
-    // From the sum over samples to the texel.
-    void finish(glm::vec3& value, int count) const
+    glm::vec3 finished(glm::vec3 mean) const
     {
-        value /= float(count);
         if (options_.kind != BakeKind::normal && options_.kind != BakeKind::objectNormal)
-            return;
-        const float length = glm::length(value);
-        value = length > 1e-6f ? value / length : glm::vec3(0);
+            return mean;
+        const float length = glm::length(mean);
+        return length > 1e-6f ? mean / length : glm::vec3(0);
     }
 
     const LowSurface& low_;
@@ -192,13 +202,27 @@ private:
     const BakeOptions& options_;
     Baked& out_;
     UvFirsts samples_;
-    std::size_t base_ = 0, rays_ = 0;
+    std::size_t base_ = 0;          // the block's first texel
+    std::vector<glm::vec3> sums_;   // over samples
     std::vector<std::uint8_t> found_; // how many samples of each texel found something
     LowPoints points_;
     Probes probes_;
     Hits hits_;
     Lanes3 values_;
 };
+
+void countTexels(const StateCounts& states, BakeStatistics& s)
+{
+    for (std::size_t state = 0; state < states.size(); ++state) {
+        const std::size_t texels = states[state];
+        s.texels += texels;
+        s.covered += (state & texelCovered) != 0 ? texels : 0;
+        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0 ? texels : 0;
+        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0 ? texels : 0;
+        s.negative += (state & texelNegative) != 0 ? texels : 0;
+        s.twice += (state & texelTwice) != 0 ? texels : 0;
+    }
+}
 
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
@@ -278,31 +302,26 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     const UvRaster raster({low.texcoords, low.indices}, options.width * options.samples,
                           options.height * options.samples, options.tile);
     const Baker baker(low, high, options);
-    std::atomic<std::size_t> rays = 0;
+    std::mutex counting;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     arena.execute([&] {
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
         tbb::parallel_for(tbb::blocked_range<int>(0, raster.blocks()), [&](const tbb::blocked_range<int>& range) {
             BlockBaker baking(low, baker, raster, options, out);
+            Counts counts;
             for (int block = range.begin(); block != range.end(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
-                rays += baking.bake(block, first, last);
+                baking.bake(block, first, last, counts);
                 for (int y = first; progress && y < last; ++y)
                     progress();
             }
+            const std::lock_guard lock(counting);
+            out.statistics.rays += counts.rays;
+            countTexels(counts.states, out.statistics);
         });
     });
     BakeStatistics& s = out.statistics;
-    s.texels = out.states.size();
-    for (std::uint8_t state : out.states) {
-        s.covered += (state & texelCovered) != 0;
-        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0;
-        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0;
-        s.negative += (state & texelNegative) != 0;
-        s.twice += (state & texelTwice) != 0;
-    }
     countTriangles(low, s);
-    s.rays = rays;
     s.rayDistance = baker.distance();
     s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;

@@ -1,7 +1,9 @@
 #include "cotan/bake/high_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -122,19 +124,26 @@ struct Packet {
     bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 };
 
-// Of each lane the hit of `second` where `chosen` is not zero, otherwise that of `first`.
-void choose(const RTCHit16& first, const RTCHit16& second, const Lanes<int>& chosen, Hits& hits)
+// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes no
+// branch of it.
+template<class T>
+void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
-        const bool other = chosen[i] != 0;
-        hits.instance[i] = other ? second.geomID[i] : first.geomID[i];
-        hits.triangle[i] = other ? second.primID[i] : first.primID[i];
-        hits.b1[i] = other ? second.u[i] : first.u[i];
-        hits.b2[i] = other ? second.v[i] : first.v[i];
-        hits.face.x[i] = other ? second.Ng_x[i] : first.Ng_x[i];
-        hits.face.y[i] = other ? second.Ng_y[i] : first.Ng_y[i];
-        hits.face.z[i] = other ? second.Ng_z[i] : first.Ng_z[i];
+        const auto a = std::bit_cast<std::uint32_t>(first[i]), b = std::bit_cast<std::uint32_t>(second[i]);
+        picked[i] = std::bit_cast<T>((a & ~masks[i]) | (b & masks[i]));
     }
+}
+
+void pick(const Lanes<std::uint32_t>& masks, const RTCHit16& first, const RTCHit16& second, Hits& hits)
+{
+    pick(masks, first.geomID, second.geomID, hits.instance.data());
+    pick(masks, first.primID, second.primID, hits.triangle.data());
+    pick(masks, first.u, second.u, hits.b1.data());
+    pick(masks, first.v, second.v, hits.b2.data());
+    pick(masks, first.Ng_x, second.Ng_x, hits.face.x);
+    pick(masks, first.Ng_y, second.Ng_y, hits.face.y);
+    pick(masks, first.Ng_z, second.Ng_z, hits.face.z);
 }
 
 } // namespace
@@ -155,11 +164,24 @@ struct HighSurface::State {
             rtcReleaseDevice(device);
     }
 
-    glm::vec3 smoothNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2) const
+    // The interpolated normals of hits, of any length. Where the corners are is asked for all before the first is used,
+    // so that the waits for memory overlap.
+    void interpolateNormals(std::size_t count, Hits& hits) const
     {
-        const Part& part = parts[instance];
-        const std::uint32_t* v = &part.indices[3 * std::size_t(triangle)];
-        return part.normals[v[0]] * (1 - b1 - b2) + part.normals[v[1]] * b1 + part.normals[v[2]] * b2;
+        Lanes<const std::uint32_t*> corners;
+        Lanes<const glm::vec3*> normals;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Part& part = parts[hits.found(i) ? hits.instance[i] : 0];
+            corners[i] = &part.indices[hits.found(i) ? 3 * std::size_t(hits.triangle[i]) : 0];
+            normals[i] = part.normals.data();
+            __builtin_prefetch(corners[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const float b1 = hits.b1[i], b2 = hits.b2[i];
+            const std::uint32_t* c = corners[i];
+            const glm::vec3* n = normals[i];
+            hits.normal.set(i, n[c[0]] * (1 - b1 - b2) + n[c[1]] * b1 + n[c[2]] * b2);
+        }
     }
     // Zero where there is none.
     glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2, glm::vec3 direction) const
@@ -179,15 +201,14 @@ struct HighSurface::State {
     // The normals of hits that are complete otherwise.
     void findNormals(const Probes& probes, HighNormals normals, Hits& hits) const
     {
-        const bool faces = normals == HighNormals::face;
-        if (!faces)
-            for (std::size_t i = 0; i < probes.count; ++i)
-                if (hits.found(i))
-                    hits.normal.set(i, smoothNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i]));
+        if (normals != HighNormals::face)
+            interpolateNormals(probes.count, hits);
+        // Longer than this, the interpolated normal counts.
+        const float least = normals == HighNormals::face ? std::numeric_limits<float>::infinity() : 1e-6f;
         for (std::size_t i = 0; i < kLanes; ++i) {
-            const glm::vec3 n = hits.normal.at(i);
+            const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
             const float length = glm::length(n);
-            hits.normal.set(i, !faces && length > 1e-6f ? n / length : glm::normalize(hits.face.at(i)));
+            hits.normal.set(i, length > least ? n / length : face);
         }
         if (normals == HighNormals::curved)
             for (std::size_t i = 0; i < probes.count; ++i)
@@ -299,14 +320,14 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
     }
     Packet inwards(probes, lifts, -1, farthest);
     inwards.trace(state_->scene, context);
-    Lanes<int> behind;
+    Lanes<std::uint32_t> behind;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
         const bool nearer = inwards.found(i) & (!outwards.found(i) | (std::abs(in) < std::abs(out)));
-        behind[i] = nearer ? 1 : 0;
+        behind[i] = nearer ? ~0u : 0u;
         hits.distance[i] = nearer ? -in : out;
     }
-    choose(outwards.rays.hit, inwards.rays.hit, behind, hits);
+    pick(behind, outwards.rays.hit, inwards.rays.hit, hits);
     state_->findNormals(probes, normals, hits);
 }
 
@@ -320,7 +341,7 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
     packet.trace(state_->scene, context);
     for (std::size_t i = 0; i < kLanes; ++i)
         hits.distance[i] = probes.reach[i] - packet.rays.ray.tfar[i];
-    choose(packet.rays.hit, packet.rays.hit, {}, hits);
+    pick({}, packet.rays.hit, packet.rays.hit, hits);
     state_->findNormals(probes, normals, hits);
 }
 

@@ -8,15 +8,7 @@ namespace cotan {
 
 namespace {
 
-// What frames are made from, beside the normal.
-struct Ingredients {
-    Lanes<float> b1{}, b2{};
-    Lanes3 raw;                       // normal, not normalised
-    Lanes3 u, v;                      // of `smooth`: cotangents; u of `vertex` and `mikktspace`: tangent
-    Lanes<float> handedness{};
-    Lanes3 dpdx, dpdy;                // of the others: differences
-    Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
-};
+using Ingredients = LowPoints::Ingredients;
 
 struct Run { // of lanes on one triangle
     std::size_t from, to;
@@ -106,12 +98,13 @@ void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoin
 
 #undef COTAN_TEXT
 
-[[gnu::flatten]] void normalise(const Lanes3& raw, Lanes3& unit)
+// Zero stays zero.
+[[gnu::flatten, gnu::noinline]] void normalise(const Lanes3& raw, Lanes3& unit)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const glm::vec3 n = raw.at(i);
-        const float length = glm::length(n);
-        unit.set(i, length > 0 ? n / length : glm::vec3(0));
+        const float length = std::sqrt(glm::dot(n, n));
+        unit.set(i, length > 0 ? n / length : n);
     }
 }
 
@@ -119,7 +112,7 @@ void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoin
 
 void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points)
 {
-    Ingredients in;
+    Ingredients& in = points.from;
     for (std::size_t i = 0; i < places.size(); ++i) {
         in.b1[i] = places[i].b1;
         in.b2[i] = places[i].b2;
@@ -136,8 +129,13 @@ void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> p
 
 [[gnu::flatten]] void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)
 {
-    for (std::size_t i = 0; i < kLanes; ++i)
-        texels.set(i, f32::cotan_encode({points.t.at(i), points.b.at(i), points.n.at(i)}, targets.at(i)));
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        f32::cotan_frame f;
+        f.t = points.t.at(i);
+        f.b = points.b.at(i);
+        f.n = points.n.at(i);
+        texels.set(i, f32::cotan_encode(f, targets.at(i)));
+    }
 }
 
 } // namespace cotan

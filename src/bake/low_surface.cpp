@@ -124,39 +124,34 @@ Differences<double> differencesOf(const LowSurface& s, Frame frame, std::uint32_
     return {Vector3d((e1 * w2.y - e2 * w1.y) / determinant), Vector3d((e2 * w1.x - e1 * w2.x) / determinant), {1, 0}, {0, 1}};
 }
 
-template<class Real>
-LowPointOf<Real> pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, Real b1, Real b2, const Differences<Real>& d)
+LowPoint pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, double b1, double b2)
 {
-    using f32::cotan_frame_mikktspace, f32::cotan_frame_smooth, f32::cotan_frame_vertex; // the arguments choose
-    using f64::cotan_frame_mikktspace, f64::cotan_frame_smooth, f64::cotan_frame_vertex;
-    using Vec3 = glm::vec<3, Real, glm::defaultp>;
     const std::size_t first = 3 * std::size_t(triangle);
     const std::uint32_t* v = &s.indices[first];
-    const Real b0 = 1 - b1 - b2;
-    auto blend = [&](const auto& a, const auto& b, const auto& c) { return Vec3(a) * b0 + Vec3(b) * b1 + Vec3(c) * b2; };
-    auto typed = [](const auto& f) {
-        return CotangentFrame<Real>{Covector3<Real>(f.t), Covector3<Real>(f.b), Covector3<Real>(f.n)};
+    const double b0 = 1 - b1 - b2;
+    auto blend = [&](const auto& a, const auto& b, const auto& c) {
+        return glm::dvec3(a) * b0 + glm::dvec3(b) * b1 + glm::dvec3(c) * b2;
     };
-    LowPointOf<Real> p;
+    auto typed = [](const f64::cotan_frame& f) {
+        return CotangentFrame<double>{Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
+    };
+    LowPoint p;
     p.position = blend(s.positions[v[0]], s.positions[v[1]], s.positions[v[2]]);
-    const Vec3 raw = blend(s.normals[v[0]], s.normals[v[1]], s.normals[v[2]]);
-    const Real length = glm::length(raw);
+    const glm::dvec3 raw = blend(s.normals[v[0]], s.normals[v[1]], s.normals[v[2]]);
+    const double length = glm::length(raw);
     p.normal = length > 0 ? raw / length : raw;
     if (frame == Frame::smooth) {
-        p.frame = typed(cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
-                                           blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
+        p.frame = typed(f64::cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
+                                                blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
     } else if (!s.tangents.empty()) {
-        const Vec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
-        const Real handedness = Real(-s.tangents[first].w); // glTF's w has v up
-        p.frame = frame == Frame::mikktspace ? typed(cotan_frame_mikktspace(raw, t, handedness))
-                                             : typed(cotan_frame_vertex(raw, t, handedness));
+        const glm::dvec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
+        const double handedness = -s.tangents[first].w; // glTF's w has v up
+        p.frame = frame == Frame::mikktspace ? typed(f64::cotan_frame_mikktspace(raw, t, handedness))
+                                             : typed(f64::cotan_frame_vertex(raw, t, handedness));
     } else {
-        p.frame = makeFrame(frame, Covector3<Real>(p.normal), d);
+        p.frame = makeFrame(frame, Covector3d(p.normal), differencesOf(s, frame, triangle));
     }
     return p;
 }
-
-template LowPointOf<float> pointOf(const LowSurface&, Frame, std::uint32_t, float, float, const Differences<float>&);
-template LowPointOf<double> pointOf(const LowSurface&, Frame, std::uint32_t, double, double, const Differences<double>&);
 
 } // namespace cotan

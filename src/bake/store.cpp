@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -69,18 +72,19 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
         format.channels = COTAN_CHANNELS_XYZ;
         format.greenAlongV = true;
     }
-    for (std::size_t i = 0; i < baked.values.size(); ++i) {
-        const glm::vec3 v = baked.values[i];
-        if (direction) {
-            const bool empty = v == glm::vec3(0);
-            if (empty && kind == BakeKind::objectNormal)
-                writer.put(i, glm::vec3(f32::cotan_compress(0, format.expansion)));
-            else
-                writer.put(i, f32::cotan_encode_texel(empty ? glm::vec3(0, 0, 1) : v, portable(format)));
-        } else {
-            writer.put(i, glm::vec3(v.z != 0 ? (v.x - low) * scale : 0.0f));
-        }
-    }
+    const f32::cotan_normal_format portableFormat = portable(format);
+    const glm::vec3 empty = !direction               ? glm::vec3(0)
+        : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, format.expansion))
+                                         : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);
+    const auto stored = [&](glm::vec3 v) {
+        if (direction)
+            return v == glm::vec3(0) ? empty : f32::cotan_encode_texel(v, portableFormat);
+        return v.z != 0 ? glm::vec3((v.x - low) * scale) : empty;
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, baked.values.size(), 1 << 14), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            writer.put(i, stored(baked.values[i]));
+    });
     return std::move(writer.image);
 }
 

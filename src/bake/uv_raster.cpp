@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,7 +14,13 @@ namespace {
 
 constexpr double kFarthest = 1e6;         // uv beyond have no texel of their own in float
 constexpr double kReach = 0.70710678;     // half the diagonal of a texel
+constexpr int kTile = 4;                  // side of the squares in which first places come
 constexpr int kMostCopies = 64;           // of one triangle that wraps: per axis
+
+struct UvFirst {
+    glm::ivec2 texel;
+    UvPlace place;
+};
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -94,28 +102,28 @@ UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ive
         }
         for (int j = from.y; j <= to.y; ++j)
             for (int i = from.x; i <= to.x; ++i) {
-                Shown t{std::uint32_t(f / 3), {}, area < 0, 0, 0};
+                Shown t{std::uint32_t(f / 3), {}, area < 0, {}, {}};
                 for (int k = 0; k < 3; ++k)
                     t.corner[k] = (uv[k] - glm::dvec2(i, j)) * size;
                 if (t.mirrored)
                     std::swap(t.corner[1], t.corner[2]);
-                const double top = std::min({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-                const double bottom = std::max({t.corner[0].y, t.corner[1].y, t.corner[2].y});
-                t.firstRow = int(std::clamp(std::floor(top - 0.5 - kReach), 0.0, double(height)));
-                t.lastRow = int(std::clamp(std::ceil(bottom - 0.5 + kReach), -1.0, double(height) - 1));
-                if (t.firstRow <= t.lastRow)
+                const glm::dvec2 least = glm::min(t.corner[0], glm::min(t.corner[1], t.corner[2]));
+                const glm::dvec2 most = glm::max(t.corner[0], glm::max(t.corner[1], t.corner[2]));
+                t.first = glm::ivec2(glm::clamp(glm::floor(least - 0.5 - kReach), glm::dvec2(0), size));
+                t.last = glm::ivec2(glm::clamp(glm::ceil(most - 0.5 + kReach), glm::dvec2(-1), size - 1.0));
+                if (t.first.x <= t.last.x && t.first.y <= t.last.y)
                     shown_.push_back(t);
             }
     }
     for (const Shown& t : shown_)
-        for (int block = t.firstRow / kBlockRows; block * kBlockRows <= t.lastRow; ++block)
+        for (int block = t.first.y / kBlockRows; block * kBlockRows <= t.last.y; ++block)
             ++blockFirst_[std::size_t(block) + 1];
     for (std::size_t block = 1; block < blockFirst_.size(); ++block)
         blockFirst_[block] += blockFirst_[block - 1];
     blockShown_.resize(blockFirst_.back());
     std::vector<std::size_t> next(blockFirst_.begin(), blockFirst_.end() - 1);
     for (std::size_t i = 0; i < shown_.size(); ++i)
-        for (int block = shown_[i].firstRow / kBlockRows; block * kBlockRows <= shown_[i].lastRow; ++block)
+        for (int block = shown_[i].first.y / kBlockRows; block * kBlockRows <= shown_[i].last.y; ++block)
             blockShown_[next[std::size_t(block)]++] = std::uint32_t(i);
 }
 
@@ -165,6 +173,8 @@ void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
 template<class Emit>
 void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const
 {
+    if (taken && !std::memchr(taken + t.first.x, 0, std::size_t(t.last.x - t.first.x + 1)))
+        return; // inside a chart: nothing left there
     const double py = y + 0.5;
     double low, high;
     const auto [first, last] = span(t, py, kReach, low, high);
@@ -202,7 +212,7 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
     const auto emit = [](int x, const UvPlace& place) { found.push_back({x, place}); };
     const auto eachShown = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(y / kBlockRows))
-            if (shown_[i].firstRow <= y && y <= shown_[i].lastRow)
+            if (shown_[i].first.y <= y && y <= shown_[i].last.y)
                 scan(shown_[i]);
     };
     if (reach == UvReach::touching)
@@ -229,32 +239,44 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
 
 void UvRaster::firsts(int block, UvFirsts& result) const
 {
-    result.texels.clear();
-    result.places.clear();
-    result.again.clear();
     const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+    const int across = (width_ + kTile - 1) / kTile; // tiles
     thread_local std::vector<std::uint8_t> taken;
+    thread_local std::vector<UvFirst> found;
+    thread_local std::vector<std::uint32_t> next; // of each tile, where in the result its next texel goes
     taken.assign(std::size_t(bottom - top + 1) * std::size_t(width_), 0);
+    next.assign(std::size_t(kBlockRows / kTile * across) + 1, 0);
+    found.clear();
+    result.again.clear();
+    const auto tileOf = [&](glm::ivec2 texel) { return std::size_t((texel.y - top) / kTile * across + texel.x / kTile); };
     const auto eachRow = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(block)) {
             const Shown& t = shown_[i];
-            for (int y = std::max(top, t.firstRow); y <= std::min(bottom, t.lastRow); ++y)
+            for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y)
                 scan(t, y, &taken[std::size_t(y - top) * std::size_t(width_)]);
         }
     };
-    const auto take = [&](int x, int y, const UvPlace& place, std::uint8_t* row) {
-        if (row[x])
-            return result.again.push_back({x, y});
-        row[x] = 1;
-        result.texels.push_back({x, y});
-        result.places.push_back(place);
+    const auto take = [&](glm::ivec2 texel, const UvPlace& place, std::uint8_t* row) {
+        if (row[texel.x])
+            return result.again.push_back(texel);
+        row[texel.x] = 1;
+        found.push_back({texel, place});
+        ++next[tileOf(texel) + 1];
     };
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanCentres(t, y, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+        scanCentres(t, y, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
     });
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take(x, y, place, row); });
+        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
     });
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    result.texels.resize(found.size());
+    result.places.resize(found.size());
+    for (const UvFirst& f : found) {
+        const std::uint32_t at = next[tileOf(f.texel)]++;
+        result.texels[at] = f.texel;
+        result.places[at] = f.place;
+    }
 }
 
 UvCoverage coverage(const UvRaster& raster)

@@ -16,7 +16,7 @@ template<class T>
 struct alignas(64) Lanes : std::array<T, kLanes> {};
 
 struct Lanes3 {
-    Lanes<float> x{}, y{}, z{};
+    alignas(64) float x[kLanes]{}, y[kLanes]{}, z[kLanes]{};
 
     glm::vec3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
     void set(std::size_t i, glm::vec3 v)

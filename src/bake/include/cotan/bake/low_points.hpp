@@ -12,6 +12,16 @@ namespace cotan {
 struct LowPoints {
     Lanes3 position, normal; // world; the normal unit as interpolated, or zero where unknown
     Lanes3 t, b, n;          // the frame
+
+    // What the frame is made from.
+    struct Ingredients {
+        Lanes<float> b1{}, b2{};              // barycentric coordinates
+        Lanes3 raw;                           // normal, not normalised
+        Lanes3 u, v;                          // of `smooth`: cotangents; u of `vertex` and `mikktspace`: tangent
+        Lanes<float> handedness{};
+        Lanes3 dpdx, dpdy;                    // of the others: differences
+        Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
+    } from;
 };
 
 // The points at up to kLanes places. The same as pointOf in double, to rounding.

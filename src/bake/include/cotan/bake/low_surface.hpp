@@ -37,28 +37,17 @@ enum class TangentSource { stored, generated }; // stored: generated where the f
 Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentSource source);
 
 // One point of it.
-template<class Real>
-struct LowPointOf {
-    glm::vec<3, Real, glm::defaultp> position, normal; // world; the normal unit as interpolated, or zero where unknown
-    CotangentFrame<Real> frame;
+struct LowPoint {
+    glm::dvec3 position, normal; // world; the normal unit as interpolated, or zero where unknown
+    CotangentFrame<double> frame;
 };
-using LowPoint = LowPointOf<double>;
 
 // The differences that the frame of a triangle is made from: those of a raster in uv, one step along +u,
 // one along +v; for `exact` its edges. A triangle without area in uv, which a raster never shows, gives its
 // edges. Unused by frames from vertex attributes.
 Differences<double> differencesOf(const LowSurface& surface, Frame frame, std::uint32_t triangle);
 
-// The point of a triangle at barycentric coordinates b1, b2 (of corners 1 and 2); d: differencesOf the triangle.
-// For float and double.
-template<class Real>
-LowPointOf<Real> pointOf(const LowSurface& surface, Frame frame, std::uint32_t triangle, Real b1, Real b2,
-                         const Differences<Real>& d);
-
-// The same, all in double.
-inline LowPoint pointOf(const LowSurface& surface, Frame frame, std::uint32_t triangle, double b1, double b2)
-{
-    return pointOf<double>(surface, frame, triangle, b1, b2, differencesOf(surface, frame, triangle));
-}
+// The point of a triangle at barycentric coordinates b1, b2 (of corners 1 and 2). Many at once, in float: low_points.hpp.
+LowPoint pointOf(const LowSurface& surface, Frame frame, std::uint32_t triangle, double b1, double b2);
 
 } // namespace cotan

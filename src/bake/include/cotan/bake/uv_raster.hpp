@@ -40,8 +40,8 @@ enum class UvReach {
 };
 
 // The texels of a block of rows that show something, each with one place: that of the first triangle that covers its
-// centre; where there is none, of the first that comes within half a texel's diagonal of it. Neighbours on a triangle
-// mostly follow one another.
+// centre; where there is none, of the first that comes within half a texel's diagonal of it. They come square by square
+// of 4 x 4, so that sixteen in a row are close to one another, and in a square triangle by triangle.
 struct UvFirsts {
     std::vector<glm::ivec2> texels; // beside places
     std::vector<UvPlace> places;
@@ -74,7 +74,7 @@ private:
         std::uint32_t triangle;
         glm::dvec2 corner[3];
         bool mirrored; // corners 1 and 2 are exchanged
-        int firstRow, lastRow; // that it may touch
+        glm::ivec2 first, last; // columns and rows that it may touch
     };
     struct Weights;
     using Found = std::vector<std::pair<int, UvPlace>>;
