@@ -74,19 +74,22 @@ public:
             high_.outermost(probes, hits);
     }
 
-    glm::vec3 normalOf(const Hit& hit) const { return options_.faceNormals ? hit.faceNormal : hit.normal; }
+    glm::vec3 surfaceNormal(const Hit& hit) const { return options_.faceNormals ? hit.faceNormal : hit.normal; }
+    glm::vec3 normalOf(const Hit& hit) const
+    {
+        return options_.highMaps ? options_.highMaps->normalAt(hit) : surfaceNormal(hit);
+    }
 
     // What the map says of a hit; `where`: the point hit.
     glm::vec3 value(const CotangentFrame<float>& frame, const Hit& hit, glm::vec3 where, std::uint32_t pattern) const
     {
-        const glm::vec3 normal = normalOf(hit);
         switch (options_.kind) {
-        case BakeKind::normal: return encode(frame, Covector3f(normal));
-        case BakeKind::objectNormal: return normal;
+        case BakeKind::normal: return encode(frame, Covector3f(normalOf(hit)));
+        case BakeKind::objectNormal: return normalOf(hit);
         case BakeKind::height: return {hit.distance, 0, 1};
         case BakeKind::occlusion: break;
         }
-        return {openness(where, normal, pattern), 0, 1};
+        return {openness(where, surfaceNormal(hit), pattern), 0, 1};
     }
 
 private:
