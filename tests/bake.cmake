@@ -1,7 +1,7 @@
 # The baker: its raster, its frames, its numbers.
 cotan_test(bake_test SEPARATE
-  SOURCES bake_bilinear_test.cpp bake_curved_test.cpp bake_features_test.cpp bake_raster_test.cpp bake_test.cpp
-    bake_command_test.cpp
+  SOURCES bake_bilinear_test.cpp bake_curved_test.cpp bake_features_test.cpp bake_high_map_test.cpp bake_raster_test.cpp bake_test.cpp
+    bake_command_test.cpp bake_high_map_command_test.cpp
   LIBRARIES cotan_bake cotan_asset cotan_truth cotan_core nlohmann_json::nlohmann_json)
 target_compile_definitions(bake_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_test cotan)

@@ -224,6 +224,52 @@ TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
     }
 }
 
+TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
+{
+    // A low square that leans by 45 degrees (its slope of 1 along x), under a wall that leans the other way by more:
+    // normals (-1, 0, 1) and (4, 0, -1), more than 90 degrees apart.
+    write("low.obj", square(0, 0, 0, 1, 1) + kFaces);
+    write("wall.obj", "v 0.4 -9 -1.6\nv 1.4 -9 2.4\nv 1.4 9 2.4\nv 0.4 9 -1.6\nvt 0 0\nf 1/1 4/1 3/1\nf 1/1 3/1 2/1\n");
+    ASSERT_EQ(bake({"--high", "wall.obj", "--low", "low.obj", "--size", "4x4", "--max-distance", "9", "--mask", "mask.png", "-o",
+                    "m.png"}).code, 0);
+    EXPECT_EQ(statistics()["negative_z"], 16);
+    const Image blue = picture("mask.png");
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_EQ(int(blue.bytes8()[4 * i]), 0);
+        EXPECT_EQ(int(blue.bytes8()[4 * i + 2]), 255);
+    }
+    // uv from 0 to 0.3: of the image's four texels a side the first has its centre (1/8) covered, the second (3/8) has
+    // it 0.3 texels off an edge, within half a diagonal; the others are further away.
+    write("part.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.3 0\nvt 0.3 0.3\nvt 0 0.3\n" + std::string(kFaces));
+    ASSERT_EQ(bake({"--high", "part.obj", "--low", "part.obj", "--size", "4x4", "--max-distance", "1", "--mask", "mask.png", "-o",
+                    "m.png"}).code, 0);
+    EXPECT_EQ(statistics()["covered"], 1);
+    EXPECT_EQ(statistics()["touched"], 3);
+    const Image green = picture("mask.png");
+    for (std::size_t y = 0; y < 4; ++y)
+        for (std::size_t x = 0; x < 4; ++x) {
+            const bool near = x < 2 && y > 1, covered = x == 0 && y == 3;
+            EXPECT_EQ(int(green.bytes8()[4 * (4 * y + x) + 1]), covered ? 179 : near ? 89 : 0) << x << " " << y; // 0.7, 0.35
+        }
+}
+
+TEST_F(BakeFeatures, aCageFindsWhatTheDefaultDistanceMisses)
+{
+    // The high sheet is 0.4 away; 5 % of a diagonal of 3 * sqrt(2) is 0.21.
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
+    write("high.obj", square(-1, -1, 0.4, 3) + kFaces);
+    std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4", "-o",
+                                   "h.exr"};
+    ASSERT_EQ(bake(words).code, 0);
+    EXPECT_EQ(statistics()["missed"], 16);
+    words.insert(words.end(), {"--cage", "cage.obj"});
+    ASSERT_EQ(bake(words).code, 0);
+    EXPECT_EQ(statistics()["missed"], 0);
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_NEAR(double(picture("h.exr").floats()[4 * i]), 0.4, 1e-5); // floats
+}
+
 TEST_F(BakeFeatures, supersamplesAverageWhatOneSampleMisses)
 {
     // The step at x = 0.5 runs through the middle of the only texel: four samples see both sides alike.

@@ -108,6 +108,8 @@ Status run(const BakeCommandOptions& o)
         return job.error();
     for (const std::string& line : job->lowScene.warnings)
         warn(o.common, line);
+    for (const std::string& line : job->warnings)
+        warn(o.common, line);
     const double loadSeconds = watch.lap();
     Result<Baked> baked = Baked{};
     {
@@ -134,6 +136,7 @@ Status run(const BakeCommandOptions& o)
                               o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes()));
     nlohmann::ordered_json report{{"command", "bake"}, {"low", o.low}, {"high", o.high}, {"frame", o.frame},
                                   {"kind", o.kind}, {"size", {image.width, image.height}},
+                                  {"high_normals", o.highNormals},
                                   {"triangles_high", job->high.front().triangleCount()},
                                   {"triangles_low", job->low.triangleCount()},
                                   {"bake", describe(baked->statistics)},
@@ -170,8 +173,11 @@ Command addBakeCommand(CLI::App& app)
     c->add_option("--udim", o->udim, "tile of the texture coordinates to bake")->check(CLI::Range(1001, 1999))->type_name("N")->capture_default_str();
     c->add_option("--tangents", o->tangents, "for the frames vertex and mikktspace: stored (generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
-    c->add_option("--high-normals", o->highNormals, "normals of the high mesh: smooth, curved (where its triangles are larger than texels) or face")
-        ->check(CLI::IsMember({"smooth", "curved", "face"}))->type_name("NAME")->capture_default_str();
+    c->add_option("--high-normals", o->highNormals, "normals of the high mesh: smooth, curved (where its triangles are larger than texels), face (flat triangles) or map (its own normal map)")
+        ->check(CLI::IsMember({"smooth", "curved", "face", "map"}))->type_name("NAME")->capture_default_str();
+    c->add_option("--high-frame", o->highFrame, "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")->type_name("NAME");
+    c->add_option("--high-map", o->highMaps, "image that takes the place of the high mesh's normal maps; one, or one for each --high")->type_name("FILE");
+    c->add_option("--high-convention", o->highConvention, "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for --high-map")->type_name("NAME");
     c->add_option("--bits", o->bits, "8, 16 or 32 (float; .exr or .tif)")->check(CLI::IsMember({8, 16, 32}))->type_name("N")->capture_default_str();
     c->add_flag("--dither", o->dither, "8 bit: round by a fixed pattern");
     c->add_option("--convention", o->convention, "how the map is stored: opengl (green up, flat is 128, as nearly all glTF files have it), gltf (to the letter of its text, 2c - 1), directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();

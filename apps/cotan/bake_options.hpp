@@ -13,8 +13,9 @@ struct BakeCommandOptions {
     CommonOptions common;
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored",
-                highNormals = "smooth";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored";
+    std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
+    std::vector<std::string> highMaps;
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     float maxDistance = 0;
@@ -29,7 +30,17 @@ struct BakeJob {
     BakeOptions options;
     Frame frame = Frame::cotangent;
     StoredAs stored;
+    std::vector<std::string> warnings; // one line each
 };
+
+// The format of a convention by its name. `option` is for the message. Errors: ErrorKind::usage.
+Result<NormalMapFormat> formatFromName(const std::string& option, const std::string& convention);
+
+// What can be said of --high-normals and its options before anything is loaded.
+Status checkHighOptions(const BakeCommandOptions& o);
+
+// Loads the high meshes, and their maps where --high-normals asks for them; job.options.kind is set already.
+Status prepareHigh(const BakeCommandOptions& o, BakeJob& job);
 
 // Loads and checks. Errors: those of the files and words.
 Result<BakeJob> prepareBake(const BakeCommandOptions& o);

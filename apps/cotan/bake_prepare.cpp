@@ -72,17 +72,11 @@ Result<std::vector<glm::vec3>> cagePositions(const std::string& file, const LowS
 
 Result<StoredAs> storedAs(const BakeCommandOptions& o)
 {
-    const auto convention = conventionFromName(o.convention);
-    if (!convention) {
-        std::string names;
-        for (const ConventionPreset& preset : conventionPresets())
-            names += (names.empty() ? "" : ", ") + std::string(preset.name);
-        return usageError(fmt::format("--convention: expected one of {}; found '{}'", names, o.convention));
-    }
+    const auto format = formatFromName("--convention", o.convention);
+    if (!format)
+        return format.error();
     StoredAs as;
-    as.format.expansion = int(convention->expansion);
-    as.format.channels = int(convention->channels);
-    as.format.greenAlongV = !convention->greenUp; // v runs down in everything that was loaded
+    as.format = *format;
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
     as.dither = o.dither;
     return as;
@@ -96,6 +90,22 @@ BakeKind kindOf(const std::string& word)
 
 } // namespace
 
+Result<NormalMapFormat> formatFromName(const std::string& option, const std::string& name)
+{
+    const auto convention = conventionFromName(name);
+    if (!convention) {
+        std::string names;
+        for (const ConventionPreset& preset : conventionPresets())
+            names += (names.empty() ? "" : ", ") + std::string(preset.name);
+        return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
+    }
+    NormalMapFormat format;
+    format.expansion = int(convention->expansion);
+    format.channels = int(convention->channels);
+    format.greenAlongV = !convention->greenUp; // v runs down in everything that was loaded
+    return format;
+}
+
 Result<BakeJob> prepareBake(const BakeCommandOptions& o)
 {
     BakeJob job;
@@ -108,6 +118,8 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
     const auto stored = storedAs(o);
     if (!stored)
         return stored.error();
+    if (Status ok = checkHighOptions(o); !ok)
+        return ok.error();
     job.frame = *frame;
     job.stored = *stored;
     job.options.kind = kindOf(o.kind);
@@ -117,9 +129,6 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
     job.options.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
     job.options.tile = tileOf(o.udim);
     job.options.maxDistance = o.maxDistance;
-    job.options.highNormals = o.highNormals == "curved" ? HighNormals::curved
-        : o.highNormals == "face"                       ? HighNormals::face
-                                                        : HighNormals::smooth;
     job.options.occlusionRays = o.occlusionRays;
     job.options.threads = o.common.threads;
 
@@ -140,25 +149,14 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
             return cage.error();
         job.options.cage = std::move(*cage);
     }
-    std::vector<Scene> highScenes;
-    for (const std::string& file : o.high) {
-        auto scene = loadScene(file);
-        if (!scene)
-            return scene.error();
-        highScenes.push_back(std::move(*scene));
-    }
-    auto high = HighSurface::make(highScenes, o.common.threads);
-    if (!high)
-        return high.error();
+    if (Status ok = prepareHigh(o, job); !ok)
+        return ok.error();
     if (o.matchByName) {
-        auto matched = matches(job.lowScene, *high);
+        auto matched = matches(job.lowScene, job.high.front());
         if (!matched)
             return matched.error();
         job.options.matched = std::move(*matched);
     }
-    if (job.options.highNormals == HighNormals::curved)
-        high->curve(o.common.threads);
-    job.high.push_back(std::move(*high));
     return job;
 }
 

@@ -1,7 +1,8 @@
 #include "cotan/lint/texel.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "cotan/scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -33,14 +34,9 @@ f64::cotan_normal_format formatOf(const Material& material)
 
 int wrappedTexel(double coordinate, int size, Wrap wrap)
 {
-    if (!(std::abs(coordinate) <= 1e8))
+    if (!(std::abs(coordinate) <= kFarthestUv))
         return 0;
-    const auto i = std::int64_t(std::floor(coordinate * size));
-    if (wrap == Wrap::clamp)
-        return int(std::clamp<std::int64_t>(i, 0, size - 1));
-    const std::int64_t period = wrap == Wrap::mirror ? 2 * std::int64_t(size) : size;
-    const std::int64_t k = (i % period + period) % period;
-    return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
+    return wrapTexel(std::int64_t(std::floor(coordinate * size)), size, wrap);
 }
 
 glm::dvec3 decodedAt(const Image& image, const Texture& texture, const f64::cotan_normal_format& format, glm::dvec2 uv)

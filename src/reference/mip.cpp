@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "cotan/portable.hpp"
+#include "cotan/scene/texture_sample.hpp"
 
 namespace cotan::reference {
 
@@ -26,16 +27,13 @@ const std::array<float, Count>& linearTable()
 }
 
 template<class Word>
-glm::vec4 unormTexel(const Word* words, std::size_t at, bool srgb)
+glm::vec4 srgbTexel(const Word* words, std::size_t at)
 {
     constexpr std::size_t kCount = std::size_t(1) << (8 * sizeof(Word));
     constexpr float kScale = 1.0f / float(kCount - 1);
     const Word* w = words + at;
-    if (srgb) {
-        const std::array<float, kCount>& linear = linearTable<kCount>();
-        return {linear[w[0]], linear[w[1]], linear[w[2]], float(w[3]) * kScale};
-    }
-    return glm::vec4(w[0], w[1], w[2], w[3]) * kScale;
+    const std::array<float, kCount>& linear = linearTable<kCount>();
+    return {linear[w[0]], linear[w[1]], linear[w[2]], float(w[3]) * kScale};
 }
 
 template<class Word>
@@ -166,14 +164,10 @@ MipChain makeMipChain(const Image& image, Content content, NormalMapFormat store
 glm::vec4 texel(const MipChain& chain, int level, int x, int y)
 {
     const Image& image = chain.level(level);
-    std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    switch (image.type) {
-    case PixelType::unorm8: return unormTexel(image.bytes8(), at, isSrgb(chain));
-    case PixelType::unorm16: return unormTexel(image.words(), at, isSrgb(chain));
-    case PixelType::float32: break;
-    }
-    const float* f = image.floats() + at;
-    return {f[0], f[1], f[2], f[3]};
+    if (!isSrgb(chain))
+        return storedComponents(image, x, y);
+    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
 }
 
 } // namespace cotan::reference

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "cotan/scene/texture_sample.hpp"
 
 namespace cotan::reference {
 
@@ -13,45 +14,19 @@ namespace {
 
 constexpr int kMaxProbes = 8;
 
-// Coordinates further out than this have no fraction left in float, and would overflow below.
-constexpr float kFarthest = 1e8f;
-
-float usable(float x) { return std::abs(x) <= kFarthest ? x : 0.0f; }
+float usable(float x) { return std::abs(x) <= kFarthestUv ? x : 0.0f; }
 glm::vec2 usable(glm::vec2 v) { return {usable(v.x), usable(v.y)}; }
-
-int wrap(std::int64_t i, int size, Wrap mode)
-{
-    if (i >= 0 && i < size)
-        return int(i); // all modes, and most reads
-    if (mode == Wrap::clamp)
-        return int(std::clamp<std::int64_t>(i, 0, size - 1));
-    std::int64_t period = mode == Wrap::mirror ? 2 * std::int64_t(size) : size;
-    std::int64_t k = i % period;
-    k = k < 0 ? k + period : k;
-    return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
-}
 
 glm::vec4 nearest(const MipChain& chain, int level, const Sampler& s, glm::vec2 uv)
 {
     const Image& image = chain.level(level);
-    auto x = std::int64_t(std::floor(double(uv.x) * image.width));
-    auto y = std::int64_t(std::floor(double(uv.y) * image.height));
-    return texel(chain, level, wrap(x, image.width, s.wrapU), wrap(y, image.height, s.wrapV));
+    return nearestTexel(image.width, image.height, s, uv, [&](int x, int y) { return texel(chain, level, x, y); });
 }
 
 glm::vec4 bilinear(const MipChain& chain, int level, const Sampler& s, glm::vec2 uv)
 {
     const Image& image = chain.level(level);
-    // Texel centres lie at half-integers.
-    double u = double(uv.x) * image.width - 0.5, v = double(uv.y) * image.height - 0.5;
-    double fu = std::floor(u), fv = std::floor(v);
-    auto x = std::int64_t(fu), y = std::int64_t(fv);
-    int x0 = wrap(x, image.width, s.wrapU), x1 = wrap(x + 1, image.width, s.wrapU);
-    int y0 = wrap(y, image.height, s.wrapV), y1 = wrap(y + 1, image.height, s.wrapV);
-    float kx = float(u - fu), ky = float(v - fv);
-    glm::vec4 top = glm::mix(texel(chain, level, x0, y0), texel(chain, level, x1, y0), kx);
-    glm::vec4 bottom = glm::mix(texel(chain, level, x0, y1), texel(chain, level, x1, y1), kx);
-    return glm::mix(top, bottom, ky);
+    return bilinearTexel(image.width, image.height, s, uv, [&](int x, int y) { return texel(chain, level, x, y); });
 }
 
 glm::vec4 inLevel(const MipChain& chain, int level, const Sampler& s, Filter filter, glm::vec2 uv)

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "cotan/bake/high_normal_maps.hpp"
 #include "cotan/bake/high_surface.hpp"
 #include "cotan/bake/low_surface.hpp"
 #include "cotan/scene/view.hpp"
@@ -27,6 +29,8 @@ struct BakeOptions {
     std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
                                  // low surface, and as far behind it
     HighNormals highNormals = HighNormals::smooth;
+    std::shared_ptr<const HighNormalMaps> highMaps; // of the high surface: their normals instead; heights and
+                                                    // occlusion take no notice. Null: none
     int occlusionRays = 64;
     std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that counts, -1: all;
                                        // empty: all

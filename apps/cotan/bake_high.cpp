@@ -1,0 +1,112 @@
+#include "bake_options.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
+#include "parse.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+// Every material of the scene gets the image as its normal map, read by uv set 0 as it is.
+void putMap(Scene& scene, Image image)
+{
+    const int number = int(scene.images.size());
+    scene.images.push_back(std::move(image));
+    for (Material& material : scene.materials) {
+        material.normalMap = {};
+        material.normalMap.image = number;
+        material.normalScale = 1;
+        material.normalFormat = {};
+    }
+}
+
+// Makes the materials say what --high-map and --high-convention say.
+Status applyMapOptions(const BakeCommandOptions& o, std::vector<Scene>& scenes)
+{
+    for (std::size_t i = 0; i < scenes.size() && !o.highMaps.empty(); ++i) {
+        auto image = readImage(o.highMaps[std::min(i, o.highMaps.size() - 1)]);
+        if (!image)
+            return image.error();
+        putMap(scenes[i], std::move(*image));
+    }
+    if (o.highConvention.empty())
+        return Done{};
+    const auto format = formatFromName("--high-convention", o.highConvention);
+    if (!format)
+        return format.error();
+    for (Scene& scene : scenes)
+        for (Material& material : scene.materials)
+            material.normalFormat = *format;
+    return Done{};
+}
+
+} // namespace
+
+Status checkHighOptions(const BakeCommandOptions& o)
+{
+    const bool map = o.highNormals == "map";
+    for (const auto& [option, given] : {std::pair("--high-map", !o.highMaps.empty()), {"--high-convention", !o.highConvention.empty()},
+                                        {"--high-frame", !o.highFrame.empty()}})
+        if (given && !map)
+            return usageError(fmt::format("{}: expected --high-normals map with it; found {}", option, o.highNormals));
+    if (o.highMaps.size() > 1 && o.highMaps.size() != o.high.size())
+        return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}", o.high.size(),
+                                      o.highMaps.size()));
+    if (!o.highConvention.empty())
+        if (const auto format = formatFromName("--high-convention", o.highConvention); !format)
+            return format.error();
+    if (o.highFrame.empty())
+        return Done{};
+    const auto frame = frameFromName(o.highFrame);
+    if (!frame)
+        return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
+    if (*frame == Frame::nonperspective || *frame == Frame::paperOrthogonal)
+        return usageError(fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
+    return Done{};
+}
+
+Status prepareHigh(const BakeCommandOptions& o, BakeJob& job)
+{
+    std::vector<Scene> scenes;
+    for (const std::string& file : o.high) {
+        auto scene = loadScene(file);
+        if (!scene)
+            return scene.error();
+        scenes.push_back(std::move(*scene));
+    }
+    auto high = HighSurface::make(scenes, o.common.threads);
+    if (!high)
+        return high.error();
+    job.options.highNormals = o.highNormals == "curved" ? HighNormals::curved
+        : o.highNormals == "face"                       ? HighNormals::face
+                                                        : HighNormals::smooth;
+    if (job.options.highNormals == HighNormals::curved)
+        high->curve(o.common.threads);
+    job.high.push_back(std::move(*high));
+    if (o.highNormals != "map")
+        return Done{};
+    if (job.options.kind == BakeKind::height || job.options.kind == BakeKind::occlusion) {
+        job.warnings.push_back(fmt::format("--high-normals map changes nothing in a map of the kind {}", o.kind));
+        return Done{};
+    }
+    if (Status applied = applyMapOptions(o, scenes); !applied)
+        return applied.error();
+    for (const Scene& scene : scenes)
+        job.warnings.insert(job.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+    const Frame frame = o.highFrame.empty() ? Frame::mikktspace : *frameFromName(o.highFrame);
+    auto maps = HighNormalMaps::make(scenes, frame);
+    if (!maps)
+        return maps.error();
+    if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
+        job.warnings.push_back(fmt::format("{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there",
+                                           bare, maps->instanceCount()));
+    job.options.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
+    return Done{};
+}
+
+} // namespace cotan::app

@@ -1,0 +1,107 @@
+#include "cotan/bake/high_normal_maps.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/scene/texture_sample.hpp"
+
+namespace cotan {
+
+namespace {
+
+// One instance as a scene of its own: LowSurface knows how a frame is made on it.
+Scene sceneOf(const Mesh& mesh, const Material& material, const Instance& instance, const std::string& name)
+{
+    Scene one;
+    one.name = name;
+    Mesh copy;
+    copy.name = mesh.name;
+    copy.positions = mesh.positions;
+    copy.normals = mesh.normals;
+    copy.tangents = mesh.tangents;
+    copy.texcoords = mesh.texcoords;
+    copy.indices = mesh.indices;
+    one.meshes.push_back(std::move(copy));
+    one.materials.push_back(material);
+    one.instances.push_back({instance.name, 0, instance.toWorld});
+    return one;
+}
+
+glm::vec4 texelAt(const Image& image, const Sampler& sampler, glm::dvec2 uv)
+{
+    auto stored = [&](int x, int y) { return storedComponents(image, x, y); };
+    return sampler.magnify == Filter::linear ? bilinearTexel(image.width, image.height, sampler, uv, stored)
+                                             : nearestTexel(image.width, image.height, sampler, uv, stored);
+}
+
+} // namespace
+
+Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame frame)
+{
+    HighNormalMaps maps;
+    maps.frame_ = frame;
+    bool anyMap = false;
+    for (Scene& scene : scenes) {
+        std::map<int, const Image*> kept;
+        for (const Instance& instance : scene.instances) {
+            const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+            if (mesh.indices.empty())
+                continue; // as HighSurface counts
+            Part& part = maps.parts_.emplace_back();
+            const Material& material = scene.materials[std::size_t(mesh.material)];
+            const Texture& map = material.normalMap;
+            anyMap = anyMap || map.present();
+            if (!map.present() || mesh.texcoords[std::size_t(map.texcoord)].empty())
+                continue;
+            const auto [image, isNew] = kept.try_emplace(map.image, nullptr);
+            if (isNew) {
+                maps.images_.push_back(std::move(scene.images[std::size_t(map.image)]));
+                image->second = &maps.images_.back();
+            }
+            const Image& picture = *image->second;
+            if (picture.pixelCount() == 0 || picture.data.size() < picture.pixelCount() * picture.bytesPerPixel())
+                continue;
+            auto surface = makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentSource::stored);
+            if (!surface)
+                return surface.error();
+            part.surface = std::move(*surface);
+            part.image = &picture;
+            part.sampler = map.sampler;
+            part.format = {material.normalFormat.expansion, material.normalFormat.channels,
+                           material.normalFormat.greenAlongV ? 1.0 : -1.0, double(material.normalScale)};
+            ++maps.mapped_;
+        }
+    }
+    if (maps.mapped_ == 0)
+        return inputError(fmt::format("{}: expected a normal map {}; found none", scenes.empty() ? "" : scenes[0].name,
+                                      anyMap ? "and texture coordinates for it" : "in a material"));
+    return maps;
+}
+
+glm::vec3 HighNormalMaps::normalAt(const Hit& hit, glm::vec3 otherwise) const
+{
+    const Part& part = parts_[hit.instance];
+    if (!part.image)
+        return otherwise;
+    const LowSurface& s = part.surface;
+    const std::uint32_t* v = &s.indices[3 * std::size_t(hit.triangle)];
+    const glm::dvec2 corner(s.texcoords[v[0]]);
+    const glm::dvec2 e1 = glm::dvec2(s.texcoords[v[1]]) - corner, e2 = glm::dvec2(s.texcoords[v[2]]) - corner;
+    const double area = std::abs(e1.x * e2.y - e1.y * e2.x);
+    const glm::dvec2 uv = corner + e1 * double(hit.b1) + e2 * double(hit.b2);
+    const bool readable = area > 0 && area < double(kFarthestUv) && std::abs(uv.x) <= double(kFarthestUv)
+        && std::abs(uv.y) <= double(kFarthestUv);
+    if (!readable)
+        return otherwise;
+    const glm::dvec3 m = f64::cotan_decode(glm::dvec3(texelAt(*part.image, part.sampler, uv)), part.format);
+    const LowPoint point = pointOf(s, frame_, hit.triangle, hit.b1, hit.b2);
+    const glm::dvec3 n = perturb(point.frame, m).raw(); // the frame's own n for a texel without direction
+    const double size = glm::length(n);
+    return size > 0 && std::isfinite(size) ? glm::vec3(n / size) : otherwise;
+}
+
+} // namespace cotan
