@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "cotan/bake/uv_raster.hpp"
 #include "cotan/truth/random.hpp"

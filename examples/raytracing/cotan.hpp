@@ -21,6 +21,8 @@
 //   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace cotan_shader {
 
@@ -46,10 +48,26 @@ inline cotan_real min(cotan_real a, cotan_real b) { return b < a ? b : a; }
 using std::abs;
 using std::copysign;
 using std::exp2;
-using std::ilogb;
-using std::ldexp;
 using std::pow;
 using std::sqrt;
+
+// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: in [1e-37, 1e37].
+inline float cotan_inverse_power_of_two(float m)
+{
+    std::uint32_t bits;
+    std::memcpy(&bits, &m, sizeof m);
+    bits = 0x7f000000u - (bits & 0x7f800000u);
+    std::memcpy(&m, &bits, sizeof m);
+    return m;
+}
+inline double cotan_inverse_power_of_two(double m)
+{
+    std::uint64_t bits;
+    std::memcpy(&bits, &m, sizeof m);
+    bits = 0x7fe0000000000000u - (bits & 0x7ff0000000000000u);
+    std::memcpy(&m, &bits, sizeof m);
+    return m;
+}
 
 struct cotan_frame
 {
@@ -82,7 +100,7 @@ inline cotan_real cotan_inversesqrt(cotan_real x)
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
 {
     m = min(max(m, cotan_real(1e-37)), cotan_real(1e37));
-    return ldexp(cotan_real(1), -ilogb(m));
+    return cotan_inverse_power_of_two(m);
 }
 
 // The signed number that a stored component stands for, in [-1,1].

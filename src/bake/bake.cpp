@@ -157,7 +157,7 @@ public:
             mark(texelOf(sample), texelTwice);
         for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
-                out_.values[base_ + i] = found_[i] == 1 ? sums_[i] : finished(sums_[i] / float(found_[i]));
+                out_.values[base_ + i] = finished(sums_[i], found_[i]);
             ++counts.states[out_.states[base_ + i]];
         }
     }
@@ -195,8 +195,12 @@ private:
         return samples.size() * baker_.raysEach() + more;
     }
 
-    glm::vec3 finished(glm::vec3 mean) const
+    // From the sum over samples that found something.
+    glm::vec3 finished(glm::vec3 sum, int count) const
     {
+        if (count == 1 && options_.kind != BakeKind::objectNormal)
+            return sum;
+        const glm::vec3 mean = sum / float(count);
         if (options_.kind != BakeKind::normal && options_.kind != BakeKind::objectNormal)
             return mean;
         const float length = glm::length(mean);

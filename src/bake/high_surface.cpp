@@ -116,7 +116,7 @@ struct Packet {
             r.flags[i] = 0;
             rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-            const bool looks = (glm::dot(direction, direction) > 0) & (farthest[i] > 0) & (lane < count);
+            const bool looks = glm::dot(direction, direction) > 0 && farthest[i] > 0 && lane < count;
             valid[i] = looks ? -1 : 0;
         }
     }
@@ -323,7 +323,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
     Lanes<std::uint32_t> behind;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
-        const bool nearer = inwards.found(i) & (!outwards.found(i) | (std::abs(in) < std::abs(out)));
+        const bool nearer = inwards.found(i) && (!outwards.found(i) || std::abs(in) < std::abs(out));
         behind[i] = nearer ? ~0u : 0u;
         hits.distance[i] = nearer ? -in : out;
     }
