@@ -77,7 +77,8 @@ public:
     glm::vec3 surfaceNormal(const Hit& hit) const { return options_.faceNormals ? hit.faceNormal : hit.normal; }
     glm::vec3 normalOf(const Hit& hit) const
     {
-        return options_.highMaps ? options_.highMaps->normalAt(hit) : surfaceNormal(hit);
+        return options_.highMaps ? options_.highMaps->normalAt(hit.instance, hit.triangle, hit.b1, hit.b2, hit.normal)
+                                 : surfaceNormal(hit);
     }
 
     // What the map says of a hit; `where`: the point hit.
