@@ -20,8 +20,8 @@ public:
     static Result<HighNormalMaps> make(std::vector<Scene>& scenes, Frame frame);
 
     // The unit normal, world, at a place of a triangle, numbered as by Hit: the finest level of the map there, filtered
-    // as its sampler says, in the frame there. `smooth`, the interpolated normal, where the instance has no map, the triangle no area in uv, or the texel no
-    // direction (zero or not finite).
+    // as its sampler says, in the frame there. `smooth`, the interpolated normal, where the instance has no map, the
+    // triangle no area in uv, or the texel no direction (zero or not finite).
     glm::vec3 normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2, glm::vec3 smooth) const;
 
     std::size_t instanceCount() const { return parts_.size(); }
