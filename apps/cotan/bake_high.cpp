@@ -97,7 +97,9 @@ Status prepareHigh(const BakeCommandOptions& o, BakeJob& job)
     if (Status applied = applyMapOptions(o, scenes); !applied)
         return applied.error();
     for (const Scene& scene : scenes)
-        job.warnings.insert(job.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+        for (const std::string& line : scene.warnings)
+            if (std::find(job.lowScene.warnings.begin(), job.lowScene.warnings.end(), line) == job.lowScene.warnings.end())
+                job.warnings.push_back(line); // once where both are one file
     const Frame frame = o.highFrame.empty() ? Frame::mikktspace : *frameFromName(o.highFrame);
     auto maps = HighNormalMaps::make(scenes, frame);
     if (!maps)

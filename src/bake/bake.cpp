@@ -62,10 +62,9 @@ public:
         const bool normals = options_.kind == BakeKind::normal || options_.kind == BakeKind::objectNormal;
         if (options_.highMaps && normals)
             for (std::size_t i = 0; i < probes.count; ++i)
-                if (hits.found(i)) {
-                    const Hit hit{true, hits.distance[i], hits.face.at(i), hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i]};
-                    hits.normal.set(i, options_.highMaps->normalAt(hit, hits.normal.at(i)));
-                }
+                if (hits.found(i))
+                    hits.normal.set(i, options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
+                                                                   double(hits.b2[i]), hits.normal.at(i)));
     }
 
     // What the map says of each hit. Returns how many rays that took.

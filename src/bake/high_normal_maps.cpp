@@ -82,26 +82,26 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
     return maps;
 }
 
-glm::vec3 HighNormalMaps::normalAt(const Hit& hit, glm::vec3 otherwise) const
+glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2, glm::vec3 smooth) const
 {
-    const Part& part = parts_[hit.instance];
+    const Part& part = parts_[instance];
     if (!part.image)
-        return otherwise;
+        return smooth;
     const LowSurface& s = part.surface;
-    const std::uint32_t* v = &s.indices[3 * std::size_t(hit.triangle)];
+    const std::uint32_t* v = &s.indices[3 * std::size_t(triangle)];
     const glm::dvec2 corner(s.texcoords[v[0]]);
     const glm::dvec2 e1 = glm::dvec2(s.texcoords[v[1]]) - corner, e2 = glm::dvec2(s.texcoords[v[2]]) - corner;
     const double area = std::abs(e1.x * e2.y - e1.y * e2.x);
-    const glm::dvec2 uv = corner + e1 * double(hit.b1) + e2 * double(hit.b2);
+    const glm::dvec2 uv = corner + e1 * b1 + e2 * b2;
     const bool readable = area > 0 && area < double(kFarthestUv) && std::abs(uv.x) <= double(kFarthestUv)
         && std::abs(uv.y) <= double(kFarthestUv);
     if (!readable)
-        return otherwise;
+        return smooth;
     const glm::dvec3 m = f64::cotan_decode(glm::dvec3(texelAt(*part.image, part.sampler, uv)), part.format);
-    const LowPoint point = pointOf(s, frame_, hit.triangle, hit.b1, hit.b2);
+    const LowPoint point = pointOf(s, frame_, triangle, b1, b2);
     const glm::dvec3 n = perturb(point.frame, m).raw(); // the frame's own n for a texel without direction
     const double size = glm::length(n);
-    return size > 0 && std::isfinite(size) ? glm::vec3(n / size) : otherwise;
+    return size > 0 && std::isfinite(size) ? glm::vec3(n / size) : smooth;
 }
 
 } // namespace cotan

@@ -1,10 +1,10 @@
 // The normal maps that a detailed surface has itself.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
-#include "cotan/bake/high_surface.hpp"
 #include "cotan/bake/low_surface.hpp"
 
 namespace cotan {
@@ -19,10 +19,10 @@ public:
     // on the view.
     static Result<HighNormalMaps> make(std::vector<Scene>& scenes, Frame frame);
 
-    // The unit normal at a hit, world: the finest level of the map there, filtered as its sampler says, in the frame
-    // there. `otherwise` where the instance has no map, the triangle no area in uv, or the texel no
-    // direction (zero or not finite).
-    glm::vec3 normalAt(const Hit& hit, glm::vec3 otherwise) const;
+    // The unit normal, world, at a place of a triangle, numbered as by Hit: the finest level of the map there, filtered
+    // as its sampler says, in the frame there. `smooth`, the interpolated normal, where the instance has no map, the
+    // triangle no area in uv, or the texel no direction (zero or not finite).
+    glm::vec3 normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2, glm::vec3 smooth) const;
 
     std::size_t instanceCount() const { return parts_.size(); }
     std::size_t mappedCount() const { return mapped_; }
