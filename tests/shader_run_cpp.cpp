@@ -46,7 +46,7 @@ std::string mainOf(std::size_t cases, const std::string& real)
 Results run(const std::string& label, const std::vector<Case>& cases, const std::vector<Sample>& samples,
             Language language, const std::string& real, const std::string& vec2, const std::string& vec3)
 {
-    std::string source = "#include <cmath>\n#include <cstdio>\n";
+    std::string source = "#include <cmath>\n#include <cstdint>\n#include <cstdio>\n#include <cstring>\n";
     if (language == Language::msl)
         source += "#include <metal_stdlib>\n";
     for (std::size_t k = 0; k < cases.size(); ++k) {
