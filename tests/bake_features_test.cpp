@@ -69,6 +69,38 @@ TEST_F(BakeFeatures, heightIsTheDisplacementInModelUnits)
     }
 }
 
+// Places on the rims of charts lie on edges that two faces of the high mesh share; each has to see its own.
+TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
+{
+    std::string text;
+    // Narrower above: rays along a side's normal are not parallel to its neighbours.
+    const glm::vec3 corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3f, 0.3f, 0.3f}, {0.7f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.3f}, {0.3f, 0.7f, 0.3f}};
+    for (const glm::vec3& c : corners)
+        text += fmt::format("v {} {} {}\n", c.x, c.y, c.z);
+    const int sides[6][4] = {{4, 5, 6, 7}, {1, 0, 3, 2}, {5, 1, 2, 6}, {0, 4, 7, 3}, {7, 6, 2, 3}, {0, 1, 5, 4}};
+    const char* const normals[6] = {"0 0 1", "0 0 -1", "1 0 1", "-1 0 1", "0 1 1", "0 -1 1"};
+    for (int k = 0; k < 6; ++k) {
+        const double u = 0.02 + 0.33 * (k % 3), v = 0.03 + 0.5 * (k / 3.0 >= 1); // six charts apart from one another
+        for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            text += fmt::format("vt {} {}\n", u + 0.27 * i, v + 0.41 * j);
+        text += fmt::format("vn {}\n", normals[k]);
+    }
+    for (int k = 0; k < 6; ++k) {
+        auto corner = [&](int i) { return fmt::format("{}/{}/{}", sides[k][i] + 1, 4 * k + i + 1, k + 1); };
+        text += fmt::format("f {} {} {}\nf {} {} {}\n", corner(0), corner(1), corner(2), corner(0), corner(2), corner(3));
+    }
+    write("block.obj", text);
+    const ToolRun r = bake({"--high", "block.obj", "--low", "block.obj", "--size", "61x47", "--max-distance", "0.1", "-o", "n.png"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(statistics()["missed"], 0);
+    EXPECT_GT(statistics()["touched"], 100); // the rims: six charts of some 16 x 19 texels
+    const Image image = picture("n.png");
+    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+        EXPECT_EQ(image.bytes8()[4 * i], 128) << "texel " << i;
+        EXPECT_EQ(image.bytes8()[4 * i + 1], 128) << "texel " << i;
+    }
+}
+
 TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);

@@ -48,6 +48,9 @@ glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
 
 } // namespace
 
+// How much closer to the middle of the triangle, as a part of the way, places on its edges are taken.
+constexpr double kInwards = 1e-4;
+
 // Barycentric coordinates of a triangle as it lies on the image.
 struct UvRaster::Weights {
     glm::dvec2 edge1, edge2;
@@ -63,6 +66,11 @@ struct UvRaster::Weights {
         double b1 = cross(p - t.corner[0], edge2) * perArea, b2 = cross(edge1, p - t.corner[0]) * perArea;
         if (t.mirrored)
             std::swap(b1, b2);
+        // A texel that is only touched has its place on an edge, where rays find either neighbour of a hard one.
+        if (!covers) {
+            b1 += kInwards * (1.0 / 3 - b1);
+            b2 += kInwards * (1.0 / 3 - b2);
+        }
         return {t.triangle, float(b1), float(b2), covers};
     }
 };

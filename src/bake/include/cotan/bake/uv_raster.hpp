@@ -21,7 +21,8 @@ struct UvPlace {
     std::uint32_t triangle = 0;
     float b1 = 0, b2 = 0;
     bool covers = false; // the triangle covers the texel's centre; otherwise it only touches the texel, and
-                         // the place is its point nearest to the centre
+                         // the place is its point nearest to the centre, a ten-thousandth of the way to the middle
+                         // of the triangle inside its edge
 };
 
 // The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
