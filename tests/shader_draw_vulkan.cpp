@@ -1,7 +1,7 @@
 // Fragment shaders that take derivatives themselves, in GLSL and HLSL, with y down and with the
 // viewport turned round.
-#include "devices.hpp"
 #include "shader_run.hpp"
+#include "shader_vulkan.hpp"
 #include "timing_scene.hpp"
 
 namespace cotan::test {
@@ -153,23 +153,11 @@ private:
 
 Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, bool hlsl)
 {
-    Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
-    try {
-        const cost::Instance instance = cost::openInstance();
-        for (cost::Device& device : cost::listDevices(instance)) {
-            if (!device.missing.empty())
-                continue;
-            cost::open(device);
-            results.skipped.clear();
-            Painter painter(device, corners);
-            for (const Case& c : drawn)
-                results.values.push_back(painter.draw(toSpirv(fragmentOf(c, hlsl), "frag", hlsl, c.name)));
-            return results;
-        }
-    } catch (const vk::SystemError& e) {
-        results.skipped = cost::reason(e);
-    }
-    return results;
+    return onFirstDevice(hlsl, [&](cost::Device& device, Results& results) {
+        Painter painter(device, corners);
+        for (const Case& c : drawn)
+            results.values.push_back(painter.draw(toSpirv(fragmentOf(c, hlsl), "frag", hlsl, c.name)));
+    });
 }
 
 } // namespace cotan::test

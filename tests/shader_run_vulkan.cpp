@@ -1,6 +1,6 @@
 // GLSL and HLSL as compute shaders on the first Vulkan device that opens.
-#include "devices.hpp"
 #include "shader_run.hpp"
+#include "shader_vulkan.hpp"
 #include "timing_scene.hpp"
 
 namespace cotan::test {
@@ -74,23 +74,11 @@ private:
 
 Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, bool hlsl)
 {
-    Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
-    try {
-        const cost::Instance instance = cost::openInstance();
-        for (cost::Device& device : cost::listDevices(instance)) {
-            if (!device.missing.empty())
-                continue;
-            cost::open(device);
-            results.skipped.clear();
-            Computer computer(device, samples);
-            for (const Case& c : cases)
-                results.values.push_back(computer.run(wordsOf(computeSpirv(c, hlsl))));
-            return results;
-        }
-    } catch (const vk::SystemError& e) {
-        results.skipped = cost::reason(e);
-    }
-    return results;
+    return onFirstDevice(hlsl, [&](cost::Device& device, Results& results) {
+        Computer computer(device, samples);
+        for (const Case& c : cases)
+            results.values.push_back(computer.run(wordsOf(computeSpirv(c, hlsl))));
+    });
 }
 
 } // namespace cotan::test

@@ -1,0 +1,33 @@
+// The device that the parity test computes and draws on.
+#pragma once
+
+#include <string>
+
+#include "devices.hpp"
+#include "shader_cases.hpp"
+
+namespace cotan::test {
+
+// The values of cases on the first device that has what pricing needs: work(device, results) adds them. Without one,
+// results say why they were skipped.
+template<class Work>
+Results onFirstDevice(bool hlsl, const Work& work)
+{
+    Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
+    try {
+        const cost::Instance instance = cost::openInstance();
+        for (cost::Device& device : cost::listDevices(instance)) {
+            if (!device.missing.empty())
+                continue;
+            cost::open(device);
+            results.skipped.clear();
+            work(device, results);
+            return results;
+        }
+    } catch (const vk::SystemError& e) {
+        results.skipped = cost::reason(e);
+    }
+    return results;
+}
+
+} // namespace cotan::test
