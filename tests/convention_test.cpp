@@ -56,5 +56,68 @@ TEST(Convention, enumeratorsAreThePortableTextsNumbers)
     EXPECT_EQ(int(Channels::slope), COTAN_CHANNELS_SLOPE);
 }
 
+TEST(Convention, presetsStoreAsTheirEnginesDo)
+{
+    struct Expected {
+        const char* name;
+        bool greenUp;
+        VDirection v;
+        Channels channels;
+    };
+    using enum VDirection;
+    // By each program's own documentation: which way green is drawn, where v = 0 is, what is left after import.
+    const Expected table[] = {
+        {"gltf", true, down, Channels::xyz},           {"opengl", true, up, Channels::xyz},
+        {"directx", false, down, Channels::xyz},       {"unity", true, up, Channels::orthographic},
+        {"unreal", false, down, Channels::orthographic}, {"blender", true, up, Channels::xyz},
+        {"godot", true, down, Channels::orthographic}, {"maya", true, up, Channels::xyz},
+        {"3dsmax", false, up, Channels::xyz},          {"source", false, down, Channels::xyz},
+    };
+    EXPECT_EQ(conventionPresets().size(), std::size(table));
+    for (const Expected& e : table) {
+        const auto c = conventionFromName(e.name);
+        ASSERT_TRUE(c) << e.name;
+        EXPECT_EQ(c->kind, MapKind::tangentSpace) << e.name;
+        EXPECT_EQ(c->greenUp, e.greenUp) << e.name;
+        EXPECT_EQ(c->v, e.v) << e.name;
+        EXPECT_EQ(c->channels, e.channels) << e.name;
+    }
+}
+
+TEST(Convention, everyValueHasItsWord)
+{
+    Convention c;
+    const auto says = [&](const char* word) { return describe(c).find(word) != std::string::npos; };
+    c.kind = MapKind::objectSpace;
+    c.channels = Channels::stereographic;
+    c.greenUp = true;
+    c.v = VDirection::up;
+    c.expansion = Expansion::signedValues;
+    for (const char* word : {"object space", "stereographic", "green up", "v up", "signed"})
+        EXPECT_TRUE(says(word)) << word << " in " << describe(c);
+    c.kind = MapKind::height;
+    c.channels = Channels::slope;
+    c.expansion = Expansion::exact;
+    for (const char* word : {"height", "slopes", "exact"})
+        EXPECT_TRUE(says(word)) << word << " in " << describe(c);
+    c.channels = Channels::xyz;
+    EXPECT_TRUE(says("xyz")) << describe(c);
+}
+
+TEST(Convention, becomesTheFormatOfThePortableText)
+{
+    Convention c;
+    c.expansion = Expansion::biased;
+    c.channels = Channels::slope;
+    c.greenUp = false; // with v up: against it
+    c.v = VDirection::up;
+    const auto f = toFormat<f32::cotan_normal_format>(c, 2.5);
+    EXPECT_EQ(f.expansion, COTAN_EXPAND_BIASED);
+    EXPECT_EQ(f.channels, COTAN_CHANNELS_SLOPE);
+    EXPECT_EQ(f.green, -1);
+    EXPECT_EQ(f.strength, 2.5f);
+    EXPECT_EQ(toFormat<f64::cotan_normal_format>(Convention{}).strength, 1);
+}
+
 } // namespace
 } // namespace cotan
