@@ -125,8 +125,9 @@ std::string limits(const Choice& choice, Form form)
     if (form == Form::fused)
         text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
-                "//   non-finite input and normals shorter than 0.01. (Longest position difference) * (longest\n"
-                "//   uv difference) within 1e-12 .. 1e5, each within 1e-9 .. 1e6.\n";
+                "//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest\n"
+                "//   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within\n"
+                "//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).\n";
     else if (choice.frame == Frame::mikktspace)
         text += "//   Zero vectors give the interpolated normal as it is, and so does one that is not finite.\n";
     else if (info(choice.frame).total)
