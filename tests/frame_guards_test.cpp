@@ -112,6 +112,21 @@ TEST(FrameGuards, zeroAndConstantInputsLeaveThePlainNormal)
     expectPlain(edgeOn.frame(Frame::gradient), "n in the plane", "gradient", 0, 0);
 }
 
+TEST(FrameGuards, gradientHasNoFrameWhereItsDivisionWouldOverflow)
+{
+    // Seen along n, the footprint has that share of its area: on both sides of the threshold of 1e-12.
+    for (const float seen : {1e-13f, 1e-11f}) {
+        Arguments a;
+        a.numbers = {1, 0, seen, 1, 0, 0, 0, 1, 0, 0.5f, 0.25f, -0.5f, 1};
+        const f32::cotan_frame f = a.frame(Frame::gradient);
+        if (seen < 1e-12f)
+            expectPlain(f, "nearly in the plane", "gradient", 0, seen);
+        else
+            EXPECT_NEAR(f.t.z * seen, -0.5f, 1e-6f); // t . n = 0 and t . dpdx = 0.5
+        EXPECT_TRUE(isFinite(f.t) && isFinite(f.b));
+    }
+}
+
 TEST(FrameGuards, scaleIsAPowerOfTwoThatPutsTheLargestInOneToTwo)
 {
     for (const auto& [m, s] : {std::pair(1.0f, 1.0f), std::pair(1.99f, 1.0f), std::pair(2.0f, 0.5f), std::pair(3.5f, 0.5f),
