@@ -6,6 +6,7 @@
 
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
+#include "normal_map_option.hpp"
 #include "parse.hpp"
 #include "spread_report.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string model;
+    NormalMapOption normalMap;
     double distance = 0;
     bool strict = false;
     double limitDegrees = -1;
@@ -174,9 +176,11 @@ Status run(const Options& o)
     if (Status usage = checkUsage(o); !usage)
         return usage;
     Stopwatch watch;
-    const auto scene = loadScene(o.model);
+    auto scene = loadScene(o.model);
     if (!scene)
         return scene.error();
+    if (Status applied = applyNormalMap(o.normalMap, *scene); !applied)
+        return applied;
     for (const std::string& line : scene->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
@@ -221,6 +225,7 @@ Command addLintCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("lint", "what to expect of a model's normal maps without stored tangents, in degrees");
     addCommonOptions(*command, options->common, "not used: lint writes no files");
     command->add_option("MODEL", options->model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file")->required();
+    addNormalMapOption(*command, options->normalMap);
     command->add_option("--distance", options->distance,
                         "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the picture")
         ->type_name("D")->capture_default_str();
