@@ -55,6 +55,8 @@ Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Im
 // Draws the low mesh with the stored map from four sides, by the device and the real shader, and
 // compares with the normals that rays from the eye find on the high mesh. Writes pictures and heat
 // maps into a folder; returns the report.
+// The names of the pictures that it writes.
+std::vector<std::string> bakePictures();
 Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
 
 } // namespace cotan::app

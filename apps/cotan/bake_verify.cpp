@@ -37,7 +37,18 @@ Camera turned(Camera camera, double quarter)
     return camera;
 }
 
+std::string pictureName(const char* what, int view) { return fmt::format("{}-{}.png", what, view); }
+
 } // namespace
+
+std::vector<std::string> bakePictures()
+{
+    std::vector<std::string> names;
+    for (int view = 0; view < kViews; ++view)
+        for (const char* what : {"error", "low", "high"})
+            names.push_back(pictureName(what, view));
+    return names;
+}
 
 Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
@@ -76,7 +87,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
                                                           {"low", directionsAsColor(*drawn)},
                                                           {"high", directionsAsColor(expected)}};
         for (const auto& [name, picture] : pictures)
-            if (Status w = writeImage(o.verify / fmt::format("{}-{}.png", name, i), picture); !w)
+            if (Status w = writeImage(o.verify / pictureName(name, i), picture); !w)
                 return w.error();
     }
     const AngleStatistics s = statisticsOf(std::move(all));

@@ -157,8 +157,6 @@ std::vector<std::string> exceeded(const Options& o, const LintReport& report)
 
 Status checkUsage(const Options& o)
 {
-    if (!o.common.output.empty())
-        return usageError("lint writes no files but --json FILE; leave out -o");
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
     const auto outside = [](double limit, double most) { return !(limit == -1 || (limit >= 0 && limit <= most)); };
@@ -175,6 +173,8 @@ Status run(const Options& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
+    if (Status planned = planOutputs(o.common, {}); !planned)
+        return planned;
     Stopwatch watch;
     auto scene = loadScene(o.model);
     if (!scene)
@@ -223,7 +223,8 @@ Command addLintCommand(CLI::App& app)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("lint", "what to expect of a model's normal maps without stored tangents, in degrees");
-    addCommonOptions(*command, options->common, "not used: lint writes no files");
+    addCommonOptions(*command, options->common, "");
+    command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used
     command->add_option("MODEL", options->model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file")->required();
     addNormalMapOption(*command, options->normalMap);
     command->add_option("--distance", options->distance,

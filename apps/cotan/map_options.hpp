@@ -66,7 +66,8 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
 // Writes a whole picture.
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits);
 
-// Says what is missing when no -o was given.
-Status needOutput(const MapOptions& options, const std::string& command);
+// For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
+// if empty.
+Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});
 
 } // namespace cotan::app
