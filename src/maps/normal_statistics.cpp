@@ -26,6 +26,7 @@ constexpr double kConstant = 3.0 / 255; // a channel whose range is less is cons
 
 // Sums over a band of rows; bands are added in their order, so that threads do not matter.
 struct Sums {
+    std::size_t all = 0, allGrey = 0;
     std::size_t finite = 0, grey = 0; // of what is not background
     std::size_t strange = 0;          // of those: no normal under any reading
     std::array<double, 4> lowest{1e30, 1e30, 1e30, 1e30}, highest{-1e30, -1e30, -1e30, -1e30};
@@ -36,7 +37,7 @@ struct Sums {
 
     void repeat(std::size_t times)
     {
-        finite *= times, grey *= times, strange *= times, signedUnit *= times;
+        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times;
         for (std::size_t i = 0; i < 4; ++i)
             error2[i] *= double(times), counted[i] *= times;
     }
@@ -44,6 +45,7 @@ struct Sums {
     void add(const Sums& o)
     {
         range.add(o.range);
+        all += o.all, allGrey += o.allGrey;
         finite += o.finite;
         strange += o.strange;
         grey += o.grey;
@@ -115,6 +117,9 @@ void addStoredValues(const Image& image, Sums& sums)
     const int bits = bitsPerComponent(image.type);
     const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // of floats: 2c - 1 either way
     sumBands(image, sums, [=](Sums& s, const glm::vec4& t, const glm::vec4& left) {
+        const bool grey = std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
+        ++s.all;
+        s.allGrey += grey;
         const glm::vec3 v(t);
         const glm::vec3 exact = bits == 32 ? v * 2.0f - 1.0f : (v * (top - 1) - middle) / (middle - 1);
         // What is alike and no normal is a field of one colour. Floats may be signed: of them nothing is known yet.
@@ -124,7 +129,7 @@ void addStoredValues(const Image& image, Sums& sums)
         if (!finite(t))
             return;
         ++s.finite;
-        s.grey += std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
+        s.grey += grey;
         for (int c = 0; c < 4; ++c) {
             s.lowest[std::size_t(c)] = std::min(s.lowest[std::size_t(c)], double(t[c]));
             s.highest[std::size_t(c)] = std::max(s.highest[std::size_t(c)], double(t[c]));
@@ -245,14 +250,17 @@ Content twoChannelContent(const NormalStatistics& s)
 
 Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue, bool constantAll)
 {
+    if (s.swizzle != Swizzle::rg)
+        return twoChannelContent(s);
+    // Black and white belong to a grey picture; around charts they do not make one.
+    if (share(sums.allGrey, sums.all) > 0.97 && (sums.finite == 0 || share(sums.grey, sums.finite) > 0.97))
+        return Content::grey;
     if (sums.finite == 0)
         return s.background == 1 ? Content::flat : Content::other;
     if (constantAll)
         return Content::flat;
-    if (s.swizzle != Swizzle::rg || constantBlue)
+    if (constantBlue)
         return twoChannelContent(s);
-    if (share(sums.grey, sums.finite) > 0.97)
-        return Content::grey;
     if (share(sums.strange, sums.finite) > 0.1)
         return Content::other;
     if (s.belowHorizon > 0.1)
@@ -361,7 +369,7 @@ NormalStatistics MapSurvey::finish()
         for (std::size_t i = 0; i < 9; ++i)
             s.tilt[i] = share(d.histogram[i], d.valid);
     }
-    s.content = contentOf(s, state_->sums, state_->two, state_->constantAll);
+    s.content = oneColour() ? Content::flat : contentOf(s, state_->sums, state_->two, state_->constantAll);
     if (s.signedStored && s.content == Content::tangentSpace)
         s.content = Content::signedValues;
     return s;
