@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel = "spectral";
+    std::string file, convention = "gltf", bits = "auto", size, kernel = "spectral";
     bool free = false;
 };
 
