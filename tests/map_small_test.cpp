@@ -1,6 +1,8 @@
 // Blends, mips and conversions on maps small enough to work out by hand; x and y never alike.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "cotan/maps/blend.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/mips.hpp"
@@ -273,6 +275,19 @@ TEST(SmallConversions, alpha_stays_with_three_channels_and_is_one_with_two)
     two.channels = Channels::orthographic;
     EXPECT_EQ(recoded(map, {.from = {}, .to = {}, .type = PixelType::unorm16}).words()[3], 17 * 257);
     EXPECT_EQ(recoded(map, {.from = {}, .to = two, .type = PixelType::unorm8}).bytes8()[3], 255);
+}
+
+TEST(SmallConversions, what_is_not_finite_is_stored_as_zero)
+{
+    for (PixelType type : {PixelType::unorm8, PixelType::unorm16, PixelType::float32}) {
+        Image image = makeImage(1, 1, type);
+        std::ranges::fill(image.data, std::byte(77));
+        const glm::vec4 bad(std::numeric_limits<float>::quiet_NaN(), -1e30f * 1e30f, 0, 1);
+        storeRow(image, 0, {&bad, 1});
+        glm::vec4 back(5);
+        loadRow(image, 0, {&back, 1});
+        EXPECT_EQ(back, glm::vec4(0, 0, 0, 1)) << int(type);
+    }
 }
 
 TEST(SmallConversions, swizzles_put_x_and_y_into_red_and_green)

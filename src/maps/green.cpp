@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -18,6 +19,8 @@ namespace {
 constexpr float kLowestZ = 0.17f;
 constexpr double kLikely = 0.12, kCertain = 0.5;  // |agreement|
 constexpr double kLikelyDeviations = 5;
+constexpr int kFewestTexels = 100;                // of a picture: noise agrees by chance in smaller ones
+constexpr double kFewest = 4;                     // patches; fewer do not tell their own spread
 constexpr int kRun = 8;                           // texels alike side by side, for the colour between charts
 constexpr double kBetween = 0.02;                 // of all texels in such runs of the commonest colour
 
@@ -161,7 +164,7 @@ template<class Figure> double uncertainty(const std::vector<Products>& patches, 
             const double f = figure(rest);
             sum += f, sum2 += f * f, n += 1;
         }
-    if (n < 2)
+    if (n < kFewest)
         return 1;
     return std::sqrt(std::max(0.0, (n - 1) / n * (sum2 - sum * sum / n)));
 }
@@ -179,7 +182,7 @@ double votesFor(const std::vector<Products>& patches, double sign, bool exchange
 
 std::string unreadable(int width, int height, const NormalStatistics& s)
 {
-    if (width < 3 || height < 3)
+    if (width < 3 || height < 3 || width * std::int64_t(height) < kFewestTexels)
         return "the picture is too small to have a relief";
     switch (s.content) {
     case Content::flat: return "every texel has the same value: there is no relief to judge by";

@@ -122,7 +122,7 @@ void addStoredValues(const Image& image, Sums& sums)
         s.allGrey += grey;
         const glm::vec3 v(t);
         const glm::vec3 exact = bits == 32 ? v * 2.0f - 1.0f : (v * (top - 1) - middle) / (middle - 1);
-        // What is alike and no normal is a field of one colour. Floats may be signed: of them nothing is known yet.
+        // What is alike and no normal is a field of one colour; but floats may be signed.
         if (outsideCharts(t) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
             return;
         s.range.add(t);
@@ -140,7 +140,7 @@ void addStoredValues(const Image& image, Sums& sums)
                                       glm::vec3(encoded(v.x), encoded(v.y), encoded(v.z)) * 2.0f - 1.0f};
         std::array<float, 4> lengths{};
         std::ranges::transform(readings, lengths.begin(), [](const glm::vec3& r) { return glm::length(r); });
-        if (std::ranges::none_of(lengths, usableLength)) {
+        if (bits != 32 && std::ranges::none_of(lengths, usableLength)) { // floats may be signed
             ++s.strange;
             return;
         }

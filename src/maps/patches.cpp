@@ -8,7 +8,7 @@ namespace cotan::maps {
 namespace {
 
 constexpr int kMostASide = 16;
-constexpr int kLeastSide = 8, kLargestSide = 128; // texels
+constexpr int kLeastSide = 3, kLargestSide = 128; // texels
 constexpr int kWhole = kMostASide * kLargestSide; // pictures of that side and below are looked at whole
 
 } // namespace
