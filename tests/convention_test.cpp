@@ -38,10 +38,24 @@ TEST(Convention, knownEnginesPointGreenTheirWay)
     EXPECT_TRUE(greenAlongV(*conventionFromName("unity")));
 }
 
+// What a flat texel is after reading: 128 of 8 bits, 32768 of 16, 0.5 of floats.
+TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
+{
+    for (const ConventionPreset& p : conventionPresets())
+        for (auto [bits, middle] : {std::pair(8, 128.0 / 255), {16, 32768.0 / 65535}, {32, 0.5}}) {
+            const auto format = toFormat<f64::cotan_normal_format>(p.convention, 1, bits);
+            EXPECT_NEAR(f64::cotan_expand(middle, format.expansion), 0, 1e-15) << p.name << " " << bits;
+            EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << p.name << " " << bits;
+            EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
+        }
+    EXPECT_EQ(expansionFor(COTAN_EXPAND_BIASED, 16), COTAN_EXPAND_BIASED);
+    EXPECT_EQ(expansionFor(COTAN_EXPAND_SIGNED, 32), COTAN_EXPAND_SIGNED);
+}
+
 TEST(Convention, descriptionNamesEveryChoice)
 {
     const std::string s = describe(*conventionFromName("unreal"));
-    for (const char* part : {"tangent space", "two channels", "green down", "v down", "biased"})
+    for (const char* part : {"tangent space", "two channels", "green down", "v down", "exact"})
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
 
@@ -50,6 +64,7 @@ TEST(Convention, enumeratorsAreThePortableTextsNumbers)
     EXPECT_EQ(int(Expansion::exact), COTAN_EXPAND_EXACT);
     EXPECT_EQ(int(Expansion::biased), COTAN_EXPAND_BIASED);
     EXPECT_EQ(int(Expansion::signedValues), COTAN_EXPAND_SIGNED);
+    EXPECT_EQ(int(Expansion::exact16), COTAN_EXPAND_EXACT16);
     EXPECT_EQ(int(Channels::xyz), COTAN_CHANNELS_XYZ);
     EXPECT_EQ(int(Channels::orthographic), COTAN_CHANNELS_ORTHOGRAPHIC);
     EXPECT_EQ(int(Channels::stereographic), COTAN_CHANNELS_STEREOGRAPHIC);

@@ -35,6 +35,7 @@ std::string_view expansionText(Expansion e)
 {
     switch (e) {
     case Expansion::exact: return "(255c - 128)/127";
+    case Expansion::exact16: return "(65535c - 32768)/32767";
     case Expansion::biased: return "2c - 1";
     case Expansion::signedValues: break;
     }
