@@ -6,6 +6,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
+#include "memory_limit.hpp"
 
 namespace cotan::app {
 
@@ -15,6 +16,7 @@ struct VerifyOptions {
     bool fromGenerated = false;          // tangents of the original: generated instead of stored
     std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
     std::string device = "auto";
+    int memory = kDefaultMemory;
 };
 
 // Draws both from five sides, writes the pictures, says the degrees, and returns them for a report.
