@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cotan/report/angles.hpp"
+#include "cotan/report/measurements.hpp"
 #include "cotan/report/tangent_difference.hpp"
 
 namespace cotan {
@@ -92,6 +93,16 @@ TEST(Statistics, ofAHistogramAreThoseOfTheListToOnePartIn4096)
     exactly.add(5);
     EXPECT_EQ(exactly.statistics().over1, 0.5);
     EXPECT_EQ(exactly.statistics().over5, 0);
+}
+
+TEST(Measurements, withoutAFiniteResultHaveNoFiguresInJson)
+{
+    const auto written = toJson(std::vector<Measurement>{{"t", "s", "x", "f", "S", "half", 10, 1, 2, 3, 0.5}, {"t", "s", "y", "f", "S", "half", 10, 0, 0, 0, 1}});
+    EXPECT_EQ(written[0]["mean"], 1);
+    EXPECT_EQ(written[0]["percentile95"], 2);
+    EXPECT_EQ(written[0]["maximum"], 3);
+    for (const char* figure : {"mean", "percentile95", "maximum"})
+        EXPECT_TRUE(written[1][figure].is_null()) << figure;
 }
 
 TangentDifference difference(std::vector<float> degrees, std::size_t handedness)
