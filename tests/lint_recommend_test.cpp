@@ -53,7 +53,7 @@ TEST(Recommend, largerAreasWeighMore)
 {
     // 9:1 gives 0.45 on average, 1:9 gives 3.6.
     EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 9), judgedAs(4, 5, 1)}).advice, Advice::readOrthonormal);
-    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 5, 9)}).advice, Advice::convertToCotangent);
+    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 1.9, 9)}).advice, Advice::convertToCotangent);
     // The 95 %: 0.9 * 1.9 + 0.1 * 5 = 2.2, though the mean is small.
     EXPECT_EQ(advisedOn({judgedAs(0.1, 1.9, 9), judgedAs(0.1, 5, 1)}).advice, Advice::convertToCotangent);
 }
