@@ -62,6 +62,25 @@ TEST(SolveTexel, theLeastSumOfSquaresIsNotTheSumOfTheTexels)
             EXPECT_GT(cost(solved + glm::dvec3(x, y, 0)), cost(solved));
 }
 
+TEST(SolveTexel, throughSkewFramesNoNeighbourIsBetter)
+{
+    const Demand demands[] = {{glm::dmat3({1, 0.8, 0}, {-0.1, 0.5, 0.2}, {0, 0, 1}), glm::normalize(glm::dvec3(0.5, 0.2, 1))},
+                              {glm::dmat3({0.3, 0, 0.1}, {0.9, 1, 0}, {0.2, 0, 1}), glm::normalize(glm::dvec3(-0.3, 0.6, 1))},
+                              {glm::dmat3({0.2, 1, 0}, {1, 0.1, -0.3}, {0, 0.1, 1}), glm::normalize(glm::dvec3(0.1, -0.4, 1))}};
+    const auto cost = [&](glm::dvec3 m) {
+        double sum = 0;
+        for (const Demand& d : demands) {
+            const glm::dvec3 r = glm::normalize(d.frame * m) - d.target;
+            sum += glm::dot(r, r);
+        }
+        return sum;
+    };
+    const glm::dvec3 solved = solveTexel(demands, {0, 0, 1});
+    constexpr double kStep = 1e-5; // 0.0006 degrees; the cost rises by its square, 1e-10, and is good to 1e-15
+    for (const glm::dvec3 step : {glm::dvec3(kStep, 0, 0), {-kStep, 0, 0}, {0, kStep, 0}, {0, -kStep, 0}})
+        EXPECT_GT(cost(solved + step), cost(solved));
+}
+
 TEST(SolveTexel, framesThatCannotBeTurnedRoundAskForNothing)
 {
     const auto flat = [](double third) { return glm::dmat3({1, 0, 0}, {0, third, 0}, {0, 0, 1}); };
@@ -138,6 +157,8 @@ TEST(Padding, isWithinAFractionOfATexelOfTheNearestAndDoesNotJoinTheBorders)
     EXPECT_EQ(spreadFrom({}, 3, 2), std::vector<std::uint32_t>(6, kNoTexel));
     EXPECT_EQ(spreadFrom({4}, 5, 1), std::vector<std::uint32_t>(5, 4));
     EXPECT_EQ(spreadFrom({0}, 1, 5), std::vector<std::uint32_t>(5, 0));
+    EXPECT_EQ(spreadFrom({4}, 1, 5), std::vector<std::uint32_t>(5, 4)); // upwards
+    EXPECT_EQ(spreadFrom({0}, 5, 1), std::vector<std::uint32_t>(5, 0));
 }
 
 // ---- tally ----------------------------------------------------------------------------------

@@ -188,6 +188,19 @@ TEST(StoredTangents, sharesAreOfTheAreaAndMirroredUvAskForTheOtherW)
     }
 }
 
+TEST(StoredTangents, aNodeThatMirrorsTurnsWOverWithTheUv)
+{
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1));
+    for (const glm::dvec3 scale : {glm::dvec3(-1, 1, 1), {1, -2, 1}, {1, 1, -1}, {-3, -1, -1}}) {
+        const MappedSurface s = makeSurface(mesh, Texture{}, {{scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}});
+        const StoredTangents stored = lint::storedTangents(s);
+        EXPECT_EQ(stored.reversedW, 0) << scale.x << " " << scale.y << " " << scale.z;
+        EXPECT_NEAR(stored.angle.maximum, 0, kFloats);
+        EXPECT_NEAR(lint::uvQuality(s).mirrored, 1, kFloats);
+    }
+}
+
 TEST(StoredTangents, turnedMeansByOver45Degrees)
 {
     for (const auto& [degrees, share] : {std::pair(44.0, 0.0), {46.0, 0.25}, {-46.0, 0.25}, {180.0, 0.25}}) {
