@@ -305,6 +305,23 @@ TEST(Reencode, aTallPatchNeedsTwiceTheSlopeAlongVTexelByTexel)
     EXPECT_TRUE(std::isnan(r.disagreement.mean));
 }
 
+TEST(Reencode, greenAgainstVStaysAgainstV)
+{
+    const Image map = unormMap(4, 2, [](int, int) { return glm::dvec3(0.1, 0.3, 1); });
+    MapUse use = unormUse(rectangle({0, 0}, {1, 2}, {0, 0}, {1, 1}));
+    use.format.green = -1;
+    const Reencoded r = reencode(map, {&use, 1}, kPartsToCotangent, 16);
+    EXPECT_LT(angleBetween(unormTexel(r.image, 1, 1), {0.1, 0.6, 1}), 0.01);
+    EXPECT_LT(r.error.maximum, 0.01);
+    // Without alike axes: the frame of the sheared copy mixes u and v, and a wrong sign would show.
+    auto sheared = rectangle({0, 0}, {1, 2}, {0, 0}, {1, 1});
+    for (Corner& c : sheared)
+        c.position.x += 0.5f * c.position.y;
+    MapUse leaning = unormUse(sheared);
+    leaning.format.green = -1;
+    EXPECT_LT(reencode(map, {&leaning, 1}, kPartsToCotangent, 16).error.maximum, 0.02);
+}
+
 TEST(Reencode, placesDisagreeFromHalfADegreeOn)
 {
     // Two copies, one taller by a little: the slope along v is wanted as it is and times that. At 0.5, a factor f asks
