@@ -40,7 +40,7 @@ std::string quoted(const std::string& path)
 // What does what is advised; empty where that would do nothing.
 std::string commandFor(const Options& o, const LintReport& report)
 {
-    if (report.advice == Advice::nothing)
+    if (report.advice == Advice::nothing || !o.normalMap.file.empty()) // convert reads the model's own maps
         return {};
     const std::string to(name(frameOf(report.advice)));
     const std::string stem = std::filesystem::path(o.model).stem().string();
