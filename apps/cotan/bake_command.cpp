@@ -162,6 +162,7 @@ Command addBakeCommand(CLI::App& app)
         ->check(CLI::Range(-1, 65536))->type_name("N")->capture_default_str();
     c->add_option("--ao-rays", o->occlusionRays, "rays a sample for ao")->check(CLI::Range(1, 65536))->type_name("N")->capture_default_str();
     c->add_option("--mask", o->mask, "picture of what became of each texel")->type_name("FILE");
+    addMemoryOption(*c, o->memory);
     c->add_option("--verify", o->verify, "folder: draw the low mesh with the map and compare with the high one")->type_name("DIR");
     c->add_option("--device", o->device, "draws for --verify: auto, reference, or a part of a Vulkan device's name")->type_name("DEVICE")->capture_default_str();
     return {c, [o] { return run(*o); }};

@@ -6,6 +6,7 @@
 
 #include "common.hpp"
 #include "cotan/bake/bake.hpp"
+#include "memory_limit.hpp"
 
 namespace cotan::app {
 
@@ -18,6 +19,7 @@ struct BakeCommandOptions {
     std::vector<std::string> highMaps;
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
+    int memory = kDefaultMemory;
     float maxDistance = 0;
     bool dither = false, matchByName = false;
 };

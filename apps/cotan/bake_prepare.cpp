@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "map_options.hpp"
@@ -54,7 +53,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 // The cage's corner positions, brought to the vertices of the low surface.
 Result<std::vector<glm::vec3>> cagePositions(const std::string& file, const LowSurface& low)
 {
-    const auto cage = loadScene(file);
+    const auto cage = loadSceneWithin(kDefaultMemory, file, Pixels::none);
     if (!cage)
         return cage.error();
     std::vector<glm::vec3> corners;
@@ -133,7 +132,7 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
     job.options.occlusionRays = o.occlusionRays;
     job.options.threads = o.common.threads;
 
-    auto lowScene = loadScene(o.low);
+    auto lowScene = loadSceneWithin(o.memory, o.low);
     if (!lowScene)
         return lowScene.error();
     job.lowScene = std::move(*lowScene);

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -56,6 +57,8 @@ Result<Drawn> drawAll(Painter& painter, View view, Frame frame)
 // What tells an inverted or turned tangent from a small difference.
 std::string tangentVerdict(double tOpposed, double bOpposed)
 {
+    if (std::isnan(tOpposed) || std::isnan(bOpposed))
+        return "no pixel has tangents of both frames: nothing was compared";
     if (tOpposed < 0.02 && bOpposed < 0.02)
         return "tangents and bitangents point the same way";
     if (tOpposed < 0.02 && bOpposed > 0.98)
@@ -96,7 +99,10 @@ Status run(const Options& o)
     }
     const double drawSeconds = watch.lap();
 
-    const auto degrees = anglesBetween(drawn[0].normal, drawn[1].normal);
+    auto degrees = anglesBetween(drawn[0].normal, drawn[1].normal);
+    const bool mapped = drawsNormalMaps(picture->scene) && picture->view.normalMaps;
+    if (!mapped)
+        degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
     const AngleStatistics s = angleStatistics(degrees);
     const double tOpposed = shareOpposed(anglesBetween(drawn[0].tangent, drawn[1].tangent));
     const double bOpposed = shareOpposed(anglesBetween(drawn[0].bitangent, drawn[1].bitangent));
@@ -120,7 +126,8 @@ Status run(const Options& o)
     report["bitangents_opposed"] = bOpposed;
     report["verdict"] = verdict;
     report["seconds"] = {{"load", picture->loadSeconds}, {"draw", drawSeconds}, {"write", watch.lap()}};
-    say(o.common, fmt::format("{} against {}, {} pixels: {}", a, b, s.count, toText(s)));
+    const std::string normals = mapped ? toText(s) : "nothing was compared: no normal map is drawn";
+    say(o.common, fmt::format("{} against {}, {} pixels: {}", a, b, s.count, normals));
     say(o.common, verdict);
     say(o.common, fmt::format("pictures in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
                               "green 2, yellow 5, red 15, white 45 degrees)", o.common.output.string(), a, b));

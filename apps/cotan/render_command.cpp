@@ -44,7 +44,7 @@ Image asColor(const std::string& show, const Image& image)
 }
 
 // Angles between the normals of this frame and those of exact per-triangle gradients.
-Result<Image> drawError(Painter& painter, View view, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawError(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
 {
     auto normals = painter.draw(view);
     if (!normals)
@@ -53,17 +53,19 @@ Result<Image> drawError(Painter& painter, View view, const Options& o, nlohmann:
     auto exact = painter.draw(view);
     if (!exact)
         return exact;
-    const auto degrees = anglesBetween(*normals, *exact);
+    auto degrees = anglesBetween(*normals, *exact);
+    if (!mapped)
+        degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
     const AngleStatistics s = angleStatistics(degrees);
     report["error_against_exact"] = toJson(s);
     say(o.common, fmt::format("{} against exact: {}", o.frame, toText(s)));
     return heatMap(degrees, view.width, view.height);
 }
 
-Result<Image> drawPicture(Painter& painter, View view, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawPicture(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
 {
     if (o.show == "error")
-        return drawError(painter, view, o, report);
+        return drawError(painter, view, mapped, o, report);
     view.linearOutput = o.show == "shaded" && keepsFloats(o.common.output);
     auto image = painter.draw(view);
     if (image && o.show != "shaded" && !keepsFloats(o.common.output))
@@ -95,7 +97,7 @@ Status run(const Options& o)
         return painter.error();
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     nlohmann::ordered_json report = {{"command", "render"}};
-    auto image = drawPicture(**painter, picture->view, o, report);
+    auto image = drawPicture(**painter, picture->view, drawsNormalMaps(picture->scene) && picture->view.normalMaps, o, report);
     if (!image)
         return image.error();
     const double drawSeconds = watch.lap();

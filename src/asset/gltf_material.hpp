@@ -32,6 +32,7 @@ private:
     Texture texture(int index, int texcoord, const tinygltf::ExtensionMap& extensions,
                     const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
+    int imageOf(const tinygltf::Texture& texture) const;
     int imageSlot(int image);
 
     GltfModel& model_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <glm/common.hpp>
@@ -70,7 +71,7 @@ void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, 
         several += perTexel * double(triangles[i].shared);
         both += perTexel * double(triangles[i].turned);
     }
-    const double whole = q.area > 0 ? q.area : 1;
+    const double whole = q.area > 0 ? q.area : std::numeric_limits<double>::quiet_NaN();
     q.overlapping = several / whole;
     q.overlappingMirrored = both / whole;
 }

@@ -96,7 +96,8 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
                                               const LoadLimits& limits = {});
 
 // New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg".
-// The bytes go into the buffer, whatever the image was before; its name and extras are kept.
+// Whatever the image was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras
+// are kept.
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType);
 
@@ -121,7 +122,8 @@ struct GltfWritten {
 };
 
 // Writes NAME.glb (one file: image files are embedded) or NAME.gltf with NAME.bin; then images keep
-// their relative URIs and are copied if the folder is another one. All buffers become one.
+// their relative URIs and are copied if the folder is another one, and new ones become files NAME-IMAGE.png or .jpg,
+// with a number where another file has that name. All buffers become one.
 // Accessors, views, images and bytes that the file used and now nothing uses are removed, and all
 // indices follow; where an extension that we do not know might refer to them, they are kept, and a
 // note says so. Whatever fails, nothing is left behind.

@@ -9,6 +9,14 @@
 
 namespace cotan {
 
+// Which images of a model are decoded. Images without pixels have a name and no size.
+enum class Pixels {
+    all,           // those that are used; one that cannot be read is an error
+    whereReadable, // the same, but those in a format that glTF extensions allow and nothing here reads (foreignFormat in
+                   // image_file.hpp) stay without pixels, and a warning names them
+    none,          // no image
+};
+
 // Limits on what a file may ask for. Over a limit the file is refused before memory is taken.
 struct LoadLimits {
     std::size_t fileBytes = std::size_t(2) << 30;   // of the model file or one of its buffers
@@ -18,6 +26,7 @@ struct LoadLimits {
     int imageSide = 16384;                          // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
     std::size_t allImageBytes = std::size_t(8) << 30; // decoded, of all images of one model
+    Pixels pixels = Pixels::all;                      // of a glTF model
 };
 
 // Reads a model: .gltf and .glb through tinygltf, everything else (.obj .ply .stl .dae .fbx .3ds)
