@@ -43,8 +43,7 @@ bool replay(const fs::path& file)
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     const std::vector<std::uint8_t> bytes(text.begin(), text.end()); // exactly as long as the input
-    fmt::print("{}\n", file.string());
-    std::fflush(stdout);
+    fmt::print(stderr, "{}\n", file.string());
     const std::clock_t start = std::clock();
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
@@ -64,12 +63,12 @@ int main(int argc, char** argv)
     bool quick = true;
     for (int i = 1; i < argc; ++i) {
         if (!fs::exists(argv[i]))
-            fmt::print("{}: not here, left out\n", argv[i]);
+            fmt::print(stderr, "{}: not here, left out\n", argv[i]);
         for (const fs::path& file : filesOf(argv[i])) {
             quick = replay(file) && quick;
             ++count;
         }
     }
-    fmt::print("{} inputs\n", count);
+    fmt::print(stderr, "{} inputs\n", count);
     return quick && count > 0 ? 0 : 1;
 }

@@ -1,6 +1,8 @@
 // What holds for every scene that a reader returns.
 #pragma once
 
+#include <algorithm>
+
 #include "cotan/asset/geometry.hpp"
 #include "cotan/scene/scene.hpp"
 #include "cotan/tangents.hpp"
