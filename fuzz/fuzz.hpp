@@ -2,6 +2,7 @@
 // is called with changed inputs, with replay.cpp with those of corpus/NAME.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +16,6 @@
 #include <glm/geometric.hpp>
 #include <unistd.h>
 
-#include "cotan/asset/load.hpp"
 #include "cotan/result.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -40,20 +40,6 @@ inline void checkError(const Error& error)
 {
     COTAN_HOLDS(!error.message.empty() && error.message.find('\n') == std::string::npos, "{}", error.message);
     COTAN_HOLDS(int(error.kind) >= 1 && int(error.kind) <= 5, "{}", int(error.kind));
-}
-
-// Small enough for -malloc_limit_mb=1024, large enough for every seed.
-inline LoadLimits smallLimits()
-{
-    LoadLimits limits;
-    limits.fileBytes = 64 << 20;
-    limits.vertices = 1'000'000;
-    limits.triangles = 1'000'000;
-    limits.nodes = 10'000;
-    limits.imageSide = 2048;
-    limits.imageBytes = 32 << 20;
-    limits.allImageBytes = 64 << 20;
-    return limits;
 }
 
 // A folder of this process, removed when it ends in peace.

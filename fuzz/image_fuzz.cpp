@@ -3,6 +3,7 @@
 
 #include "cotan/asset/image_file.hpp"
 #include "fuzz.hpp"
+#include "limits.hpp"
 
 using namespace cotan;
 using namespace cotan::fuzz;

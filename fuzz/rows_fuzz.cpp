@@ -5,6 +5,7 @@
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/image_rows.hpp"
 #include "fuzz.hpp"
+#include "limits.hpp"
 
 using namespace cotan;
 using namespace cotan::fuzz;

@@ -7,6 +7,7 @@
 #include "cotan/scene/scene.hpp"
 #include "cotan/tangents.hpp"
 #include "fuzz.hpp"
+#include "limits.hpp"
 
 namespace cotan::fuzz {
 
