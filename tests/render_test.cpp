@@ -226,11 +226,16 @@ TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
     COTAN_RENDERER_OR_SKIP(renderer, options);
     if (!renderer.messages().empty())
         GTEST_SKIP() << renderer.messages().front();
+    // Frames made from differences give the driver the same buffers and the same stages, so one of them draws every output of
+    // both scenes; the others one picture of each scene, for their shader.
     for (const FrameInfo& info : frames()) {
         const bool first = info.frame == Frame::cotangent;
+        const bool alike = !first && info.source == FrameSource::differences;
         for (const Scene& scene : {everything(), hostile()}) {
             load(renderer, first ? scene : opaqueOnly(scene));
             for (const Output output : kOutputs) {
+                if (alike && output != Output::shaded)
+                    continue;
                 View view = viewOf(output, info.frame);
                 view.width = view.height = 16;
                 view.lights = someLights();
