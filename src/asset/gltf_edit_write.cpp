@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <ranges>
 #include <system_error>
 
 #include "cotan/files/output.hpp"
