@@ -14,6 +14,10 @@
 
 namespace cotan::rendertest {
 
+// Mesa's CPU driver compiles a shader for every picture of its kind: of most tests here that is most of the time, and a third
+// of it is to make code fast that then draws 64 x 64 pixels. Read by the driver when it starts.
+inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*/ 0) == 0;
+
 // Opens a renderer, or skips the test with the reason.
 #define COTAN_RENDERER_OR_SKIP(name, options)                                                      \
     Result<Renderer> name##Result = Renderer::create(options);                                     \

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <ranges>
 #include <system_error>
 
 #include "cotan/files/output.hpp"
@@ -284,7 +283,8 @@ void copyImages(const GltfSource& source, const OrderedJson& root, const fs::pat
 Status writeTogether(std::span<const Output> outputs)
 {
     std::vector<OutputFile> files;
-    for (const Output& output : outputs | std::views::reverse) {
+    for (std::size_t i = outputs.size(); i-- > 0;) {
+        const Output& output = outputs[i];
         std::error_code error;
         fs::create_directories(folderOf(output.file), error);
         auto file = OutputFile::begin(output.file);
