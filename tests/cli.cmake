@@ -10,3 +10,8 @@ cotan_test(files_test
   LIBRARIES cotan_files cotan_asset nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(files_test cotan)
+cotan_test(help_test
+  SOURCES help_test.cpp progress_test.cpp
+  LIBRARIES cotan_app fmt::fmt)
+target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+add_dependencies(help_test cotan)

@@ -7,6 +7,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
 #include "parse.hpp"
+#include "progress.hpp"
 #include "spread_report.hpp"
 
 namespace cotan::app {
@@ -174,13 +175,18 @@ Status run(const Options& o)
     if (Status planned = planOutputs(o.common, {}); !planned)
         return planned;
     Stopwatch watch;
-    const auto scene = loadScene(o.model);
+    const auto scene = [&] {
+        const Progress loading(o.common, 0, "loading " + o.model);
+        return loadScene(o.model);
+    }();
     if (!scene)
         return scene.error();
     for (const std::string& line : scene->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
-    const LintReport report = lintScene(*scene, {o.distance});
+    auto progress = std::make_unique<Progress>(o.common, 1, "measuring " + o.model);
+    const LintReport report = lintScene(*scene, {o.distance, progress->within()});
+    progress.reset();
 
     nlohmann::ordered_json j = {{"command", "lint"}, {"model", o.model}, {"warnings", scene->warnings},
                                 {"distance", report.distance}};
@@ -234,6 +240,8 @@ Command addLintCommand(CLI::App& app)
     command->add_option("--frame", options->frame, "for --limit: cotangent, orthonormal, smooth, exact or stored")
         ->check(CLI::IsMember({"cotangent", "orthonormal", "smooth", "exact", "stored"}))->type_name("NAME")
         ->capture_default_str();
+    addExamples(*command, {"cotan lint model.glb",
+                           "cotan lint model.glb --distance 3 --json report.json"});
     return {command, [options] { return run(*options); }};
 }
 

@@ -8,6 +8,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/asset/shapes.hpp"
 #include "parse.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -95,6 +96,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {
+        const Progress loading(common, 0, "loading " + options.model);
         auto scene = loadScene(options.model);
         if (!scene)
             return scene.error();

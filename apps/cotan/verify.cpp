@@ -12,6 +12,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/report/angles.hpp"
 #include "painter.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -62,6 +63,8 @@ Result<std::vector<Image>> drawNormals(const Side& side, const std::array<Camera
     if (Status loaded = (*painter)->load(*scene); !loaded)
         return loaded.error();
     device = (*painter)->device();
+    Progress progress(common, kViews, fmt::format("drawing {}", side.file.string()));
+    (*painter)->progress = progress.within();
     std::vector<Image> images;
     for (const Camera& camera : used) {
         View view;
