@@ -6,6 +6,7 @@
 #include "bake_options.hpp"
 #include "cotan/asset/extension.hpp"
 #include "cotan/asset/image_file.hpp"
+#include "gltf_open.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 
@@ -60,6 +61,8 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("-o: expected the file to write the map to");
     if (!o.verify.empty() && o.kind != "normal")
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
+    if (Status ok = checkModelOutput(o); !ok)
+        return ok;
     const std::string extension = lowerExtension(o.common.output);
     if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
         return usageError(fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.common.output.string()));
@@ -105,7 +108,7 @@ Status run(const BakeCommandOptions& o)
         padCharts(*baked, o.padding);
     const double padSeconds = watch.lap();
     const Image image = storeBaked(*baked, job->options.kind, job->stored);
-    if (Status w = writeImage(o.common.output, image); !w)
+    if (Status w = namedAsGltf(o.common.output) ? writeBakedModel(o, *job, image) : writeImage(o.common.output, image); !w)
         return w;
     const double writeSeconds = watch.lap();
     say(o.common, fmt::format("map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.common.output.string(), o.kind,
@@ -133,7 +136,7 @@ Command addBakeCommand(CLI::App& app)
 {
     auto o = std::make_shared<BakeCommandOptions>();
     CLI::App* c = app.add_subcommand("bake", "normal map of a detailed mesh for a simple one, in a named frame");
-    addCommonOptions(*c, o->common, "the map: .png, .exr, .tif, .tga");
+    addCommonOptions(*c, o->common, "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf");
     c->add_option("--high", o->high, "detailed mesh; may be given several times")->required()->type_name("FILE");
     c->add_option("--low", o->low, "simple mesh with texture coordinates")->required()->type_name("FILE");
     c->add_option("--frame", o->frame, "the frame that the shader will use: " + frameNames())->type_name("NAME")->capture_default_str();

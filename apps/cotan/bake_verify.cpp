@@ -9,6 +9,7 @@
 #include "cotan/asset/geometry.hpp"
 #include "cotan/asset/image_file.hpp"
 #include "cotan/report/angles.hpp"
+#include "cotan/scene/put_normal_map.hpp"
 #include "painter.hpp"
 #include "progress.hpp"
 #include "vertex_frames.hpp"
@@ -24,17 +25,7 @@ constexpr int kViews = 4;
 Scene mappedScene(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
     Scene scene = job.lowScene;
-    const int image = int(scene.images.size());
-    scene.images.push_back(map);
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (o.material >= 0 && int(i) != o.material)
-            continue;
-        Material& material = scene.materials[i];
-        material.normalMap.image = image;
-        material.normalMap.sampler.wrapU = material.normalMap.sampler.wrapV = Wrap::repeat;
-        material.normalScale = 1;
-        material.normalFormat = job.stored.format;
-    }
+    putNormalMap(scene, map, job.stored.format, o.material);
     deriveVertexFrames(scene, job.frame, o.tangents != "stored");
     return scene;
 }

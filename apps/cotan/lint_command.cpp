@@ -6,6 +6,7 @@
 
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
+#include "normal_map_option.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "spread_report.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string model;
+    NormalMapOption normalMap;
     double distance = 0;
     bool strict = false;
     double limitDegrees = -1;
@@ -175,12 +177,14 @@ Status run(const Options& o)
     if (Status planned = planOutputs(o.common, {}); !planned)
         return planned;
     Stopwatch watch;
-    const auto scene = [&] {
+    auto scene = [&] {
         const Progress loading(o.common, 0, "loading " + o.model);
         return loadScene(o.model);
     }();
     if (!scene)
         return scene.error();
+    if (Status applied = applyNormalMap(o.normalMap, *scene); !applied)
+        return applied;
     for (const std::string& line : scene->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
@@ -228,6 +232,7 @@ Command addLintCommand(CLI::App& app)
     addCommonOptions(*command, options->common, "");
     command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used
     command->add_option("MODEL", options->model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file")->required();
+    addNormalMapOption(*command, options->normalMap);
     command->add_option("--distance", options->distance,
                         "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the picture")
         ->type_name("D")->capture_default_str();

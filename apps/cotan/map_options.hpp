@@ -10,7 +10,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/maps/texels.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan::app {
 
@@ -24,6 +24,9 @@ void addMapOptions(CLI::App& command, MapOptions& options, const std::string& ou
 // A convention in words separated by commas: a preset's name, then what differs from it, such as
 // "unity,xyz" or "opengl,biased". `option` is for the message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
+
+// The same as a material has it: v runs down in everything that was loaded.
+NormalMapFormat formatInScene(const Convention& convention);
 
 // All words that parseConvention knows, for help texts.
 std::string conventionWords();
