@@ -15,3 +15,6 @@ cotan_test(help_test
   LIBRARIES cotan_app fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)
+# A few commands under every fault; the whole table is in docs/testing.md.
+add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
+set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)

@@ -20,9 +20,12 @@ std::vector<std::string> namesIn(const CLI::App& app)
 
 Error unknown(const std::string& before, const std::string& word, const std::vector<std::string>& names)
 {
-    const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& name) { return editDistance(word, name); });
-    const bool near = editDistance(word, *nearest) <= std::max<std::size_t>(1, nearest->size() / 3)
-        || (word.size() > 1 && nearest->starts_with(word));
+    // The beginning of a name counts as one letter left out.
+    const auto distance = [&](const std::string& name) {
+        return word.size() > 1 && name.starts_with(word) ? 1 : editDistance(word, name);
+    };
+    const auto nearest = std::ranges::min_element(names, {}, distance);
+    const bool near = distance(*nearest) <= std::max<std::size_t>(1, nearest->size() / 3);
     return usageError(fmt::format("{}there is no command '{}'; {}", before, word,
                                   near ? fmt::format("did you mean {}?", *nearest)
                                        : fmt::format("expected one of {}", fmt::join(names, ", "))));

@@ -57,10 +57,8 @@ std::string fitted(const std::string& text, std::size_t room)
 
 std::string timeText(double s)
 {
-    if (s < 10)
-        return "a few seconds left";
     if (s < 90)
-        return fmt::format("about {:.0f} s left", std::max(10.0, std::round(s / 5) * 5));
+        return fmt::format("about {:.0f} s left", s < 10 ? std::ceil(s) : std::round(s / 5) * 5);
     return s < 5400 ? fmt::format("about {:.0f} min left", s / 60) : fmt::format("about {:.1f} h left", s / 3600);
 }
 
