@@ -70,6 +70,7 @@ Status checkOutputs(const BakeCommandOptions& o)
     if (!o.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", o.verify, bakePictures()))
             files.push_back(picture);
+    warnIfLossy(o.common, o.common.output);
     return planOutputs(o.common, files);
 }
 
@@ -78,7 +79,10 @@ Status run(const BakeCommandOptions& o)
     if (Status ok = checkOutputs(o); !ok)
         return ok;
     Stopwatch watch;
-    const auto job = prepareBake(o);
+    const auto job = [&] {
+        const Progress loading(o.common, 0, "loading the meshes");
+        return prepareBake(o);
+    }();
     if (!job)
         return job.error();
     for (const std::string& line : job->lowScene.warnings)
@@ -88,7 +92,7 @@ Status run(const BakeCommandOptions& o)
     const double loadSeconds = watch.lap();
     Result<Baked> baked = Baked{};
     {
-        Progress progress(o.common, std::size_t(job->options.height), "rows");
+        Progress progress(o.common, std::size_t(job->options.height), "baking");
         baked = bake(job->low, job->high.front(), job->options, [&] { progress.step(); });
     }
     if (!baked)
@@ -165,6 +169,8 @@ Command addBakeCommand(CLI::App& app)
     addMemoryOption(*c, o->memory);
     c->add_option("--verify", o->verify, "folder: draw the low mesh with the map and compare with the high one")->type_name("DIR");
     c->add_option("--device", o->device, "draws for --verify: auto, reference, or a part of a Vulkan device's name")->type_name("DEVICE")->capture_default_str();
+    addExamples(*c, {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
+                     "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"});
     return {c, [o] { return run(*o); }};
 }
 

@@ -11,6 +11,7 @@
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "painter.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -64,6 +65,8 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
     if (Status loaded = (*painter)->load(scene); !loaded)
         return loaded.error();
     auto views = nlohmann::ordered_json::array();
+    Progress progress(o.common, kViews, "drawing and comparing");
+    (*painter)->progress = progress.within();
     std::vector<float> all;
     for (int i = 0; i < kViews; ++i) {
         View view;

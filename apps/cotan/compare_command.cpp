@@ -10,6 +10,7 @@
 #include "cotan/report/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -91,6 +92,8 @@ Status run(const Options& o)
         return painter.error();
     Stopwatch watch;
     std::array<Drawn, 2> drawn;
+    Progress progress(o.common, 8, "drawing"); // four pictures each
+    (*painter)->progress = progress.within();
     for (std::size_t k = 0; k < 2; ++k) {
         auto d = drawAll(**painter, picture->view, (*pair)[k]);
         if (!d)
@@ -144,6 +147,8 @@ Command addCompareCommand(CLI::App& app)
     addPictureOptions(*command, options->picture);
     command->add_option("--frames", options->frames, "the two frames, from: " + frameNames())
         ->type_name("A,B")->capture_default_str();
+    addExamples(*command, {"cotan compare model.glb --frames cotangent,mikktspace -o difference",
+                           "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"});
     return {command, [options] { return run(*options); }};
 }
 

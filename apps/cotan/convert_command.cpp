@@ -51,11 +51,11 @@ Result<Frame> frameFor(const char* option, const std::string& text)
 Result<FramePair> checkUsage(const Options& o)
 {
     if (o.to.empty())
-        return usageError("convert: expected --to FRAME; found none");
-    const auto from = frameFor("--from", o.from);
+        return usageError("convert: expected --to-frame FRAME; found none");
+    const auto from = frameFor("--from-frame", o.from);
     if (!from)
         return from.error();
-    const auto to = frameFor("--to", o.to);
+    const auto to = frameFor("--to-frame", o.to);
     if (!to)
         return to.error();
     if (o.common.output.empty())
@@ -147,7 +147,7 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
         return inputError(fmt::format("{}: {}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", o.model, job.name,
                                       copies, kMostCopies));
     const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
-    Progress progress(o.common, std::size_t(map->height), "rows of " + job.name);
+    Progress progress(o.common, std::size_t(map->height), "converting " + job.name);
     const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
     auto png = encodePng(r.image);
     if (!png)
@@ -277,10 +277,12 @@ Command addConvertCommand(CLI::App& app)
     CLI::App* command = app.add_subcommand("convert", "make a glTF model's normal maps for another frame, and drop the tangents");
     addCommonOptions(*command, options->common, "the converted model, .glb or .gltf");
     command->add_option("MODEL", options->model, "glTF or GLB file")->required();
-    command->add_option("--from", options->from, "frame that the maps were made for")->type_name("FRAME")->capture_default_str();
-    command->add_option("--to", options->to, "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it")
+    command->add_option("--from-frame", options->from, "frame that the maps were made for")->type_name("FRAME")->capture_default_str();
+    command->add_option("--to-frame", options->to, "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it")
         ->type_name("FRAME");
-    command->add_option("--tangents", options->tangents, "for --from mikktspace or vertex: stored (as in the file, generated where missing) or generated")
+    addOlderName(*command, "--from", "--from-frame", options->from);
+    addOlderName(*command, "--to", "--to-frame", options->to);
+    command->add_option("--tangents", options->tangents, "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
     command->add_flag("--keep-tangents", options->keepTangents, "leave TANGENT where it is");
     command->add_option("--bits", options->bits, "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)")
@@ -290,6 +292,8 @@ Command addConvertCommand(CLI::App& app)
         ->type_name("FOLDER");
     command->add_option("--device", options->device, "for --verify: auto, reference, or a part of a Vulkan device's name")
         ->type_name("DEVICE")->capture_default_str();
+    addExamples(*command, {"cotan convert model.glb --to-frame smooth -o out.glb",
+                           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check"});
     return {command, [options] { return run(*options); }};
 }
 

@@ -4,6 +4,7 @@
 
 #include "cotan/asset/extension.hpp"
 #include "cotan/asset/load.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -27,6 +28,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)
 {
+    const Progress loading(common, 0, "loading " + model);
     LoadLimits limits;
     limits.pixels = Pixels::none;
     auto scene = loadGltf(model, limits);

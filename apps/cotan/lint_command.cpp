@@ -8,6 +8,7 @@
 #include "lint_report.hpp"
 #include "memory_limit.hpp"
 #include "normal_map_option.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -104,7 +105,10 @@ Status run(const Options& o)
     if (Status planned = planOutputs(o.common, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadSceneWithin(o.memory, o.model, Pixels::whereReadable);
+    auto scene = [&] {
+        const Progress loading(o.common, 0, "loading " + o.model);
+        return loadSceneWithin(o.memory, o.model, Pixels::whereReadable);
+    }();
     if (!scene)
         return scene.error();
     if (Status applied = applyNormalMap(o.normalMap, o.memory, *scene); !applied)
@@ -112,7 +116,9 @@ Status run(const Options& o)
     for (const std::string& line : scene->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
-    const LintReport report = lintScene(*scene, {o.distance});
+    auto progress = std::make_unique<Progress>(o.common, 1, "measuring " + o.model);
+    const LintReport report = lintScene(*scene, {o.distance, progress->within()});
+    progress.reset();
     const std::string command = commandFor(o, report);
     const std::vector<std::string> over = exceeded(o, report), verdict = verdictLines(o.model, report, command);
     for (const std::string& line : verdict)
@@ -174,6 +180,8 @@ Command addLintCommand(CLI::App& app)
     command->add_option("--frame", options->frame, "for --limit: cotangent, orthonormal, smooth, exact or stored")
         ->check(CLI::IsMember({"cotangent", "orthonormal", "smooth", "exact", "stored"}))->type_name("NAME")
         ->capture_default_str();
+    addExamples(*command, {"cotan lint model.glb",
+                           "cotan lint model.glb --distance 3 --json report.json"});
     return {command, [options] { return run(*options); }};
 }
 

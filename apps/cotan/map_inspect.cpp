@@ -196,6 +196,7 @@ Command addMapInfo(CLI::App& map)
     CLI::App* command = map.add_subcommand("info", "what a map is: lengths, tilt, centre, channels, what is wrong");
     addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
+    addExamples(*command, {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"});
     return inspect(command, options, runInfo);
 }
 
@@ -205,6 +206,7 @@ Command addMapDetect(CLI::App& map)
     CLI::App* command = map.add_subcommand("detect", "which way green points, and how sure that is");
     addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
+    addExamples(*command, {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"});
     return inspect(command, options, runDetect);
 }
 

@@ -8,6 +8,7 @@
 #include "cotan/asset/geometry.hpp"
 #include "cotan/asset/shapes.hpp"
 #include "parse.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -97,6 +98,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {
+        const Progress loading(common, 0, "loading " + options.model);
         auto scene = loadSceneWithin(options.memory, options.model);
         if (!scene)
             return scene.error();

@@ -9,6 +9,7 @@
 #include "cotan/report/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -97,9 +98,12 @@ Status run(const Options& o)
         return painter.error();
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     nlohmann::ordered_json report = {{"command", "render"}};
+    auto progress = std::make_unique<Progress>(o.common, o.show == "error" ? 2 : 1, "drawing");
+    (*painter)->progress = progress->within();
     auto image = drawPicture(**painter, picture->view, drawsNormalMaps(picture->scene) && picture->view.normalMaps, o, report);
     if (!image)
         return image.error();
+    progress.reset();
     const double drawSeconds = watch.lap();
     if (Status written = writeImage(o.common.output, *image); !written)
         return written;
@@ -134,6 +138,8 @@ Command addRenderCommand(CLI::App& app)
                         "shaded, normal, tangent, bitangent, uv, depth, or error: degrees from the frame exact")
         ->check(CLI::IsMember({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"}))
         ->type_name("NAME")->capture_default_str();
+    addExamples(*command, {"cotan render model.glb -o picture.png --frame cotangent --view normal",
+                           "cotan render --size 640x360 -o scene.png"});
     return {command, [options] { return run(*options); }};
 }
 

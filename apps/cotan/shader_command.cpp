@@ -191,6 +191,8 @@ Command addShaderCommand(CLI::App& app)
                      "ray tracing, vertex stages)")
         ->type_name("WHO")
         ->capture_default_str();
+    addExamples(*command, {"cotan shader --lang wgsl -o normal.wgsl",
+                           "cotan shader --lang glsl --preset unity --set blend,light"});
     return {command, [o] { return run(*o); }};
 }
 

@@ -12,6 +12,7 @@
 #include "cotan/report/angles.hpp"
 #include "painter.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -63,6 +64,8 @@ Result<std::vector<Image>> drawNormals(const Side& side, const std::array<Camera
     if (Status loaded = (*painter)->load(*scene); !loaded)
         return loaded.error();
     device = (*painter)->device();
+    Progress progress(common, kViews, fmt::format("drawing {}", side.file.string()));
+    (*painter)->progress = progress.within();
     std::vector<Image> images;
     for (const Camera& camera : used) {
         View view;

@@ -53,6 +53,7 @@ struct Output {
     Identity identity;
     std::string option, name;
     State state = State::planned;
+    bool refused = false; // a reader was told so, and may have gone on without what he could not read
 };
 
 struct Account {
@@ -127,10 +128,11 @@ Status noteInput(const fs::path& file)
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)
         return Done{};
-    for (const Output& output : all.outputs)
+    for (Output& output : all.outputs)
         if (output.identity == *identity) {
             if (output.state == State::done)
                 return Done{};
+            output.refused = true;
             return replaces(all, output, file.string());
         }
     for (const Input& input : all.inputs)
@@ -147,10 +149,10 @@ Status beginOutput(const fs::path& file)
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity)
         return Done{};
-    if (all.refusal) // and somebody went on without what he could not read
-        return *all.refusal;
     for (Output& output : all.outputs)
         if (output.identity.place == identity->place && output.state == State::planned) {
+            if (output.refused)
+                return *all.refusal;
             output.state = State::begun;
             return Done{};
         }

@@ -168,6 +168,9 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
     const auto placed = placings(scene);
+    std::size_t all = 0, done = 0; // triangles
+    for (const Mesh& mesh : scene.meshes)
+        all += mesh.triangleCount();
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -179,6 +182,9 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
         }
+        done += mesh.triangleCount();
+        if (options.progress)
+            options.progress(double(done) / double(std::max<std::size_t>(all, 1)));
     }
     addOverlaps(report, uses);
     addMaps(report, scene);

@@ -2,6 +2,7 @@
 // drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -119,6 +120,7 @@ Frame frameOf(Advice advice);
 
 struct LintOptions {
     double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
+    std::function<void(double)> progress{}; // gets the share that is done
 };
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
