@@ -164,7 +164,7 @@ TEST_F(AssimpFile, objByteOrderMarkIsNoPartOfTheFirstLine)
 TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
 {
     const std::pair<std::string, std::string> cases[] = {
-        {"v 0 0\n", "line 1: expected 3 to 7 numbers, found 2"},
+        {"v 0 0\n", "line 1: expected 3, 4, 6 or 7 numbers, found 2"},
         {"v 0 0 0\r\nv 0 \\\r\n0 0\r\nv 1 2 x\r\n",
          "line 4: expected a finite number, found \"x\""},
         {"v 0 0 inf\n", "found \"inf\""},

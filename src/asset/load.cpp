@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kAssimpExtensions = {".obj", ".ply", ".stl",
-                                                               ".dae", ".fbx", ".3ds"};
+constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx",
+                                                               ".3ds"};
 
 } // namespace
 
@@ -28,6 +28,8 @@ Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
+    if (extension == ".obj")
+        return loadObj(file, limits);
     if (std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end())
         return loadWithAssimp(file, limits);
     return inputError(fmt::format(

@@ -1,0 +1,159 @@
+#include "polygon_triangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace cotan {
+
+namespace {
+
+using Index = std::uint32_t;
+
+// The corners seen along the axis that the mean normal (Newell's) is nearest to, from the side from
+// which they run counter-clockwise. Empty: the polygon has no area.
+std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
+{
+    const glm::dvec3 origin(corners[0]);
+    glm::dvec3 normal(0);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        normal += glm::cross(glm::dvec3(corners[i]) - origin, glm::dvec3(corners[i + 1]) - origin);
+    const glm::dvec3 size = glm::abs(normal);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    if (!(size[axis] > 0))
+        return {};
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    std::vector<glm::dvec2> flat;
+    flat.reserve(corners.size());
+    for (const glm::vec3& corner : corners) {
+        const glm::dvec3 p = glm::dvec3(corner) - origin;
+        flat.emplace_back(p[first], p[second]);
+        if (normal[axis] < 0)
+            std::swap(flat.back().x, flat.back().y);
+    }
+    return flat;
+}
+
+// Twice the area of a triangle, positive where it runs counter-clockwise.
+double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// How much may lie in an ear. Each is tried when none is found under the one before, which happens
+// only where the polygon crosses or touches itself.
+enum class Ear { empty, emptyInside, convex, any };
+
+class Clipper {
+public:
+    Clipper(std::vector<glm::dvec2> flat, std::size_t& stepsLeft)
+        : flat_(std::move(flat)), next_(flat_.size()), before_(flat_.size()), gone_(flat_.size()),
+          stepsLeft_(stepsLeft)
+    {
+        const auto n = Index(flat_.size());
+        for (Index i = 0; i < n; ++i) {
+            next_[i] = (i + 1) % n;
+            before_[i] = (i + n - 1) % n;
+        }
+        for (Index i = 0; i < n; ++i)
+            if (!(turnAt(i) > 0))
+                notConvex_.push_back(i);
+    }
+
+    bool isConvex() const { return notConvex_.empty(); }
+
+    bool cut(std::vector<Index>& triangles)
+    {
+        Index at = 0;
+        std::size_t corners = flat_.size(), tried = 0;
+        for (Ear ear = Ear::empty; corners > 3;) {
+            if (stepsLeft_ == 0)
+                return false;
+            if (isEar(at, ear)) {
+                triangles.insert(triangles.end(), {before_[at], at, next_[at]});
+                clip(at);
+                --corners;
+                at = next_[next_[at]]; // leaving one out makes fewer slivers
+                tried = 0;
+                ear = Ear::empty;
+            } else {
+                at = next_[at];
+                if (++tried > corners) {
+                    ear = Ear(int(ear) + 1);
+                    tried = 0;
+                }
+            }
+        }
+        triangles.insert(triangles.end(), {before_[at], at, next_[at]});
+        return true;
+    }
+
+private:
+    double turnAt(Index i) const { return turn(flat_[before_[i]], flat_[i], flat_[next_[i]]); }
+
+    void clip(Index i)
+    {
+        gone_[i] = true;
+        next_[before_[i]] = next_[i];
+        before_[next_[i]] = before_[i];
+    }
+
+    bool isEar(Index i, Ear ear)
+    {
+        --stepsLeft_;
+        if (ear == Ear::any)
+            return true;
+        if (!(turnAt(i) > 0))
+            return false;
+        return ear == Ear::convex || !anyInside(i, /*rimToo*/ ear == Ear::empty);
+    }
+
+    // Whether a corner that does not turn outwards lies in the ear at i. If any corner does, one of
+    // those does. Corners at the same place as one of the ear's do not count.
+    bool anyInside(Index i, bool rimToo)
+    {
+        const glm::dvec2 a = flat_[before_[i]], b = flat_[i], c = flat_[next_[i]];
+        const glm::dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+        for (std::size_t k = 0; k < notConvex_.size() && stepsLeft_ > 0; --stepsLeft_) {
+            const Index other = notConvex_[k];
+            const glm::dvec2 p = flat_[other];
+            if (gone_[other] || turnAt(other) > 0) { // as the polygon shrinks, corners become convex
+                notConvex_[k] = notConvex_.back();
+                notConvex_.pop_back();
+                continue;
+            }
+            ++k;
+            if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || p == a || p == b || p == c)
+                continue;
+            const double nearest = std::min({turn(a, b, p), turn(b, c, p), turn(c, a, p)});
+            if (nearest > 0 || (rimToo && nearest == 0))
+                return true;
+        }
+        return false;
+    }
+
+    std::vector<glm::dvec2> flat_;
+    std::vector<Index> next_, before_;
+    std::vector<bool> gone_;
+    std::vector<Index> notConvex_; // and some that have become so, or are gone
+    std::size_t& stepsLeft_;
+};
+
+} // namespace
+
+bool cutPolygon(std::span<const glm::vec3> corners, std::vector<Index>& triangles, std::size_t& stepsLeft)
+{
+    std::vector<glm::dvec2> flat;
+    if (corners.size() > 3)
+        flat = flatten(corners);
+    if (!flat.empty())
+        if (Clipper clipper(std::move(flat), stepsLeft); !clipper.isConvex())
+            return clipper.cut(triangles);
+    for (Index i = 1; i + 1 < corners.size(); ++i)
+        triangles.insert(triangles.end(), {0, i, i + 1});
+    return true;
+}
+
+} // namespace cotan
