@@ -432,6 +432,53 @@ TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
     EXPECT_NE(problem("a.ply", "hello"), "");
 }
 
+std::string plyHeader(const std::string& format, const std::string& rest)
+{
+    return "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + rest
+        + "end_header\n";
+}
+
+// `bytes` of a number, the lowest first or last.
+std::string plyNumber(std::uint64_t value, int bytes, bool bigEndian)
+{
+    std::string text;
+    for (int i = 0; i < bytes; ++i)
+        text += char(value >> (8 * (bigEndian ? bytes - 1 - i : i)));
+    return text;
+}
+
+TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
+{
+    const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";
+    for (const bool big : {false, true}) {
+        const std::string format = big ? "binary_big_endian" : "binary_little_endian";
+        std::string vertices;
+        for (const float f : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &f, 4);
+            vertices += plyNumber(bits, 4, big);
+        }
+        const auto face = [&](std::uint64_t count) {
+            return "x" + plyNumber(count, 4, big) + plyNumber(0, 4, big) + plyNumber(1, 4, big) + plyNumber(2, 4, big);
+        };
+        const std::string head = plyHeader(format, faces) + vertices;
+        EXPECT_EQ(problem("a.ply", head + face(3) + face(3)), "") << format;
+        EXPECT_NE(problem("b.ply", head + face(3) + face(1'500'000'000)).find("1500000000 values are promised"), std::string::npos);
+        EXPECT_NE(problem("c.ply", head + face(4) + face(3)).find("values are promised"), std::string::npos);
+        EXPECT_NE(problem("d.ply", head + face(3) + face(3).substr(0, 16)).find("values are promised"), std::string::npos);
+        EXPECT_NE(problem("e.ply", head + face(3) + "x").find("the file ends"), std::string::npos);
+        const std::string small = plyHeader(format, "element face 1\nproperty list char int vertex_indices\n") + vertices;
+        EXPECT_NE(problem("f.ply", small + "\xff" + std::string(12, '\0')).find("values are promised"), std::string::npos); // -1
+    }
+    const std::string text = plyHeader("ascii", faces) + "0 0 0\n1 0 0\r\n\n0 1 0\n";
+    EXPECT_EQ(problem("g.ply", text + "7 3 0 1 2\n7 3 2 1 0"), "");
+    EXPECT_NE(problem("h.ply", text + "7 3 0 1 2\n7 1500000000 0 1 2\n").find("their line has 3"), std::string::npos);
+    EXPECT_NE(problem("i.ply", text + "7 3 0 1\n2 7 3 2 1 0\n").find("3 values are promised, their line has 2"), std::string::npos);
+    EXPECT_NE(problem("j.ply", text + "7 -3 0 1 2\n7 3 0 1 2\n").find("expected the count of a list"), std::string::npos);
+    EXPECT_NE(problem("k.ply", text + "7 3 0 1 2\n").find("the file ends"), std::string::npos);
+    EXPECT_NE(problem("l.ply", plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n")), "");
+}
+
 std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& numbers)
 {
     std::string text(80, ' ');
