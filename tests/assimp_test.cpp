@@ -464,7 +464,7 @@ TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
         const std::string head = plyHeader(format, faces) + vertices;
         EXPECT_EQ(problem("a.ply", head + face(3) + face(3)), "") << format;
         EXPECT_NE(problem("b.ply", head + face(3) + face(1'500'000'000)).find("1500000000 values are promised"), std::string::npos);
-        EXPECT_NE(problem("c.ply", head + face(4) + face(3)).find("values are promised"), std::string::npos);
+        EXPECT_NE(problem("c.ply", head + face(3) + face(4)).find("values are promised"), std::string::npos);
         EXPECT_NE(problem("d.ply", head + face(3) + face(3).substr(0, 16)).find("values are promised"), std::string::npos);
         EXPECT_NE(problem("e.ply", head + face(3) + "x").find("the file ends"), std::string::npos);
         const std::string small = plyHeader(format, "element face 1\nproperty list char int vertex_indices\n") + vertices;

@@ -112,8 +112,8 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
     const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
     const std::size_t scans = countScans(bytes);
     if (scans > kMostScans || scans * pixels > kMostScannedPixels)
-        return inputError(fmt::format("{}: {} scans of {} x {} pixels, the limit is {} scans and {} pixels in all", name,
-                                      scans, jpeg.image_width, jpeg.image_height, kMostScans, kMostScannedPixels));
+        return inputError(fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels", name,
+                                      kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
     std::size_t coefficients = 0;
     for (int c = 0; c < jpeg.num_components; ++c)
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
