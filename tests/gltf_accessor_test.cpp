@@ -362,4 +362,45 @@ TEST(GltfSkin, inverseBindMatricesMayStandBehindAnOffset)
     EXPECT_EQ(mesh.positions[3], glm::vec3(100, 2, 0));
 }
 
+// Weights that do not add up to one are taken as shares.
+TEST(GltfSkin, weightsAreSharesOfTheirSum)
+{
+    Gltf g = square();
+    primitive(g)["attributes"]["JOINTS_0"] =
+        g.accessor(std::vector<std::uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", kUByte);
+    primitive(g)["attributes"]["WEIGHTS_0"] =
+        g.floats({0.1f, 0.3f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    g.add("nodes", {{"translation", {8, 0, 0}}});
+    g.add("nodes", {{"translation", {0, 4, 0}}});
+    g.add("skins", {{"joints", {1, 2}}});
+    g.root["nodes"][0]["skin"] = 0;
+    g.root["scenes"][0]["nodes"] = {0, 1, 2};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_LT(glm::length(scene.meshes.at(0).positions[0] - glm::vec3(2, 3, 0)), 1e-5f);
+}
+
+TEST(GltfMorph, eachTargetHasItsOwnWeight)
+{
+    Gltf g = square();
+    const std::vector<float> right = {1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, up = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    primitive(g)["targets"] = {{{"POSITION", g.floats(right, "VEC3")}}, {{"POSITION", g.floats(up, "VEC3")}}};
+    g.root["meshes"][0]["weights"] = {0.5, 0.25};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.meshes.at(0).positions[2], glm::vec3(1.5f, 1.25f, 0));
+}
+
+// The corners of a grid of signed bytes are up to 0.0069 off, and are left alone.
+TEST(GltfNormals, lengthsWithinOneHundredthAreUnit)
+{
+    for (const auto& [length, said] : {std::pair(1.008f, false), std::pair(0.992f, false), std::pair(1.05f, true), std::pair(0.95f, true)}) {
+        Gltf g = square();
+        std::vector<float> normals = kSquareNormals;
+        normals[2] = length;
+        primitive(g)["attributes"]["NORMAL"] = g.floats(normals, "VEC3");
+        COTAN_LOADED(scene, g.load());
+        EXPECT_EQ(warns(scene, "not of unit length"), said) << length;
+        EXPECT_EQ(scene.meshes.at(0).normals[0], glm::vec3(0, 0, 1));
+    }
+}
+
 } // namespace

@@ -252,6 +252,16 @@ TEST_F(PictureFile, tiffPaletteBecomesColours)
             EXPECT_EQ(component(*image, x, 1, c), t.value(x, 1, 0) * (c + 2) % 256) << x << ' ' << c;
 }
 
+// Grey and alpha, of odd width.
+TEST_F(PictureFile, tiffOfTwoChannelsIsGreyAndAlpha)
+{
+    const Tiff t{.width = 5, .height = 3, .channels = 2, .bits = 16, .bigEndian = true, .rowsPerStrip = 2};
+    const auto image = decodeImage(bytesOf(TiffWriter(t).make()), "a.tif");
+    ASSERT_TRUE(image) << image.error().message;
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(component(*image, 4, 2, c), t.value(4, 2, c == 3 ? 1 : 0)) << c;
+}
+
 TEST_F(PictureFile, tiffCutAnywhereIsRefused)
 {
     for (const Tiff& t : tiffs())
