@@ -7,21 +7,11 @@
 #include <type_traits>
 
 #include "gltf_model.hpp"
+#include "gltf_runs.hpp"
 
 namespace cotan {
 
 namespace {
-
-std::size_t componentSize(int type)
-{
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-    default: return 4;
-    }
-}
 
 const char* componentName(int type)
 {
@@ -48,84 +38,12 @@ const char* elementName(int type)
     }
 }
 
-std::size_t componentCount(const tinygltf::Accessor& a)
-{
-    return static_cast<std::size_t>(
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)));
-}
-
-// Columns of matrices of bytes and shorts are padded to four bytes.
-std::size_t elementSize(const tinygltf::Accessor& a)
-{
-    const std::size_t size = componentSize(a.componentType);
-    if (a.type == TINYGLTF_TYPE_MAT2 && size == 1)
-        return 8;
-    if (a.type == TINYGLTF_TYPE_MAT3 && size < 4)
-        return size == 1 ? 12 : 24;
-    return size * componentCount(a);
-}
-
-// A run of equally spaced elements.
-struct Run {
-    const std::byte* first = nullptr; // null: all zero
-    std::size_t stride = 0;
-    std::size_t count = 0;
-};
-
-// Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
-// strides at most 252, so nothing here overflows 64 bits.
-Run runIn(const GltfModel& model, int view, std::size_t offset, std::size_t stride,
-          std::size_t size, std::size_t count, const std::string& field)
-{
-    const std::span<const std::byte> bytes = gltfView(model, view);
-    if (stride < size)
-        failGltf("{}: expected a stride of at least {} bytes, found {}", field, size, stride);
-    if (count > 0 && offset + stride * (count - 1) + size > bytes.size())
-        failGltf("{}: {} elements end at byte {} of bufferViews[{}], which has {}", field, count,
-                 offset + stride * (count - 1) + size, view, bytes.size());
-    return {bytes.data() + std::min(offset, bytes.size()), stride, count};
-}
-
-Run denseRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    if (a.bufferView < 0)
-        return {nullptr, 0, a.count};
-    const std::size_t stride =
-        model.tiny.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
-    const std::size_t size = elementSize(a);
-    return runIn(model, a.bufferView, a.byteOffset, stride > 0 ? stride : size, size, a.count,
-                 field);
-}
-
-Run sparseIndexRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    const std::size_t size = componentSize(a.sparse.indices.componentType);
-    return runIn(model, a.sparse.indices.bufferView,
-                 static_cast<std::size_t>(a.sparse.indices.byteOffset), size, size,
-                 static_cast<std::size_t>(a.sparse.count), field + ".sparse.indices");
-}
-
-Run sparseValueRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    const std::size_t size = elementSize(a);
-    return runIn(model, a.sparse.values.bufferView,
-                 static_cast<std::size_t>(a.sparse.values.byteOffset), size, size,
-                 static_cast<std::size_t>(a.sparse.count), field + ".sparse.values");
-}
-
-std::uint32_t readIndex(const std::byte* at, int componentType)
-{
-    std::uint32_t value = 0;
-    std::memcpy(&value, at, componentSize(componentType)); // little-endian, as the file
-    return value;
-}
-
 void checkSparse(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
 {
     if (static_cast<std::size_t>(a.sparse.count) > a.count)
         failGltf("{}.sparse.count: expected at most {}, the accessor's count, found {}", field,
                  a.count, a.sparse.count);
-    const Run run = sparseIndexRun(model, a, field);
+    const GltfRun run = sparseIndexRun(model, a, field);
     sparseValueRun(model, a, field);
     std::uint32_t before = 0;
     for (std::size_t i = 0; i < run.count; ++i) {
@@ -141,7 +59,7 @@ void checkSparse(const GltfModel& model, const tinygltf::Accessor& a, const std:
     }
 }
 
-void checkFinite(const Run& run, std::size_t components, const std::string& field)
+void checkFinite(const GltfRun& run, std::size_t components, const std::string& field)
 {
     if (!run.first)
         return;
@@ -191,7 +109,7 @@ struct Move {
 
 // Converts `count` elements; move(i): the i-th of them. room: numbers that an element of `out` has.
 template<class Stored, class Out, class MoveOf>
-void convertRun(const Run& run, std::size_t components, bool normalized, std::size_t count,
+void convertRun(const GltfRun& run, std::size_t components, bool normalized, std::size_t count,
                 const MoveOf& move, Out* out, std::size_t room)
 {
     for (std::size_t i = 0; i < count; ++i) {
@@ -206,7 +124,7 @@ void convertRun(const Run& run, std::size_t components, bool normalized, std::si
 }
 
 template<class Out, class MoveOf>
-void convertAny(const Run& run, const tinygltf::Accessor& a, std::size_t count, const MoveOf& move,
+void convertAny(const GltfRun& run, const tinygltf::Accessor& a, std::size_t count, const MoveOf& move,
                 Out* out, std::size_t room)
 {
     const auto as = [&](auto stored) {
@@ -224,7 +142,7 @@ void convertAny(const Run& run, const tinygltf::Accessor& a, std::size_t count, 
 }
 
 // Which sparse values go where, of those that are chosen. The indices rise: checkSparse.
-std::vector<Move> sparseMoves(const Run& indices, int componentType, const GltfChoice& choice)
+std::vector<Move> sparseMoves(const GltfRun& indices, int componentType, const GltfChoice& choice)
 {
     const auto indexAt = [&](std::size_t i) {
         return readIndex(indices.first + i * indices.stride, componentType);
@@ -255,7 +173,7 @@ template<class Out>
 void readElements(const GltfModel& model, const tinygltf::Accessor& a, std::size_t room, Out* out,
                   const GltfChoice& choice, const std::string& field)
 {
-    const Run run = denseRun(model, a, field);
+    const GltfRun run = denseRun(model, a, field);
     const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
     if (run.first)
         convertAny(run, a, choice.size(), dense, out, room);
@@ -339,7 +257,7 @@ void checkGltfAccessors(const GltfModel& model)
     for (std::size_t i = 0; i < model.tiny.accessors.size(); ++i) {
         const tinygltf::Accessor& a = model.tiny.accessors[i];
         const std::string field = fmt::format("accessors[{}]", i);
-        const Run run = denseRun(model, a, field);
+        const GltfRun run = denseRun(model, a, field);
         total += a.count * elementSize(a);
         if (total > most)
             failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}",
