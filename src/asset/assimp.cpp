@@ -20,8 +20,7 @@
 #include "collada_check.hpp"
 #include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
-#include "model_folder.hpp"
-#include "obj_check.hpp"
+#include "source_material.hpp"
 #include "ply_check.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
@@ -51,7 +50,6 @@ struct Job {
     std::string extension; // lower case, with the dot
     const LoadLimits& limits;
     std::vector<std::byte> bytes;
-    ObjFacts obj; // of an OBJ
     FileRequests requests;
     Scene scene;
 
@@ -82,16 +80,6 @@ Status checkBytes(Job& job)
         return checkPly(job.bytes, job.name(), job.limits);
     if (job.extension == ".dae")
         return checkCollada(job.bytes, job.name());
-    if (job.extension != ".obj")
-        return Done{};
-    std::string text(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
-    job.bytes = {};
-    auto facts = checkObj(text, job.name(), job.limits);
-    if (!facts)
-        return facts.error();
-    job.obj = *std::move(facts);
-    const auto bytes = std::as_bytes(std::span(text));
-    job.bytes.assign(bytes.begin(), bytes.end());
     return Done{};
 }
 
@@ -158,7 +146,7 @@ Status checkCounts(const aiScene& source, const Job& job)
 
 void convertMaterials(const aiScene& source, Job& job)
 {
-    TextureReader textures(job.scene, source, job.folder, job.limits);
+    TextureReader textures(job.scene, &source, job.folder, job.limits);
     for (unsigned i = 0; i < source.mNumMaterials; ++i)
         job.scene.materials.push_back(convertMaterial(*source.mMaterials[i], textures, job.scene));
 }
@@ -177,23 +165,6 @@ int defaultMaterial(Scene& scene, int& cached)
         scene.materials.push_back(material);
     }
     return cached;
-}
-
-void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
-{
-    const Material& material = scene.materials[std::size_t(mesh.material)];
-    const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap,
-                                  &material.normalMap, &material.occlusionMap,
-                                  &material.emissiveMap};
-    for (const Texture* texture : all) {
-        if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
-            scene.warnings.push_back(fmt::format(
-                "mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
-                "normal map cannot show",
-                mesh.name, texture->texcoord, material.name));
-            return;
-        }
-    }
 }
 
 Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
@@ -218,37 +189,14 @@ Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
     return indexOf;
 }
 
-// An OBJ says which libraries it wants; Assimp asks for them under made-up names, too.
-void warnAboutLibraries(Job& job)
-{
-    for (const std::string& library : job.obj.libraries) {
-        bool outside = false;
-        if (!findInFolder(job.folder, library, outside))
-            job.scene.warnings.push_back(fmt::format(
-                "material library {} {}", library,
-                outside ? "is outside the model's folder; not opened" : "was not found"));
-    }
-}
-
 void warnAboutSource(const aiScene& source, Job& job)
 {
     auto& warnings = job.scene.warnings;
-    warnAboutLibraries(job);
-    if (job.extension != ".obj")
-        for (const std::string& file : job.requests.outside)
-            warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
+    for (const std::string& file : job.requests.outside)
+        warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
     for (const std::string& file : job.requests.tooLarge)
         warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file,
                                        job.limits.fileBytes));
-    if (job.obj.texcoords > 0 && job.obj.polygonsWithoutUv > 0)
-        warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; theirs are 0",
-                                       job.obj.polygonsWithoutUv, job.obj.polygons));
-    std::size_t triangles = 0;
-    for (unsigned i = 0; i < source.mNumMeshes; ++i)
-        triangles += source.mMeshes[i]->mNumFaces;
-    if (job.extension == ".obj" && triangles != job.obj.triangles)
-        warnings.push_back(fmt::format("the faces make {} triangles, {} could be cut from them",
-                                       job.obj.triangles, triangles));
     if (source.mNumLights > 0)
         warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit",
                                        source.mNumLights));
@@ -298,7 +246,7 @@ Result<Scene> load(Job& job)
 
 Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
 {
-    Job job{file, {}, {}, {}, limits, {}, {}, {}, {}};
+    Job job{file, {}, {}, {}, limits, {}, {}, {}};
     try {
         return load(job);
     } catch (const std::bad_alloc&) {

@@ -177,6 +177,24 @@ private:
 
 // ---- version and extensions -----------------------------------------------------------------
 
+// Before anything about structure: in version 1 the collections are objects, and the asset may be
+// missing.
+void refuseVersion1(const json& root)
+{
+    const json none = json::object();
+    const json& asset = root.contains("asset") ? root["asset"] : none;
+    if (asset.is_object() && asset.contains("version")) {
+        const json& version = asset["version"];
+        const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+        if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
+            failGltfVersion1("asset.version");
+        return;
+    }
+    for (const char* const collection : {"meshes", "nodes", "scenes", "accessors", "bufferViews"})
+        if (root.contains(collection) && root[collection].is_object())
+            failGltfVersion1(collection);
+}
+
 void checkVersion(const json& asset)
 {
     const std::string version = asset["version"];
@@ -231,6 +249,7 @@ void checkGltfShape(const json& root, const LoadLimits& limits, GltfWarnings& wa
     const Place top;
     if (!root.is_object())
         failGltf("JSON: expected an object, found {}", found(root));
+    refuseVersion1(root);
     Checker(root).fields(root, kRoot, top);
     checkVersion(root["asset"]);
     checkExtensions(root, limits.pixels, warnings);

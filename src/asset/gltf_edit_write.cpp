@@ -76,7 +76,8 @@ std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits
     return std::move(*bytes);
 }
 
-std::string mimeTypeOf(std::span<const std::byte> bytes, const std::string& field)
+// Empty: no picture that glTF knows.
+std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
     const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
     if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
@@ -87,29 +88,30 @@ std::string mimeTypeOf(std::span<const std::byte> bytes, const std::string& fiel
         return "image/webp";
     if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
         return "image/ktx2";
-    failGltf("{}: expected PNG or JPEG data", field);
+    return {};
 }
 
+// An image file used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
-    std::map<fs::path, std::size_t> views; // an image file used twice is embedded once
+    std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
     for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
-        OrderedJson& image = document.root["images"][i];
-        if (!views.contains(file)) {
+        if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(file, limits);
-            image["mimeType"] = mimeTypeOf(bytes, fmt::format("images[{}]", i));
-            views[file] = addView(document, std::move(bytes));
-        } else if (!image.contains("mimeType")) {
-            image["mimeType"] = mimeTypeOf(viewBytes(document, views[file]),
-                                           fmt::format("images[{}]", i));
+            const std::string type = mimeTypeOf(bytes);
+            embedded[file] = nullptr;
+            if (!type.empty())
+                embedded[file] = {{"mimeType", type}, {"bufferView", addView(document, std::move(bytes))}};
         }
+        if (embedded[file].is_null())
+            continue;
         document.root["images"][i].erase("uri");
-        document.root["images"][i]["bufferView"] = views[file];
+        document.root["images"][i].update(embedded[file]);
     }
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
         if (isExternal(document.root["images"][i]))
             document.notes.push_back(fmt::format(
-                "images[{}]: \"{}\" is missing and stays a reference", i,
+                "images[{}]: \"{}\" is missing or no picture and stays a reference", i,
                 oneLine(document.root["images"][i]["uri"].get<std::string>())));
 }
 

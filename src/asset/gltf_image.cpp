@@ -150,28 +150,44 @@ void GltfMaterials::decodeImages()
             model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
 }
 
-void GltfMaterials::checkUnusedImages() const
+namespace {
+
+// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
+void lookAt(const GltfModel& model, int image)
 {
     // Signature, length and type, IHDR's 13 bytes, checksum.
     constexpr std::size_t kPngHeader = 33;
+    ImageSource source = findImage(model, image, /*mayMiss*/ true);
+    std::vector<std::byte> held;
+    if (!source.resource.file.empty()) {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(source.resource.file, error);
+        if (error || size == 0 || size >= kPngHeader)
+            return;
+        held = readImageFile(source.resource.file, model.limits);
+        source.bytes = held;
+    }
+    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
+        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+}
+
+} // namespace
+
+void GltfMaterials::checkUnusedImages() const
+{
     const json none = json::array();
     const json& file = model_.file.json;
     const json& images = file.contains("images") ? file["images"] : none;
     for (int i = 0; i < static_cast<int>(images.size()); ++i) {
         if (slots_.contains(i) && model_.limits.pixels != Pixels::none)
             continue;
-        ImageSource source = findImage(model_, i, /*mayMiss*/ true);
-        std::vector<std::byte> held;
-        if (!source.resource.file.empty()) {
-            std::error_code error;
-            const std::uintmax_t size = fs::file_size(source.resource.file, error);
-            if (error || size == 0 || size >= kPngHeader)
-                continue;
-            held = readImageFile(source.resource.file, model_.limits);
-            source.bytes = held;
+        try {
+            lookAt(model_, i);
+        } catch (const GltfProblem& problem) {
+            if (scene_.instances.empty()) // then the images are all that there is
+                throw;
+            model_.warnings.add(problem.message, "nothing uses this image, it is left out");
         }
-        if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
-            failGltf("{}: the PNG {} ends in its header", imageField(i), source.name);
     }
 }
 

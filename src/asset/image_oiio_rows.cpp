@@ -146,6 +146,9 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
     try {
+        OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
+        if (const auto problem = checkFileLayout(layout, format))
+            return broken(*problem);
         Input input = OIIO::ImageInput::create(format);
         if (!input)
             return broken(OIIO::geterror());

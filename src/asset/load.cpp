@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kAssimpExtensions = {".obj", ".ply", ".stl",
-                                                               ".dae", ".fbx", ".3ds"};
+constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx",
+                                                               ".3ds"};
 
 } // namespace
 
@@ -31,6 +31,8 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
+    if (extension == ".obj")
+        return loadObj(file, limits);
     if (std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end())
         return loadWithAssimp(file, limits);
     return inputError(fmt::format(

@@ -81,6 +81,8 @@ void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, 
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side)
 {
+    if (std::ranges::all_of(surfaces, [](const MappedSurface* s) { return s->uv.empty(); }))
+        return;
     double copies = 0;
     for (const MappedSurface* s : surfaces)
         copies += copiesUnder(*s);

@@ -53,7 +53,8 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene);
 // ---- geometry -------------------------------------------------------------------------------
 
 // One primitive as a triangle list. Attributes are as the file has them, dequantised but not
-// normalised; arrays are empty or have one entry a vertex. Morph targets and skins are not applied.
+// normalised; arrays are empty or have one entry a vertex. Vertices that no triangle uses are left
+// out. Morph targets and skins are not applied.
 struct GltfGeometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -63,7 +64,8 @@ struct GltfGeometry {
     int texcoordSet = 0;                // which uv set that is
 };
 
-// mesh, primitive: indices into `root`. Points and lines give a geometry without indices.
+// mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
+// empty geometry.
 // Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh,
                                   std::size_t primitive);

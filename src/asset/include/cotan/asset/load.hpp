@@ -23,20 +23,25 @@ struct LoadLimits {
     std::size_t vertices = 100'000'000;             // of all meshes together
     std::size_t triangles = 100'000'000;            // instances not multiplied
     std::size_t nodes = 1'000'000;
+    // glTF: what the vertices and triangles may take in memory beyond sixteen times the size of the
+    // file and its buffers. A few bytes can ask for any amount, by accessors without data and by
+    // primitives that share them.
+    std::size_t geometryBytes = std::size_t(64) << 20;
     int imageSide = 16384;                          // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
     std::size_t allImageBytes = std::size_t(8) << 30; // decoded, of all images of one model
     Pixels pixels = Pixels::all;                      // of a glTF model
 };
 
-// Reads a model: .gltf and .glb through tinygltf, everything else (.obj .ply .stl .dae .fbx .3ds)
+// Reads a model: .gltf and .glb through tinygltf, .obj, everything else (.ply .stl .dae .fbx .3ds)
 // through Assimp. What was odd but usable is said in Scene::warnings. Missing normals are
 // generated. Only files inside the model's own folder are opened.
 // Errors: ErrorKind::input with one line: file, field, expected, found. Never throws for bad input.
 Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
 
-// The two readers behind loadScene.
+// The three readers behind loadScene.
 Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits = {});
+Result<Scene> loadObj(const std::filesystem::path& file, const LoadLimits& limits = {});
 Result<Scene> loadWithAssimp(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 } // namespace cotan

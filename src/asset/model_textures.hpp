@@ -1,4 +1,4 @@
-// Images of models read by Assimp: found, decoded once, converted where they must be.
+// Images of models other than glTF: found, decoded once, converted where they must be.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,9 @@ namespace cotan {
 // Fills Scene::images. Whatever cannot be used becomes a warning and no image (-1).
 class TextureReader {
 public:
-    // folder: canonical. Everything passed must outlive this.
-    TextureReader(Scene& scene, const aiScene& source, const std::filesystem::path& folder,
+    // source: where embedded textures are; null: there are none. folder: canonical. Everything passed
+    // must outlive this.
+    TextureReader(Scene& scene, const aiScene* source, const std::filesystem::path& folder,
                   const LoadLimits& limits)
         : scene_(scene), source_(source), folder_(folder), limits_(limits)
     {
@@ -45,7 +46,7 @@ private:
     int add(Image image);
 
     Scene& scene_;
-    const aiScene& source_;
+    const aiScene* source_;
     const std::filesystem::path& folder_;
     const LoadLimits& limits_;
     std::size_t bytes_ = 0;            // of all images

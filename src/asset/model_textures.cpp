@@ -1,4 +1,4 @@
-#include "assimp_textures.hpp"
+#include "model_textures.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -44,7 +44,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
     if (bytes_ >= limits_.allImageBytes)
         return unusable(
             fmt::format("the images are over the limit of {} bytes", limits_.allImageBytes));
-    if (const aiTexture* texture = source_.GetEmbeddedTexture(path.c_str())) {
+    if (const aiTexture* texture = source_ ? source_->GetEmbeddedTexture(path.c_str()) : nullptr) {
         std::string problem;
         if (auto image = embedded(*texture, fmt::format("{} {}", scene_.name, path), problem))
             return add(*std::move(image));
