@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "cotan/asset/sandbox.hpp"
 
 namespace {
 
@@ -68,6 +69,9 @@ int runCommandLine(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    if (cotan::isReaderProcess(argc, argv))
+        return cotan::runReaderProcess();
+    cotan::sandboxByDefault({.program = "/proc/self/exe"});
     try {
         return runCommandLine(argc, argv);
     } catch (const std::bad_alloc&) {

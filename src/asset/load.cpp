@@ -9,6 +9,7 @@
 
 #include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
+#include "sandboxed.hpp"
 
 namespace cotan {
 
@@ -29,7 +30,7 @@ Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
     if (std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end())
-        return loadWithAssimp(file, limits);
+        return limits.sandbox.program.empty() ? loadWithAssimp(file, limits) : loadSandboxed(file, limits);
     return inputError(fmt::format(
         "{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
         file.string(), file.extension().string()));
