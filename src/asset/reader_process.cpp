@@ -22,7 +22,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kWallPerProcessor = 5; // other programs want the processor, too
+constexpr double kWallPerProcessor = 15; // other programs want the processor, too
 constexpr std::size_t kSaid = 4096;     // bytes of standard error that are kept
 
 std::string readerName(const ReaderRequest& request)
@@ -126,6 +126,8 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     const std::string program = request.limits.sandbox.program.string();
     if (const int problem = spawn(program, socket[1].get(), messages[1].get(), started->process_))
         return failed(problem);
+    socket[1].close(); // while one of the child's ends is ours, it never hangs up
+    messages[1].close();
     started->socket_ = std::move(socket[0]);
     started->messages_ = std::move(messages[0]);
     request.parent = ::getpid();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cotan/asset/load.hpp"
@@ -27,8 +28,9 @@ struct ReaderBudget {
 inline ReaderBudget budgetFor(const Sandbox& sandbox, std::size_t fileBytes, std::size_t decodedBytes)
 {
     constexpr double kMegabyte = 1 << 20;
+    const double start = 640 + 16 * std::thread::hardware_concurrency(); // libraries keep a thread for each
     const double file = double(fileBytes) / kMegabyte, decoded = double(decodedBytes) / kMegabyte;
-    return {sandbox.megabytes > 0 ? double(sandbox.megabytes) : std::min(640 + 64 * file + 6 * decoded, 8192.0),
+    return {sandbox.megabytes > 0 ? double(sandbox.megabytes) : std::min(start + 64 * file + 6 * decoded, 8192.0),
             sandbox.seconds > 0 ? sandbox.seconds : std::min(4 + 4 * file + 0.2 * decoded, 3600.0)};
 }
 

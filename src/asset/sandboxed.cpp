@@ -1,5 +1,7 @@
 #include "sandboxed.hpp"
 
+#include <new>
+
 #include <fmt/format.h>
 
 #include "file_bytes.hpp"
@@ -88,7 +90,7 @@ void sandboxByDefault(Sandbox sandbox) { ofProcess() = std::move(sandbox); }
 Sandbox defaultSandbox() { return ofProcess(); }
 
 Result<Scene> loadSandboxed(const std::filesystem::path& file, const LoadLimits& limits)
-{
+try {
     const auto size = usableFileSize(file, limits.fileBytes);
     if (!size)
         return size.error();
@@ -106,6 +108,8 @@ Result<Scene> loadSandboxed(const std::filesystem::path& file, const LoadLimits&
     if (Status within = checkLimits(scene, file.string(), limits); !within)
         return within.error();
     return scene;
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the model", file.string()));
 }
 
 Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
