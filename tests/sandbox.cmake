@@ -1,4 +1,5 @@
 # Readers in a child process. sandbox_child plays readers that misbehave.
+find_package(assimp REQUIRED)
 add_executable(sandbox_child sandbox_child.cpp)
 target_link_libraries(sandbox_child PRIVATE cotan_asset fmt::fmt cotan_warnings)
 target_include_directories(sandbox_child PRIVATE ${PROJECT_SOURCE_DIR}/src/asset)
