@@ -4,7 +4,7 @@ add_executable(sandbox_child sandbox_child.cpp)
 target_link_libraries(sandbox_child PRIVATE cotan_asset fmt::fmt cotan_warnings)
 target_include_directories(sandbox_child PRIVATE ${PROJECT_SOURCE_DIR}/src/asset)
 cotan_test(sandbox_test SOURCES sandbox_test.cpp sandbox_wire_test.cpp sandbox_formats_test.cpp
-  LIBRARIES cotan_asset assimp::assimp fmt::fmt)
+  LIBRARIES cotan_asset cotan_files assimp::assimp fmt::fmt)
 target_include_directories(sandbox_test PRIVATE ${PROJECT_SOURCE_DIR}/src/asset)
 target_compile_definitions(sandbox_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
   SANDBOX_CHILD="$<TARGET_FILE:sandbox_child>")

@@ -174,6 +174,19 @@ TEST(ColladaAccessors, reachNoFurtherThanTheirArray)
     }
 }
 
+TEST(SandboxTool, whatTheReaderOpensIsNotReplaced)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nmap_Kd c.png\n";
+    ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
+    const std::string before = readWhole(folder / "c.png");
+    const ToolRun run = runTool({"render", "m.obj", "-o", "c.png", "--device", "reference", "--size", "32x32"}, folder.path());
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_NE(run.err.find("-o c.png would replace"), std::string::npos) << run.err;
+    EXPECT_EQ(readWhole(folder / "c.png"), before);
+}
+
 TEST(SandboxTool, filesThatCrashedAReaderAreOneLine)
 {
     const std::filesystem::path found = std::filesystem::path(COTAN_SHARED_DATA) / "found";

@@ -13,6 +13,7 @@
 
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/image_rows.hpp"
+#include "cotan/files/account.hpp"
 #include "reader_confine.hpp"
 #include "reader_request.hpp"
 #include "scene_wire.hpp"
@@ -52,6 +53,7 @@ public:
         confine();
         setBudget();
         request_.limits.expect = [this](std::size_t bytes) { expect(bytes); };
+        watchInputs([this](const std::filesystem::path& file) { tell(file); });
         std::set_new_handler([] { ::_exit(kNoMemoryCode); });
     }
 
@@ -76,6 +78,15 @@ private:
         setBudget();
         answer_.choice(ReaderFrame::expect, ReaderFrame::error);
         answer_.number(std::uint64_t(bytes));
+        answer_.flush();
+    }
+
+    // The parent must not replace what we read.
+    void tell(const std::filesystem::path& file)
+    {
+        const std::lock_guard lock(mutex_);
+        answer_.choice(ReaderFrame::input, ReaderFrame::error);
+        answer_.text(file.string());
         answer_.flush();
     }
 

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "cotan/asset/extension.hpp"
+#include "cotan/files/account.hpp"
 
 namespace cotan {
 
@@ -147,8 +148,13 @@ Status ReaderProcess::await()
             decodedBytes_ += std::min(bytes, std::uint64_t(1) << 40);
             setDeadline();
         }
+        std::string input;
+        if (frame == ReaderFrame::input)
+            answer_.text(input);
         if (!answer_.good())
             return failure();
+        if (Status free = noteInput(input); !input.empty() && !free)
+            return free;
         if (frame == ReaderFrame::value)
             return Done{};
         if (frame == ReaderFrame::error) {

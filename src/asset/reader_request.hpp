@@ -73,6 +73,7 @@ template<class W, class T> void exchangeRequest(W& w, T& request)
 // How a frame begins.
 enum class ReaderFrame {
     expect, // a std::uint64_t: bytes that will be decoded
+    input,  // a text: a file that will be read
     value,  // what was asked for
     error,  // an Error
 };
