@@ -81,7 +81,8 @@ constexpr long kForbidden[] = {
     SYS_perf_event_open, SYS_userfaultfd, SYS_keyctl, SYS_add_key, SYS_request_key, SYS_mount, SYS_umount2, SYS_chroot,
     SYS_pivot_root, SYS_unshare, SYS_setns, SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat,
     SYS_setxattr, SYS_lsetxattr, SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr, SYS_shmget,
-    SYS_msgget, SYS_mq_open, SYS_setsid, SYS_setpgid,
+    SYS_shmat, SYS_msgget, SYS_mq_open, SYS_setsid, SYS_setpgid,
+    SYS_ioctl, // a terminal would take what is put into its input for the user's
 #ifdef SYS_fork // the old calls that newer machines do without
     SYS_fork, SYS_vfork, SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat,
 #endif
