@@ -130,7 +130,7 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
      }},
     {"leave", [](const ReaderRequest&) { std::exit(0); }},
     {"spin", [](const ReaderRequest& request) {
-         limitTo(budgetFor(request.limits.sandbox, 0, 0), budgetFor(request.limits.sandbox, SIZE_MAX, SIZE_MAX));
+         limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
          for (volatile bool busy = true; busy;)
              ;
      }},
@@ -153,7 +153,7 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
              ::pause();
      }},
     {"eat", [](const ReaderRequest& request) {
-         limitTo(budgetFor(request.limits.sandbox, 0, 0), budgetFor(request.limits.sandbox, SIZE_MAX, SIZE_MAX));
+         limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
          std::set_new_handler([] { ::_exit(kNoMemoryCode); });
          for (;;)
              std::memset(new char[1 << 20], 1, 1 << 20);

@@ -1,11 +1,13 @@
 // Bytes of another process that are not to be trusted.
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "cotan/asset/shapes.hpp"
+#include "reader_request.hpp"
 #include "scene_check.hpp"
 #include "scene_wire.hpp"
 
@@ -202,6 +204,30 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
             EXPECT_NE(found.error().message.find(expected), std::string::npos) << found.error().message;
         }
     }
+}
+
+TEST(ReaderBudget, growsWithTheFileItsPicturesAndWhatAPictureMayTake)
+{
+    constexpr std::size_t kMegabyte = 1 << 20;
+    LoadLimits limits;
+    const ReaderBudget start = budgetFor(limits, 0, 0);
+    EXPECT_GE(start.megabytes, 656);
+    EXPECT_EQ(start.seconds, 4);
+    const ReaderBudget larger = budgetFor(limits, 10 * kMegabyte, 20 * kMegabyte);
+    EXPECT_DOUBLE_EQ(larger.megabytes, start.megabytes + 64 * 10 + 6 * 20);
+    EXPECT_DOUBLE_EQ(larger.seconds, 4 + 4 * 10 + 0.2 * 20);
+    EXPECT_EQ(budgetFor(limits, SIZE_MAX, 0).megabytes, 8192);
+    EXPECT_EQ(budgetFor(limits, 0, SIZE_MAX).seconds, 3600);
+
+    limits.imageBytes = 6000 * kMegabyte; // as --memory sets it
+    EXPECT_DOUBLE_EQ(budgetFor(limits, 0, 0).megabytes, start.megabytes + 6000 - 640);
+    EXPECT_EQ(budgetFor(limits, SIZE_MAX, 0).megabytes, 12000);
+    limits.imageBytes = kMegabyte; // a reader's libraries need more than such a picture
+    EXPECT_EQ(budgetFor(limits, 0, 0).megabytes, start.megabytes);
+
+    limits.sandbox.megabytes = 100, limits.sandbox.seconds = 2;
+    EXPECT_EQ(budgetFor(limits, SIZE_MAX, SIZE_MAX).megabytes, 100);
+    EXPECT_EQ(budgetFor(limits, SIZE_MAX, SIZE_MAX).seconds, 2);
 }
 
 // Either refused, or a scene that can be looked at in every place.

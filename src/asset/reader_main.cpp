@@ -92,10 +92,10 @@ private:
 
     void setBudget() const
     {
-        const Sandbox& sandbox = request_.limits.sandbox;
-        ReaderBudget budget = budgetFor(sandbox, request_.fileBytes, decodedBytes_);
-        budget.seconds = budgetFor(sandbox, request_.fileBytes, decodedBytes_ + rowBytes_).seconds;
-        limitTo(budget, budgetFor(sandbox, SIZE_MAX, SIZE_MAX));
+        const LoadLimits& limits = request_.limits;
+        ReaderBudget budget = budgetFor(limits, request_.fileBytes, decodedBytes_);
+        budget.seconds = budgetFor(limits, request_.fileBytes, decodedBytes_ + rowBytes_).seconds;
+        limitTo(budget, budgetFor(limits, SIZE_MAX, SIZE_MAX));
     }
 
     template<class T, class F> void say(const Result<T>& result, F exchangeValue)

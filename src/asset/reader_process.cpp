@@ -103,10 +103,10 @@ std::string printable(std::string text, std::size_t most)
 }
 
 ReaderProcess::ReaderProcess(const ReaderRequest& request)
-    : sandbox_(request.limits.sandbox), name_(request.name), reader_(readerName(request)),
+    : limits_(request.limits), name_(request.name), reader_(readerName(request)),
       fileBytes_(request.fileBytes),
       answer_([this](std::span<std::byte> bytes) { return receive(bytes); },
-              std::uint64_t(budgetFor(sandbox_, SIZE_MAX, SIZE_MAX).megabytes) << 20),
+              std::uint64_t(budgetFor(limits_, SIZE_MAX, SIZE_MAX).megabytes) << 20),
       question_([this](std::span<const std::byte> bytes) { return send(bytes); })
 {
     setDeadline();
@@ -177,7 +177,7 @@ void ReaderProcess::restartClock()
 
 void ReaderProcess::setDeadline()
 {
-    const double seconds = kWallPerProcessor * budgetFor(sandbox_, fileBytes_, decodedBytes_).seconds;
+    const double seconds = kWallPerProcessor * budgetFor(limits_, fileBytes_, decodedBytes_).seconds;
     deadline_ = began_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
 }
 
@@ -267,7 +267,7 @@ void ReaderProcess::kill()
 
 Error ReaderProcess::failure()
 {
-    const ReaderBudget budget = budgetFor(sandbox_, fileBytes_, decodedBytes_);
+    const ReaderBudget budget = budgetFor(limits_, fileBytes_, decodedBytes_);
     const auto line = [&](const std::string& what) {
         const std::string first = printable(said_.substr(0, said_.find('\n')), 160);
         return inputError(fmt::format("{}: {} {}{}", name_, reader_, what, first.empty() ? "" : ": " + first));

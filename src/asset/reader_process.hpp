@@ -67,7 +67,7 @@ private:
     bool ended(int& status); // waits for the process within its time
     void kill();
 
-    Sandbox sandbox_;
+    LoadLimits limits_;
     std::string name_, reader_; // the file, and "the reader of FBX files"
     std::size_t fileBytes_, decodedBytes_ = 0;
     pid_t process_ = -1; // -1: none, or waited for

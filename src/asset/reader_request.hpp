@@ -24,13 +24,17 @@ struct ReaderBudget {
     double seconds = 0; // of processor
 };
 
-// Rates are some ten times what sound files need, so that nobody has to know about them.
-inline ReaderBudget budgetFor(const Sandbox& sandbox, std::size_t fileBytes, std::size_t decodedBytes)
+// Rates are some ten times what sound files need, so that nobody has to know about them. Whoever lets a picture take
+// more lets readers take as much.
+inline ReaderBudget budgetFor(const LoadLimits& limits, std::size_t fileBytes, std::size_t decodedBytes)
 {
     constexpr double kMegabyte = 1 << 20;
-    const double start = 640 + 16 * std::thread::hardware_concurrency(); // libraries keep a thread for each
+    const Sandbox& sandbox = limits.sandbox;
     const double file = double(fileBytes) / kMegabyte, decoded = double(decodedBytes) / kMegabyte;
-    return {sandbox.megabytes > 0 ? double(sandbox.megabytes) : std::min(start + 64 * file + 6 * decoded, 8192.0),
+    const double picture = std::max(double(limits.imageBytes) / kMegabyte, 640.0);
+    const double start = picture + 16 * std::thread::hardware_concurrency(); // libraries keep a thread for each
+    const double most = std::max(8192.0, 2 * picture);
+    return {sandbox.megabytes > 0 ? double(sandbox.megabytes) : std::min(start + 64 * file + 6 * decoded, most),
             sandbox.seconds > 0 ? sandbox.seconds : std::min(4 + 4 * file + 0.2 * decoded, 3600.0)};
 }
 
