@@ -21,18 +21,6 @@ namespace cotan {
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-#else
-constexpr bool kSanitized = false;
-#endif
-
 void setLimit(int what, rlim_t now, rlim_t most)
 {
     rlimit limit{};
@@ -156,7 +144,7 @@ void confine()
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         return;
     forbidChanges();
-    if (!kSanitized) // sanitizers look at us through another process when we end
+    if (!kSanitized) // these look at us through another process when we end
         forbidCalls();
 }
 
