@@ -113,6 +113,7 @@ TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
 
         auto rows = openRows(folder / name, inChild());
         ASSERT_TRUE(rows) << rows.error().message;
+        EXPECT_EQ((*rows)->name, (folder / name).string());
         EXPECT_EQ((*rows)->height, 50);
         EXPECT_TRUE((*rows)->alpha);
         std::vector<std::byte> all;
