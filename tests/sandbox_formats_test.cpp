@@ -11,6 +11,7 @@
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/image_rows.hpp"
 #include "cotan/asset/load.hpp"
+#include "cotan/files/account.hpp"
 #include "reader_confine.hpp"
 #include "run_tool.hpp"
 #include "scene_wire.hpp"
@@ -174,6 +175,26 @@ TEST(ColladaAccessors, reachNoFurtherThanTheirArray)
         EXPECT_EQ(found.empty(), expected.empty()) << accessor << ": " << found;
         EXPECT_NE(found.find(expected), std::string::npos) << accessor << ": " << found;
     }
+}
+
+TEST(SandboxFormats, filesThatTheReaderOpensCountAsOurInputs)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nmap_Kd c.png\n";
+    ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
+    for (const char* name : {"m.obj", "m.mtl", "c.png"}) {
+        guardInputs(/*overwrite*/ false);
+        ASSERT_TRUE(loadScene(folder / "m.obj", inChild()));
+        EXPECT_FALSE(planOutput("-o", folder / name)) << name;
+        guardInputs(/*overwrite*/ false);
+        ASSERT_TRUE(planOutput("-o", folder / name));
+        const auto scene = loadScene(folder / "m.obj", inChild());
+        ASSERT_FALSE(scene) << name;
+        EXPECT_EQ(scene.error().kind, ErrorKind::usage);
+        EXPECT_NE(scene.error().message.find(std::string(name) + ", which is read"), std::string::npos) << scene.error().message;
+    }
+    guardInputs(/*overwrite*/ true);
 }
 
 TEST(SandboxTool, whatTheReaderOpensIsNotReplaced)
