@@ -327,7 +327,7 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
                                               0.125 * step * std::cos(y * step) * depth, 1));
                 const std::uint16_t* c = map.words() + 4 * (y * side + x);
                 const glm::dvec3 found = glm::normalize(
-                    glm::dvec3(c[0], c[1], c[2]) / 65535.0 * (255.0 / 127) - 128.0 / 127);
+                    (glm::dvec3(c[0], c[1], c[2]) - 32768.0) / 32767.0);
                 worst = std::max(worst, glm::length(expected - found));
             }
         }

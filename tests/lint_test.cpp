@@ -222,12 +222,12 @@ TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
     for (Relief relief : {Relief::waves, Relief::domes, Relief::bricks}) {
         const GreenEvidence right = greenOf(makeReliefMap(relief, 256));
         // bricks: straight edges say nothing, the corners must do
-        EXPECT_TRUE(right.decided && right.asDeclared) << int(relief) << " " << right.correlation;
+        EXPECT_TRUE(right.decided() && right.asDeclared()) << int(relief) << " " << right.verdict.agreement;
         const GreenEvidence wrong = greenOf(withGreenReversed(makeReliefMap(relief, 256)));
-        EXPECT_TRUE(wrong.decided && !wrong.asDeclared) << int(relief) << " " << wrong.correlation;
+        EXPECT_TRUE(wrong.decided() && !wrong.asDeclared()) << int(relief) << " " << wrong.verdict.agreement;
     }
     // A smooth height field, but for rounding to 8 bits.
-    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).correlation, 0.95);
+    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.95);
 }
 
 TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
@@ -241,8 +241,8 @@ TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
         std::copy_n(up, 4, flat.bytes8() + 4 * i);
         std::copy_n(ridge, 4, ridges.bytes8() + 4 * i);
     }
-    EXPECT_FALSE(greenOf(flat).decided);
-    EXPECT_FALSE(greenOf(ridges).decided);
+    EXPECT_FALSE(greenOf(flat).decided());
+    EXPECT_FALSE(greenOf(ridges).decided());
 }
 
 TEST(Lint, roundingFallsWithTheDistanceAndGrowsWithTheUv)

@@ -59,10 +59,10 @@ inline Image flatImage(glm::vec4 color, int size = 2)
     return image;
 }
 
-// Stored texel of the tangent-space vector m (along +u, along green, outwards), exact expansion.
+// Stored texel of floats of the tangent-space vector m (along +u, along green, outwards): 0.5 is zero.
 inline glm::vec4 texelOf(glm::vec3 m)
 {
-    return glm::vec4((glm::normalize(m) * 127.0f + 128.0f) / 255.0f, 1.0f);
+    return glm::vec4(glm::normalize(m) * 0.5f + 0.5f, 1.0f);
 }
 
 // A quad in the xy plane, -1 to 1, facing +z; uv = uv0 + du * x + dv * y.

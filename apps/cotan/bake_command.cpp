@@ -155,7 +155,9 @@ Command addBakeCommand(CLI::App& app)
     c->add_option("--high-convention", o->highConvention, "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for --high-map")->type_name("NAME");
     c->add_option("--bits", o->bits, "8, 16 or 32 (float; .exr or .tif)")->check(CLI::IsMember({8, 16, 32}))->type_name("N")->capture_default_str();
     c->add_flag("--dither", o->dither, "8 bit: round by a fixed pattern");
-    c->add_option("--convention", o->convention, "how the map is stored: opengl (green up, flat is 128, as nearly all glTF files have it), gltf (to the letter of its text, 2c - 1), directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();
+    c->add_option("--convention", o->convention, "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();
+    c->add_option("--unsigned", o->expansion, "which code is zero: exact (128; 32768 of 16 bits), biased (none: 2c - 1)")
+        ->check(CLI::IsMember({"exact", "biased"}))->type_name("NAME")->capture_default_str();
     c->add_option("--padding", o->padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none")
         ->check(CLI::Range(-1, 65536))->type_name("N")->capture_default_str();
     c->add_option("--ao-rays", o->occlusionRays, "rays a sample for ao")->check(CLI::Range(1, 65536))->type_name("N")->capture_default_str();

@@ -13,7 +13,7 @@ struct BakeCommandOptions {
     CommonOptions common;
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact", tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;

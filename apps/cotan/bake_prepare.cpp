@@ -79,6 +79,7 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
+    as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
     if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
         return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;

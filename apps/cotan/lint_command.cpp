@@ -64,18 +64,16 @@ void sayPrimitive(const Options& o, const LintReport& report, std::size_t index)
 
 std::string greenVerdict(const GreenEvidence& g)
 {
-    if (!g.decided)
-        return "cannot be told from the map";
-    const double degree = std::abs(g.correlation);
-    const char* sureness = degree > 0.5 && g.agreement > 0.95 ? "sure" : degree > 0.2 && g.agreement > 0.85 ? "likely" : "weak";
-    return fmt::format("{} ({})", g.asDeclared ? "as declared" : "the other way than declared", sureness);
+    if (!g.decided())
+        return "cannot be told from the map (" + (g.verdict.reason.empty() ? "it was not read" : g.verdict.reason) + ")";
+    return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "the other way than declared", name(g.verdict.confidence));
 }
 
 void sayMap(const Options& o, const GreenEvidence& g)
 {
-    say(o.common, fmt::format("normal map {}{}: green, taking red as right, {}; integrability {:+.2f} of 1, {} of the detail agrees",
-                              g.image, g.name.empty() ? "" : " " + g.name, greenVerdict(g), g.correlation,
-                              percent(g.agreement)));
+    say(o.common, fmt::format("normal map {}{}: green, taking red as right, {}; agreement {:+.2f} for green up, {} of the detail agrees",
+                              g.image, g.name.empty() ? "" : " " + g.name, greenVerdict(g), g.verdict.agreement,
+                              percent(g.verdict.votes)));
 }
 
 nlohmann::ordered_json describe(const PrimitiveLint& p)
@@ -101,8 +99,9 @@ nlohmann::ordered_json describe(const PrimitiveLint& p)
 
 nlohmann::ordered_json describe(const GreenEvidence& g)
 {
-    return {{"image", g.image}, {"name", g.name}, {"decided", g.decided}, {"as_declared", g.asDeclared},
-            {"correlation", g.correlation}, {"agreement", g.agreement}, {"verdict", greenVerdict(g)}};
+    return {{"image", g.image}, {"name", g.name}, {"decided", g.decided()}, {"as_declared", g.asDeclared()},
+            {"green", name(g.verdict.green)}, {"confidence", name(g.verdict.confidence)}, {"reason", g.verdict.reason},
+            {"agreement", g.verdict.agreement}, {"votes", g.verdict.votes}, {"verdict", greenVerdict(g)}};
 }
 
 // A path as a word of a shell's command line.

@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string base, detail, from = "gltf,exact", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
+    std::string base, detail, from = "gltf", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
     double strength = 1;
     bool dither = false;
 };

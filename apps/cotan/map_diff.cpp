@@ -16,7 +16,7 @@ namespace {
 
 struct DiffOptions {
     MapOptions map;
-    std::string a, b, conventionA = "gltf,exact", conventionB;
+    std::string a, b, conventionA = "gltf", conventionB;
 };
 
 Status run(const DiffOptions& o)

@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel = "central", wrap = "repeat";
+    std::string file, convention = "gltf", bits = "auto", size, kernel = "central", wrap = "repeat";
     double range = 0, strength = 1;
     bool dither = false;
 };

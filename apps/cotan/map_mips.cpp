@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, from = "gltf,exact", to, model = "lean", bits = "auto";
+    std::string file, from = "gltf", to, model = "lean", bits = "auto";
     double roughness = 0.3;
     bool keepLengths = false;
 };

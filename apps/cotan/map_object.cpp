@@ -37,7 +37,7 @@ Image stored(const Baked& values, const maps::RecodeSettings& s, std::size_t& cl
         for (std::size_t x = 0; x < row.size(); ++x) {
             const glm::vec3 n = values.values[std::size_t(y) * row.size() + x];
             clamped += tangent && n.z < 0 && s.to.channels != Channels::xyz;
-            row[x] = maps::encodeTexel(n, s.to);
+            row[x] = maps::encodeTexel(n, s.to, s.type);
             if (s.dither)
                 row[x] = maps::dithered(row[x], steps, int(x), y);
         }

@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel = "spectral";
+    std::string file, convention = "gltf", bits = "auto", size, kernel = "spectral";
     bool free = false;
 };
 
@@ -82,8 +82,12 @@ Status run(const Options& o)
     if (Status written = writeMap(o.map.common.output, picture(h, *image, checked->type, unit), *checked); !written)
         return written;
     const double range = h.highest - h.lowest, share = h.slope > 0 ? h.residual / h.slope : 0;
-    const std::string again = o.size.empty() ? fmt::format("--strength {:.9g}", 100 * range / image->width)
+    std::string again = o.size.empty() ? fmt::format("--strength {:.9g}", 100 * range / image->width)
                                              : fmt::format("--size {} --range {:.9g}", o.size, range * unit);
+    if (*kernel != maps::Kernel::spectral)
+        again += " --kernel " + o.kernel;
+    if (o.free)
+        again += " --wrap clamp";
     if (h.invalid > 0)
         warn(o.map.common, fmt::format("{}: {} texels are no direction; taken as flat", o.file, h.invalid));
     if (!o.free && h.meanTilt > 1)

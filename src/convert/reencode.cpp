@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
 #include "padding.hpp"
@@ -40,6 +41,9 @@ public:
         plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
         plain_.strength = 1;
         plain_.green = 1;
+        written_ = plain_;
+        plain_.expansion = expansionFor(plain_.expansion, bitsPerComponent(map.type));
+        written_.expansion = expansionFor(written_.expansion, bits);
         for (const MapUse& use : uses)
             rasters_.emplace_back(use, map.width, map.height);
         result_.image =
@@ -114,7 +118,7 @@ private:
 
     void write(int x, int y, glm::dvec3 texel)
     {
-        const glm::dvec3 stored = f64::cotan_encode_texel(texel, plain_);
+        const glm::dvec3 stored = f64::cotan_encode_texel(texel, written_);
         const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
         for (int k = 0; k < 3; ++k)
             set(at + std::size_t(k), stored[k]);
@@ -139,14 +143,16 @@ private:
 
     void keep(int x, int y)
     {
-        const glm::dvec3 stored = storedTexel(map_, x, y);
+        glm::dvec3 stored = storedTexel(map_, x, y);
+        for (int k = 0; k < 3 && plain_.expansion != written_.expansion; ++k)
+            stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], plain_.expansion), written_.expansion);
         const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
         for (int k = 0; k < 3; ++k)
             set(at + std::size_t(k), stored[k]);
         copyAlpha(at);
     }
 
-    glm::dvec3 newTexel(int x, int y) const { return f64::cotan_decode(storedTexel(result_.image, x, y), plain_); }
+    glm::dvec3 newTexel(int x, int y) const { return f64::cotan_decode(storedTexel(result_.image, x, y), written_); }
 
     void solveRow(int y)
     {
@@ -251,7 +257,7 @@ private:
     const Image& map_;
     std::span<const MapUse> uses_;
     FramePair frames_;
-    f64::cotan_normal_format plain_{}; // of the map, without what differs between its uses
+    f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
     std::vector<UseRaster> rasters_;
     std::vector<RowCounts> rows_;
     std::vector<std::uint32_t> owner_;

@@ -118,8 +118,11 @@ void addMaps(LintReport& report, const Scene& scene)
             || std::find(done.begin(), done.end(), image) != done.end())
             continue;
         done.push_back(image);
-        report.maps.push_back(lint::greenEvidence(scene.images[std::size_t(image)], m));
-        report.maps.back().image = image;
+        const Image& map = scene.images[std::size_t(image)];
+        GreenEvidence e{image, map.name, !m.normalFormat.greenAlongV, {}}; // v runs down the picture
+        if (hasPixels(map))
+            e.verdict = maps::greenOf(map);
+        report.maps.push_back(std::move(e));
     }
 }
 

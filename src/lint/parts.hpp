@@ -22,8 +22,6 @@ StoredTangents storedTangents(const MappedSurface& surface);
 // with generated tangents.
 std::vector<Reading> readings(const MappedSurface& surface, const Material& material, const Image& map);
 
-GreenEvidence greenEvidence(const Image& map, const Material& material);
-
 // Sets advice, distrustStored and recommendation from all the rest.
 void recommend(LintReport& report);
 

@@ -57,7 +57,7 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
     if (!s.stored.empty())
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
-    const f64::cotan_normal_format format = formatOf(material);
+    const f64::cotan_normal_format format = formatOf(material, map.type);
     for (const Point& p : pointsOver(s)) {
         const glm::dvec3 m =
             decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));

@@ -67,7 +67,7 @@ std::string otherGreen(const LintReport& report)
 {
     std::string names;
     for (const GreenEvidence& g : report.maps)
-        if (g.decided && !g.asDeclared)
+        if (!g.asDeclared())
             names += (names.empty() ? "" : ", ") + (g.name.empty() ? fmt::format("image {}", g.image) : g.name);
     return names;
 }

@@ -9,6 +9,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/lint/spread.hpp"
 #include "cotan/lint/surface.hpp"
+#include "cotan/maps/green.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -69,14 +70,16 @@ struct PrimitiveLint {
     double closest = 0;            // the distance at which that is half a degree
 };
 
-// Which way green points, from the map alone: the slopes of a height have no curl.
+// Which way green points, from the map alone, and which way the material reads it. `cotan map detect` gives
+// the same verdict.
 struct GreenEvidence {
     int image = -1;
     std::string name;
-    bool decided = false;   // false: the map says nothing either way
-    bool asDeclared = true; // as the material reads it
-    double correlation = 0; // 1: a perfect height field as declared; -1: with green the other way
-    double agreement = 0;   // share of the detail, by tiles, that says the same
+    bool declaredUp = true; // green up the picture, as the material reads it
+    maps::GreenVerdict verdict;
+
+    bool decided() const { return verdict.green != maps::Green::undecidable; }
+    bool asDeclared() const { return !decided() || (verdict.green == maps::Green::up) == declaredUp; }
 };
 
 enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmooth };
