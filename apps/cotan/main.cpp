@@ -10,6 +10,7 @@
 
 #include "command_words.hpp"
 #include "commands.hpp"
+#include "cotan/asset/sandbox.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
 
@@ -84,6 +85,9 @@ int runCommandLine(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    if (cotan::isReaderProcess(argc, argv))
+        return cotan::runReaderProcess();
+    cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
         return runCommandLine(argc, argv);

@@ -22,6 +22,7 @@
 #include "file_bytes.hpp"
 #include "source_material.hpp"
 #include "ply_check.hpp"
+#include "scene_check.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.
@@ -73,6 +74,15 @@ Status openModel(Job& job)
     return Done{};
 }
 
+// Bytes that converting takes, in round figures: an array of each kind, twice.
+std::size_t bytesToConvert(const aiScene& source)
+{
+    std::size_t bytes = 0;
+    for (unsigned m = 0; m < source.mNumMeshes; ++m)
+        bytes += 64 * std::size_t(source.mMeshes[m]->mNumVertices) + 128 * std::size_t(source.mMeshes[m]->mNumFaces);
+    return bytes;
+}
+
 // What can be checked in the bytes before Assimp trusts them.
 Status checkBytes(Job& job)
 {
@@ -110,13 +120,19 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
     return importer.ReadFile(job.canonical.string(), 0);
 }
 
-// Assimp's own steps trust the indices.
+// Assimp's own steps trust the indices, and that what is counted is there.
 Status checkIndices(const aiScene& source, const Job& job)
 {
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
         const aiMesh& mesh = *source.mMeshes[m];
+        if ((mesh.mNumVertices > 0 && !mesh.mVertices) || (mesh.mNumFaces > 0 && !mesh.mFaces))
+            return inputError(fmt::format("{}: mesh {}: expected {} vertices and {} faces, found none", job.name(),
+                                          mesh.mName.C_Str(), mesh.mNumVertices, mesh.mNumFaces));
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices > 0 && !face.mIndices)
+                return inputError(fmt::format("{}: mesh {}: face {}: expected {} indices, found none", job.name(),
+                                              mesh.mName.C_Str(), f, face.mNumIndices));
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
                     return inputError(fmt::format(
@@ -224,6 +240,8 @@ Result<Scene> load(Job& job)
         return inputError(fmt::format("{}: {}", job.name(), oneLine(importer.GetErrorString())));
     if (Status ok = checkIndices(*source, job); !ok)
         return ok.error();
+    if (job.limits.expect)
+        job.limits.expect(bytesToConvert(*source));
     source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     if (!source || source->mNumMeshes == 0)
         return inputError(fmt::format("{}: expected triangles, found none", job.name()));
@@ -239,6 +257,8 @@ Result<Scene> load(Job& job)
         return ok.error();
     if (job.scene.instances.empty())
         return inputError(fmt::format("{}: expected triangles, found none", job.name()));
+    if (Status sound = checkScene(job.scene, job.name()); !sound)
+        return sound.error();
     return std::move(job.scene);
 }
 

@@ -13,6 +13,7 @@
 #include "image_formats.hpp"
 #include "image_jpeg.hpp"
 #include "image_png.hpp"
+#include "sandboxed.hpp"
 
 namespace cotan {
 
@@ -30,6 +31,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return inputError(fmt::format(
             "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data",
             name));
+    if (!limits.sandbox.program.empty())
+        return decodeSandboxed(bytes, name, limits);
     const auto formats = imageFormats();
     if (!formats)
         return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};

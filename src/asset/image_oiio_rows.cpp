@@ -133,6 +133,8 @@ std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& n
     if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
         return inputError(fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes",
                                       name, spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
+    if (limits.expect)
+        limits.expect(std::size_t(stored));
     return std::nullopt;
 }
 

@@ -62,6 +62,7 @@ struct Account {
     std::vector<Input> inputs;
     std::vector<Output> outputs;
     std::optional<Error> refusal;
+    std::function<void(const fs::path&)> watcher;
 
     Error refuse(std::string message)
     {
@@ -121,9 +122,13 @@ Status planOutput(const std::string& option, const fs::path& file)
     return identity ? add(all, {*identity, option, file.string()}) : Status(Done{});
 }
 
+void watchInputs(std::function<void(const fs::path&)> watcher) { account().watcher = std::move(watcher); }
+
 Status noteInput(const fs::path& file)
 {
     Account& all = account();
+    if (all.watcher)
+        all.watcher(file);
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)

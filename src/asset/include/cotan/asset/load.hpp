@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
+#include "cotan/asset/sandbox.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
 
@@ -30,13 +32,19 @@ struct LoadLimits {
     int imageSide = 16384;                          // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
     std::size_t allImageBytes = std::size_t(8) << 30; // decoded, of all images of one model
-    Pixels pixels = Pixels::all;                      // of a glTF model
+    Pixels pixels = Pixels::all;                    // of a glTF model
+    Sandbox sandbox = defaultSandbox();             // where models other than glTF, and third-party formats of pictures, are read
+    // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
+    // a process of its own is given room for them. May be empty.
+    std::function<void(std::size_t)> expect;
 };
 
 // Reads a model: .gltf and .glb through tinygltf, .obj, everything else (.ply .stl .dae .fbx .3ds)
-// through Assimp. What was odd but usable is said in Scene::warnings. Missing normals are
-// generated. Only files inside the model's own folder are opened.
-// Errors: ErrorKind::input with one line: file, field, expected, found. Never throws for bad input.
+// through Assimp; all but glTF in a process of its own where limits.sandbox says so. What was odd but usable is said
+// in Scene::warnings. Missing normals are generated. Only files inside the model's own folder are opened.
+// Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed,
+// or was stopped at a limit, is one, too. ErrorKind::unavailable: it could not be started. Never throws
+// for bad input.
 Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The three readers behind loadScene.
