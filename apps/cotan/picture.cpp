@@ -138,11 +138,9 @@ Status checkLighting(const PictureOptions& options, Frame frame)
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)
 {
     const Scene& scene = picture.scene;
-    std::size_t triangles = 0, drawn = 0;
+    std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangleCount();
-    for (const Instance& instance : scene.instances)
-        drawn += scene.meshes[std::size_t(instance.mesh)].triangleCount();
     return {{"model", options.model.empty() ? "built-in" : options.model},
             {"size", {picture.view.width, picture.view.height}},
             {"meshes", scene.meshes.size()},
@@ -150,7 +148,7 @@ nlohmann::ordered_json describeScene(const PictureOptions& options, const Pictur
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
             {"triangles", triangles},
-            {"triangles_drawn", drawn},
+            {"triangles_drawn", trianglesDrawn(scene)},
             {"warnings", scene.warnings}};
 }
 

@@ -178,7 +178,7 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         addMesh(item.constants, scene, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
-        item.distance = eyeDistance(instance.toWorld, item.mesh->bounds.centre(), axes);
+        item.distance = eyeDistance(instance.toWorld, item.mesh->centre, axes);
         switch (item.material->alphaMode) {
         case AlphaMode::opaque: lists.opaque.push_back(item); break;
         case AlphaMode::mask: lists.mask.push_back(item); break;

@@ -36,7 +36,7 @@ public:
     ~Renderer();
 
     // Uploads a scene; it replaces the one before. Errors: ErrorKind::unavailable when the device
-    // has not enough memory.
+    // has not enough memory; ErrorKind::input over kMostTrianglesDrawn (cotan/scene/bounds.hpp).
     Status load(const Scene& scene);
 
     // Draws the loaded scene. Errors: ErrorKind::usage for a size the device cannot draw.
