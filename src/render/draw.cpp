@@ -14,7 +14,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
 double now()
 {
@@ -53,24 +52,6 @@ void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& me
         constants.flags |= COTAN_DRAW_HAS_TANGENTS;
     if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
         constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
-}
-
-PipelineKey forwardKey(const View& view, const Targets& targets)
-{
-    PipelineKey key;
-    key.frame = view.frame;
-    key.output = view.output;
-    key.coarse = view.derivatives == Derivatives::coarse;
-    key.normalMaps = view.normalMaps;
-    key.samples = targets.kind().samples;
-    key.format = targets.kind().format;
-    if (view.output == Output::shaded) {
-        key.shading = view.shading;
-        key.environment = view.environment;
-        key.shadows = castsShadow(view);
-        key.toneMap = !view.linearOutput;
-    }
-    return key;
 }
 
 // The maps that a pipeline reads, of those that a material has.
@@ -132,19 +113,23 @@ void divideByAlpha(Image& image)
 
 } // namespace
 
-struct Drawer::Item {
-    gpu::CotanDraw constants{};
-    const GpuMesh* mesh = nullptr;
-    const GpuMaterial* material = nullptr;
-    bool clockwise = false; // front faces run clockwise over the raster
-    double distance = 0;    // of the centre from the eye
-};
-
-struct Drawer::DrawLists {
-    std::vector<Item> opaque; // near to far
-    std::vector<Item> mask;   // near to far
-    std::vector<Item> blend;  // far to near
-};
+PipelineKey forwardKey(const View& view, const Targets& targets)
+{
+    PipelineKey key;
+    key.frame = view.frame;
+    key.output = view.output;
+    key.coarse = view.derivatives == Derivatives::coarse;
+    key.normalMaps = view.normalMaps;
+    key.samples = targets.kind().samples;
+    key.format = targets.kind().format;
+    if (view.output == Output::shaded) {
+        key.shading = view.shading;
+        key.environment = view.environment;
+        key.shadows = castsShadow(view);
+        key.toneMap = !view.linearOutput;
+    }
+    return key;
+}
 
 Drawer::Drawer(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device),
@@ -158,9 +143,10 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     sampler.compareEnable = VK_TRUE;
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
+    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 1),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 2)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
 }
@@ -182,14 +168,15 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         switch (item.material->alphaMode) {
         case AlphaMode::opaque: lists.opaque.push_back(item); break;
         case AlphaMode::mask: lists.mask.push_back(item); break;
-        case AlphaMode::blend: lists.blend.push_back(item); break;
+        case AlphaMode::blend:
+            item.constants.order = static_cast<std::uint32_t>(lists.blend.size());
+            lists.blend.push_back(item);
+            break;
         }
     }
     const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
     std::stable_sort(lists.opaque.begin(), lists.opaque.end(), nearer);
     std::stable_sort(lists.mask.begin(), lists.mask.end(), nearer);
-    std::stable_sort(lists.blend.begin(), lists.blend.end(),
-                     [&](const Item& a, const Item& b) { return nearer(b, a); });
     return lists;
 }
 
@@ -258,7 +245,7 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
 void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                        const std::vector<Item>& items, PipelineKey key)
 {
-    const bool shadow = key.pass != Pass::forward;
+    const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
     const std::uint32_t asked = shadow ? 0 : mapsNeeded(key);
     const Item* before = nullptr;
     for (const Item& item : items) {
@@ -307,12 +294,21 @@ void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScen
                Access::eShaderSampledRead);
 }
 
+// Draws the triangle that covers the picture.
+void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
+{
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
+    commands.setCullMode(vk::CullModeFlagBits::eNone);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+    commands.draw(3, 1, 0, 0);
+}
+
+// Everything that writes depth, and the background.
 void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                            const DrawLists& lists, const View& view)
 {
     PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
-    targets_->begin(commands);
     drawItems(commands, scene, lists.opaque, key);
     key.alphaMode = AlphaMode::mask;
     drawItems(commands, scene, lists.mask, key);
@@ -322,14 +318,19 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         background.toneMap = key.toneMap;
         background.samples = key.samples;
         background.format = key.format;
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(background));
-        commands.setCullMode(vk::CullModeFlagBits::eNone);
-        commands.setFrontFace(vk::FrontFace::eCounterClockwise);
-        commands.draw(3, 1, 0, 0);
+        drawOver(commands, background);
     }
     key.alphaMode = AlphaMode::blend;
-    drawItems(commands, scene, lists.blend, key);
-    targets_->end(commands);
+    if (!shaded)
+        drawItems(commands, scene, lists.blend, key);
+}
+
+const vk::raii::CommandBuffer& Drawer::begin()
+{
+    const vk::raii::CommandBuffer& commands = commands_.begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
+                                pictureSet_, {});
+    return commands;
 }
 
 Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
@@ -345,13 +346,24 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     scene.setPointSampled(view.pointSampled);
     prepare(view, axes, scene.bounds);
     const DrawLists lists = makeLists(scene, view, axes);
+    const bool layered = view.output == Output::shaded && !lists.blend.empty();
+    if (layered)
+        prepareLayers();
 
-    const vk::raii::CommandBuffer& commands = commands_.begin();
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
-                                pictureSet_, {});
-    recordShadow(commands, scene, lists);
-    recordPicture(commands, scene, lists, view);
     const double start = now();
+    const vk::raii::CommandBuffer& commands = begin();
+    recordShadow(commands, scene, lists);
+    targets_->begin(commands, layered);
+    recordPicture(commands, scene, lists, view);
+    if (layered) {
+        targets_->endOpaque(commands);
+        commands_.submitAndWait();
+        if (const Status ok = drawLayers(scene, lists, view); !ok)
+            return ok.error();
+        targets_->copy(begin());
+    } else {
+        targets_->end(commands);
+    }
     commands_.submitAndWait();
     const double drawn = now();
     Image image = targets_->image(view.rowsUpward);
