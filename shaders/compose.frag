@@ -18,7 +18,7 @@ struct Place {
     float depth; // 1 near, 0 far
     uint instance;
     uint triangle;
-    uint index;
+    uint name;
 };
 
 bool nearer(Place a, Place b)
@@ -29,7 +29,7 @@ bool nearer(Place a, Place b)
         return a.instance > b.instance;
     if (a.triangle != b.triangle)
         return a.triangle > b.triangle;
-    return a.index > b.index;
+    return a.name > b.name;
 }
 
 // From the middle of the pixel to the sample, in pixels: the standard places of four.
@@ -47,34 +47,35 @@ vec2 toSample()
 void main()
 {
     uint first = newest[pixelInBand()];
-    if (first == COTAN_NO_LAYER)
-        discard;
     vec2 offset = toSample();
     float hidden = -1.0; // what is not nearer is behind an opaque surface
 #ifdef COTAN_MULTISAMPLED
     hidden = texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), int(sampleIndex)).x;
 #endif
-    const uint none = COTAN_NO_LAYER;
-    Place last = Place(1e30, none, none, none);
+    Place last = Place(1e30, 0u, 0u, 0u);
     vec3 color = vec3(0.0);
     float through = 1.0;
     while (through > 1e-6) {
-        Place next = Place(hidden, 0u, 0u, none);
-        for (uint i = first; i != none; i = layers[i].before) {
-            if ((layers[i].samples >> sampleIndex & 1u) == 0u)
-                continue;
-            float depth = layers[i].depth + layers[i].depthX * offset.x + layers[i].depthY * offset.y;
-            Place here = Place(depth, layers[i].instance, layers[i].triangle, i);
-            if (depth > hidden && nearer(last, here) && (next.index == none || nearer(here, next)))
+        Place next = Place(hidden, 0u, 0u, 0u);
+        for (uint i = first; i != 0u; i = layers[i - 1u].before) {
+            CotanLayer layer = layers[i - 1u];
+            float depth = layer.depth + layer.depthX * offset.x + layer.depthY * offset.y;
+            Place here = Place(depth, layer.instance, layer.triangle, i);
+            bool covered = (layer.samples >> sampleIndex & 1u) != 0u;
+            if (covered && depth > hidden && nearer(last, here) && (next.name == 0u || nearer(here, next)))
                 next = here;
         }
-        if (next.index == none)
+        if (next.name == 0u)
             break;
-        vec4 value = layers[next.index].value;
+        vec4 value = layers[next.name - 1u].value;
         color += value.rgb * (value.a * through);
         through *= 1.0 - value.a;
         last = next;
     }
     outColor = vec4(color, 1.0 - through);
+#ifdef COTAN_MULTISAMPLED
     gl_SampleMask[0] = 1 << int(sampleIndex);
+#endif
+    if (first == 0u)
+        discard;
 }

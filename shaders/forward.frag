@@ -114,14 +114,15 @@ void keepLayer(vec4 value, float depthX, float depthY)
     layer.depth = gl_FragCoord.z;
     layer.depthX = depthX;
     layer.depthY = depthY;
-    layer.samples = uint(gl_SampleMaskIn[0]);
+    // Mesa's CPU driver (22.3) crashes where the mask is read with one sample a pixel.
+    layer.samples = MULTISAMPLED ? uint(gl_SampleMaskIn[0]) : 1u;
     layer.instance = draw.order;
 #ifdef COTAN_EXACT
     layer.triangle = uint(gl_PrimitiveID);
 #else
     layer.triangle = 0u;
 #endif
-    layer.before = atomicExchange(newest[pixelInBand()], index);
+    layer.before = atomicExchange(newest[pixelInBand()], index + 1u);
     layer.spare = 0u;
     layers[index] = layer;
 }

@@ -90,6 +90,6 @@ struct CotanLayer {
     uint samples;  // a bit for each that is covered
     uint instance; // CotanDraw::order
     uint triangle; // of the mesh, where the device tells it, otherwise 0
-    uint before;   // index of the layer of the same pixel that arrived before
+    uint before;   // name (index + 1) of the layer of the same pixel that arrived before, or 0
     uint spare;
 };

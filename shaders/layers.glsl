@@ -1,9 +1,9 @@
 // Translucent fragments of a band of the picture's rows: a list for each pixel, in the order of arrival.
-#define COTAN_NO_LAYER 0xffffffffu
-
+// Layers are named by their index plus 1, so that 0 ends a list: Mesa's CPU driver (22.3) runs loops for
+// pixels beside the picture too, and what these read is 0.
 layout(set = 0, binding = 3, std430) buffer ListBlock {
     CotanLayerLists lists;
-    uint newest[]; // of each pixel of the band, rows first: an index into layers, or COTAN_NO_LAYER
+    uint newest[]; // of each pixel of the band, rows first: the name of a layer, or 0
 };
 layout(set = 0, binding = 4, std430) buffer LayerBlock { CotanLayer layers[]; };
 

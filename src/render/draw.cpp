@@ -196,7 +196,7 @@ void Drawer::prepareShadowMap(bool needed)
     shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
 }
 
-void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
+void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered)
 {
     const gpu::CotanView constants = viewConstants(view, axes, bounds);
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
@@ -210,20 +210,41 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
-    writePictureSet();
+    if (layered)
+        prepareLayers();
+    writePictureSet(layered);
 }
 
-void Drawer::writePictureSet()
+void Drawer::prepareLayers()
+{
+    const std::uint32_t width = targets_->kind().width;
+    if (layers_ && layers_->width() == width)
+        return;
+    layers_.reset(); // its memory may be needed for the new ones
+    layers_ = std::make_unique<LayerLists>(*device_, width);
+}
+
+// Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
+// driver (22.3) does.
+void Drawer::writePictureSet(bool layered)
 {
     const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view,
                                          vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
+                                        vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     using T = vk::DescriptorType;
     device_->device.updateDescriptorSets(
         {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
          vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow)},
+         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
+         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
+         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
+         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
+                                layered && targets_->multisampled() ? depth : shadow)},
         {});
 }
 
@@ -344,11 +365,9 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     }
     const Axes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
-    prepare(view, axes, scene.bounds);
     const DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.blend.empty();
-    if (layered)
-        prepareLayers();
+    prepare(view, axes, scene.bounds, layered);
 
     const double start = now();
     const vk::raii::CommandBuffer& commands = begin();

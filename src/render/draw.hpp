@@ -40,10 +40,10 @@ private:
     };
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
-    void prepare(const View& view, const Axes& axes, const Bounds& bounds);
+    void prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered);
     void prepareShadowMap(bool needed);
-    void prepareLayers(); // after the targets: their depth is read
-    void writePictureSet();
+    void prepareLayers();
+    void writePictureSet(bool layered);
     void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                       const DrawLists& lists);
     void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,

@@ -6,26 +6,6 @@
 
 namespace cotan {
 
-void Drawer::prepareLayers()
-{
-    const std::uint32_t width = targets_->kind().width;
-    if (!layers_ || layers_->width() != width) {
-        layers_.reset(); // its memory may be needed for the new ones
-        layers_ = std::make_unique<LayerLists>(*device_, width);
-    }
-    const vk::DescriptorBufferInfo lists(*layers_->lists().buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorBufferInfo layers(*layers_->layers().buffer, 0, VK_WHOLE_SIZE);
-    using T = vk::DescriptorType;
-    std::vector<vk::WriteDescriptorSet> writes{
-        vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
-        vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers)};
-    const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
-                                        vk::ImageLayout::eDepthStencilReadOnlyOptimal);
-    if (targets_->multisampled())
-        writes.emplace_back(pictureSet_, 5, 0, T::eCombinedImageSampler, depth);
-    device_->device.updateDescriptorSets(writes, {});
-}
-
 // Draws the translucent fragments of a band into their lists; returns how many there are.
 std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
                                  const vk::Rect2D& band)

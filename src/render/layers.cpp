@@ -51,7 +51,7 @@ void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t to
     barrier(commands, Stage::eFragmentShader | Stage::eTransfer, Access::eShaderStorageRead | Access::eTransferRead,
             Stage::eTransfer, Access::eTransferWrite);
     commands.updateBuffer<gpu::CotanLayerLists>(*lists_.buffer, 0, head);
-    commands.fillBuffer(*lists_.buffer, sizeof head, vk::DeviceSize(rows) * width_ * sizeof(std::uint32_t), ~0u);
+    commands.fillBuffer(*lists_.buffer, sizeof head, vk::DeviceSize(rows) * width_ * sizeof(std::uint32_t), 0);
     barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
             Access::eShaderStorageRead | Access::eShaderStorageWrite);
 }

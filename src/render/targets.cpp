@@ -50,7 +50,9 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
     }
     TextureInfo depth = attachmentInfo(kind);
     depth.format = vk::Format::eD32Sfloat;
-    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
+    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    if (multisampled()) // then the hidden samples of translucent layers are found by it
+        depth.usage |= vk::ImageUsageFlagBits::eSampled;
     depth.aspect = vk::ImageAspectFlagBits::eDepth;
     depth_ = makeTexture(device, memory_, depth);
     readBack_ = makeHostBuffer(
