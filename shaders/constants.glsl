@@ -12,7 +12,6 @@ layout(constant_id = 8) const bool TONE_MAP = true;
 // Which maps the material may have, COTAN_MAP_... of gpu_structs.glsl. Drivers for the CPU execute
 // both sides of a branch, so a map that is left out here is what saves its reads.
 layout(constant_id = 9) const uint MAPS = 0xffffffffu;
-layout(constant_id = 10) const bool MULTISAMPLED = true;
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

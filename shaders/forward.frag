@@ -114,8 +114,7 @@ void keepLayer(vec4 value, float depthX, float depthY)
     layer.depth = gl_FragCoord.z;
     layer.depthX = depthX;
     layer.depthY = depthY;
-    // Mesa's CPU driver (22.3) crashes where the mask is read with one sample a pixel.
-    layer.samples = MULTISAMPLED ? uint(gl_SampleMaskIn[0]) : 1u;
+    layer.samples = uint(gl_SampleMaskIn[0]);
     layer.instance = draw.order;
 #ifdef COTAN_EXACT
     layer.triangle = uint(gl_PrimitiveID);

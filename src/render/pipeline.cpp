@@ -21,8 +21,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 11> values;
-    std::array<vk::SpecializationMapEntry, 11> entries;
+    std::array<std::uint32_t, 10> values;
+    std::array<vk::SpecializationMapEntry, 10> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -35,8 +35,7 @@ struct Specialization {
                  key.environment,
                  key.shadows,
                  key.toneMap,
-                 key.maps,
-                 key.samples != vk::SampleCountFlagBits::e1}
+                 key.maps}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -62,7 +61,7 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::layers:
         return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
     case Pass::compose:
-        return {Shader::backgroundVert, key.samples == vk::SampleCountFlagBits::e1
+        return {Shader::composeVert, key.samples == vk::SampleCountFlagBits::e1
                                             ? Shader::composeFrag
                                             : Shader::composeMultisampledFrag};
     case Pass::forward: break;

@@ -4,6 +4,7 @@
 #include "cotanBackgroundVert.h"
 #include "cotanComposeFrag.h"
 #include "cotanComposeMultisampledFrag.h"
+#include "cotanComposeVert.h"
 #include "cotanForwardExactFrag.h"
 #include "cotanForwardExactLayersFrag.h"
 #include "cotanForwardFrag.h"
@@ -22,6 +23,7 @@ std::span<const std::uint32_t> spirv(Shader shader)
     case Shader::forwardExactFrag: return cotanForwardExactFrag;
     case Shader::forwardLayersFrag: return cotanForwardLayersFrag;
     case Shader::forwardExactLayersFrag: return cotanForwardExactLayersFrag;
+    case Shader::composeVert: return cotanComposeVert;
     case Shader::composeFrag: return cotanComposeFrag;
     case Shader::composeMultisampledFrag: return cotanComposeMultisampledFrag;
     case Shader::backgroundVert: return cotanBackgroundVert;

@@ -12,6 +12,7 @@ enum class Shader {
     forwardExactFrag, // needs the features geometryShader (for gl_PrimitiveID) and buffer addresses
     forwardLayersFrag,
     forwardExactLayersFrag, // as forwardExactFrag
+    composeVert,
     composeFrag,
     composeMultisampledFrag,
     backgroundVert,
@@ -20,7 +21,7 @@ enum class Shader {
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 11;
+inline constexpr int kShaderCount = 12;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);
