@@ -100,6 +100,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
             return scene.error();
         picture.scene = std::move(*scene);
     }
+    if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
+        return ok.error();
     for (Frame frame : frames)
         deriveVertexFrames(picture.scene, frame, options.tangents == "generated");
     for (const std::string& line : picture.scene.warnings)
