@@ -8,9 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "cotan/files/account.hpp"
+#include "cotan/files/output.hpp"
 #include "cotan/report/measurements.hpp"
 #include "cotan/truth/measurement.hpp"
-#include "file_output.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "rendered_table.hpp"
@@ -106,6 +107,8 @@ std::vector<Measurement> measure(const Options& o, const std::vector<const Accur
 
 Result<std::vector<Measurement>> readCsv(const std::filesystem::path& file)
 {
+    if (Status free = noteInput(file); !free)
+        return free.error();
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
     constexpr std::uintmax_t kLimit = 64u << 20;
@@ -139,14 +142,28 @@ Status compareWith(const Options& o, const std::vector<Measurement>& rows)
     return Done{};
 }
 
+Status listTables(const Options& o)
+{
+    auto tables = nlohmann::ordered_json::array();
+    const auto add = [&](std::string_view name, std::string_view summary) {
+        say(o.common, fmt::format("{:<16}{}", name, summary));
+        tables.push_back({{"name", name}, {"summary", summary}});
+    };
+    for (const AccuracyTable& table : accuracyTables())
+        add(table.name, table.summary);
+    add(kRendered, kRenderedSummary);
+    return writeReport(o.common, {{"command", "accuracy"}, {"tables", tables}});
+}
+
 Status run(const Options& o)
 {
-    if (o.list) {
-        for (const AccuracyTable& table : accuracyTables())
-            say(o.common, fmt::format("{:<16}{}", table.name, table.summary));
-        say(o.common, fmt::format("{:<16}{}", kRendered, kRenderedSummary));
-        return Done{};
-    }
+    if (Status planned = planOutputs(o.common, {{"-o", o.common.output}, {"--csv", o.csv}}); !planned)
+        return planned;
+    if (o.list)
+        return listTables(o);
+    if (!o.against.empty()) // read first: hours may pass before it is compared
+        if (const auto before = readCsv(o.against); !before)
+            return before.error();
     const auto tables = chooseTables(o.tables);
     if (!tables)
         return tables.error();

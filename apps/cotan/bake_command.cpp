@@ -1,45 +1,18 @@
 #include "commands.hpp"
 
-#include <csignal>
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
 #include "cotan/asset/extension.hpp"
 #include "cotan/asset/image_file.hpp"
-#include "file_output.hpp"
+#include "gltf_open.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
 
 namespace {
-
-// Ctrl-C waits until a file that is being written is whole.
-class InterruptsHeld {
-public:
-    InterruptsHeld()
-    {
-        sigset_t held;
-        sigemptyset(&held);
-        sigaddset(&held, SIGINT);
-        sigaddset(&held, SIGTERM);
-        pthread_sigmask(SIG_BLOCK, &held, &before_);
-    }
-    ~InterruptsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    InterruptsHeld(const InterruptsHeld&) = delete;
-    InterruptsHeld& operator=(const InterruptsHeld&) = delete;
-
-private:
-    sigset_t before_;
-};
-
-Status writeHeld(const std::filesystem::path& file, const Image& image)
-{
-    const InterruptsHeld held;
-    return writeImage(file, image);
-}
 
 double peakMegabytes()
 {
@@ -88,14 +61,16 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("-o: expected the file to write the map to");
     if (!o.verify.empty() && o.kind != "normal")
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
+    if (Status ok = checkModelOutput(o); !ok)
+        return ok;
     const std::string extension = lowerExtension(o.common.output);
     if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
         return usageError(fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.common.output.string()));
-    for (const std::filesystem::path& file : {o.common.output, std::filesystem::path(o.mask)})
-        if (!file.empty())
-            if (Status ok = checkFolderOf(file); !ok)
-                return ok;
-    return Done{};
+    std::vector<PlannedOutput> files = {{"-o", o.common.output}, {"--mask", o.mask}};
+    if (!o.verify.empty())
+        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, bakePictures()))
+            files.push_back(picture);
+    return planOutputs(o.common, files);
 }
 
 Status run(const BakeCommandOptions& o)
@@ -122,14 +97,14 @@ Status run(const BakeCommandOptions& o)
         return inputError(fmt::format("{}: no triangle lies on tile {} of the texture coordinates (--udim)", o.low, o.udim));
     explain(o, *job, baked->statistics);
     if (!o.mask.empty())
-        if (Status w = writeHeld(o.mask, maskOf(*baked)); !w)
+        if (Status w = writeImage(o.mask, maskOf(*baked)); !w)
             return w;
     watch.lap();
     if (o.padding >= 0)
         padCharts(*baked, o.padding);
     const double padSeconds = watch.lap();
     const Image image = storeBaked(*baked, job->options.kind, job->stored);
-    if (Status w = writeHeld(o.common.output, image); !w)
+    if (Status w = namedAsGltf(o.common.output) ? writeBakedModel(o, *job, image) : writeImage(o.common.output, image); !w)
         return w;
     const double writeSeconds = watch.lap();
     say(o.common, fmt::format("map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.common.output.string(), o.kind,
@@ -157,7 +132,7 @@ Command addBakeCommand(CLI::App& app)
 {
     auto o = std::make_shared<BakeCommandOptions>();
     CLI::App* c = app.add_subcommand("bake", "normal map of a detailed mesh for a simple one, in a named frame");
-    addCommonOptions(*c, o->common, "the map: .png, .exr, .tif, .tga");
+    addCommonOptions(*c, o->common, "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf");
     c->add_option("--high", o->high, "detailed mesh; may be given several times")->required()->type_name("FILE");
     c->add_option("--low", o->low, "simple mesh with texture coordinates")->required()->type_name("FILE");
     c->add_option("--frame", o->frame, "the frame that the shader will use: " + frameNames())->type_name("NAME")->capture_default_str();

@@ -6,24 +6,12 @@
 
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/load.hpp"
+#include "cotan/scene/put_normal_map.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
 
 namespace {
-
-// Every material of the scene gets the image as its normal map, read by uv set 0 as it is.
-void putMap(Scene& scene, Image image)
-{
-    const int number = int(scene.images.size());
-    scene.images.push_back(std::move(image));
-    for (Material& material : scene.materials) {
-        material.normalMap = {};
-        material.normalMap.image = number;
-        material.normalScale = 1;
-        material.normalFormat = {};
-    }
-}
 
 // Makes the materials say what --high-map and --high-convention say.
 Status applyMapOptions(const BakeCommandOptions& o, std::vector<Scene>& scenes)
@@ -32,7 +20,9 @@ Status applyMapOptions(const BakeCommandOptions& o, std::vector<Scene>& scenes)
         auto image = readImage(o.highMaps[std::min(i, o.highMaps.size() - 1)]);
         if (!image)
             return image.error();
-        putMap(scenes[i], std::move(*image));
+        for (Material& material : scenes[i].materials)
+            material.normalMap = {}; // the image is read by uv set 0 as it is
+        putNormalMap(scenes[i], std::move(*image), {});
     }
     if (o.highConvention.empty())
         return Done{};

@@ -45,9 +45,18 @@ Status prepareHigh(const BakeCommandOptions& o, BakeJob& job);
 // Loads and checks. Errors: those of the files and words.
 Result<BakeJob> prepareBake(const BakeCommandOptions& o);
 
+// What can be said of an -o that names a glTF model before anything is loaded. Errors: ErrorKind::usage.
+Status checkModelOutput(const BakeCommandOptions& o);
+
+// Writes the low model with the map in it: a glTF model keeps all else as it was, another format is written as glTF.
+// TANGENT is what readers of the frame need. Warns where readers that make MikkTSpace would show the map wrongly.
+Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
+
 // Draws the low mesh with the stored map from four sides, by the device and the real shader, and
 // compares with the normals that rays from the eye find on the high mesh. Writes pictures and heat
 // maps into a folder; returns the report.
+// The names of the pictures that it writes.
+std::vector<std::string> bakePictures();
 Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
 
 } // namespace cotan::app

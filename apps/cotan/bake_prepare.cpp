@@ -6,6 +6,8 @@
 
 #include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
+#include "gltf_open.hpp"
+#include "map_options.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -77,6 +79,8 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
+    if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
+        return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
     as.dither = o.dither;
     return as;
@@ -99,11 +103,7 @@ Result<NormalMapFormat> formatFromName(const std::string& option, const std::str
             names += (names.empty() ? "" : ", ") + std::string(preset.name);
         return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
     }
-    NormalMapFormat format;
-    format.expansion = int(convention->expansion);
-    format.channels = int(convention->channels);
-    format.greenAlongV = !convention->greenUp; // v runs down in everything that was loaded
-    return format;
+    return formatInScene(*convention);
 }
 
 Result<BakeJob> prepareBake(const BakeCommandOptions& o)

@@ -9,6 +9,7 @@
 #include "cotan/asset/geometry.hpp"
 #include "cotan/asset/image_file.hpp"
 #include "cotan/report/angles.hpp"
+#include "cotan/scene/put_normal_map.hpp"
 #include "painter.hpp"
 #include "vertex_frames.hpp"
 
@@ -23,17 +24,7 @@ constexpr int kViews = 4;
 Scene mappedScene(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
     Scene scene = job.lowScene;
-    const int image = int(scene.images.size());
-    scene.images.push_back(map);
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (o.material >= 0 && int(i) != o.material)
-            continue;
-        Material& material = scene.materials[i];
-        material.normalMap.image = image;
-        material.normalMap.sampler.wrapU = material.normalMap.sampler.wrapV = Wrap::repeat;
-        material.normalScale = 1;
-        material.normalFormat = job.stored.format;
-    }
+    putNormalMap(scene, map, job.stored.format, o.material);
     deriveVertexFrames(scene, job.frame, o.tangents != "stored");
     return scene;
 }
@@ -46,7 +37,18 @@ Camera turned(Camera camera, double quarter)
     return camera;
 }
 
+std::string pictureName(const char* what, int view) { return fmt::format("{}-{}.png", what, view); }
+
 } // namespace
+
+std::vector<std::string> bakePictures()
+{
+    std::vector<std::string> names;
+    for (int view = 0; view < kViews; ++view)
+        for (const char* what : {"error", "low", "high"})
+            names.push_back(pictureName(what, view));
+    return names;
+}
 
 Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
@@ -85,7 +87,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
                                                           {"low", directionsAsColor(*drawn)},
                                                           {"high", directionsAsColor(expected)}};
         for (const auto& [name, picture] : pictures)
-            if (Status w = writeImage(o.verify / fmt::format("{}-{}.png", name, i), picture); !w)
+            if (Status w = writeImage(o.verify / pictureName(name, i), picture); !w)
                 return w.error();
     }
     const AngleStatistics s = statisticsOf(std::move(all));

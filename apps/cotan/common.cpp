@@ -1,23 +1,93 @@
 #include "common.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "file_output.hpp"
+#include "cotan/files/account.hpp"
+#include "cotan/files/output.hpp"
 
 namespace cotan::app {
 
+namespace {
+
+int printErrno = 0; // of the first print that failed
+
+// What a killed run has left where this one writes.
+void warnOfParts(const CommonOptions& options, const std::filesystem::path& folder)
+{
+    const auto parts = leftParts(folder);
+    if (parts.empty())
+        return;
+    warn(options, fmt::format("{}: {} of a run that was killed, {}{}; delete what is not needed",
+                              folder.string(), counted(parts.size(), "unfinished file"), parts.front().filename().string(),
+                              parts.size() > 1 ? " and others" : ""));
+}
+
+} // namespace
+
 void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp)
 {
-    command.add_option("-o,--output", options.output, outputHelp)->type_name("PATH");
+    CLI::Option* output = command.add_option("-o,--output", options.output, outputHelp)->type_name("PATH");
+    if (outputHelp.empty())
+        output->group("")->check([&command](const std::string&) {
+            return command.get_name() + " writes no files but --json FILE; leave out -o";
+        });
     command.add_option("--json", options.json, "machine-readable report; - is standard output")
         ->type_name("FILE");
     command.add_flag("--quiet", options.quiet, "no notes and warnings");
     command.add_option("--threads", options.threads, "threads to use; 0 means all cores")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
+    command.add_flag("--overwrite", options.overwrite, "replace files that are read, too");
+}
+
+std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names)
+{
+    std::vector<PlannedOutput> files;
+    for (const std::string& name : names)
+        files.push_back({option, folder / name, /*makesFolder*/ true});
+    return files;
+}
+
+Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput>& files)
+{
+    guardInputs(options.overwrite);
+    std::vector<PlannedOutput> all = files;
+    if (options.json != "-")
+        all.push_back({"--json", options.json});
+    std::set<std::filesystem::path> folders;
+    for (const PlannedOutput& output : all) {
+        if (output.file.empty())
+            continue;
+        if (Status writable = checkWritable(output.file, output.makesFolder); !writable)
+            return writable;
+        if (Status planned = planOutput(output.option, output.file); !planned)
+            return planned;
+        folders.insert(output.file.has_parent_path() ? output.file.parent_path() : ".");
+    }
+    for (const std::filesystem::path& folder : folders)
+        warnOfParts(options, folder);
+    return Done{};
+}
+
+void print(const std::string& text)
+{
+    if (printErrno == 0 && std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
+        printErrno = errno;
+}
+
+Status flushOutput()
+{
+    if (printErrno == 0 && std::fflush(stdout) != 0)
+        printErrno = errno;
+    if (printErrno != 0)
+        return outputError("standard output: cannot write: " + reasonOf(printErrno));
+    return Done{};
 }
 
 Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& report)
@@ -28,9 +98,8 @@ Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& r
     const std::string text =
         report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     if (options.json == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-            return outputError("standard output: cannot write the report");
-        return Done{};
+        print(text);
+        return flushOutput();
     }
     return writeFileWhole(options.json, text);
 }
@@ -38,13 +107,13 @@ Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& r
 void say(const CommonOptions& options, const std::string& line)
 {
     if (!options.quiet && options.json != "-")
-        fmt::print("{}\n", line);
+        print(line + "\n");
 }
 
 void warn(const CommonOptions& options, const std::string& line)
 {
     if (!options.quiet)
-        fmt::print(stderr, "cotan: warning: {}\n", line);
+        std::fputs(fmt::format("cotan: warning: {}\n", line).c_str(), stderr);
 }
 
 std::string counted(std::size_t number, const std::string& noun)

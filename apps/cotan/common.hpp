@@ -5,6 +5,7 @@
 #include <functional>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -18,9 +19,11 @@ struct CommonOptions {
     std::string json;  // a file, "-" for standard output, empty for none
     bool quiet = false;
     int threads = 0;   // 0: all cores
+    bool overwrite = false; // inputs, and one output by another
 };
 
-// Adds -o/--output, --json, --quiet and --threads to a command.
+// Adds -o/--output, --json, --quiet, --threads and --overwrite to a command. An empty outputHelp: the command writes
+// nothing but its report; -o is not listed, and refused.
 void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp);
 
 // A command of the table in main.cpp: adds itself to the application; `run` is called after parsing
@@ -44,6 +47,29 @@ public:
 private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+// A file that a command will write.
+struct PlannedOutput {
+    std::string option; // that asked for it, for messages
+    std::filesystem::path file;
+    bool makesFolder = false; // the command makes its folder
+};
+
+// The files of these names in a folder that an option names.
+std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names);
+
+// What every command calls before it reads anything: says what it will write, --json included; empty names are left
+// out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
+// what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output
+// where a file cannot be written.
+Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput>& files);
+
+// Prints on standard output. It does not fail: the first error is kept for flushOutput.
+void print(const std::string& text);
+
+// Whether all that was printed has arrived. Errors: ErrorKind::output.
+Status flushOutput();
 
 // Writes the report where --json says; nothing if it was not asked for.
 Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& report);

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,12 @@ Status run(const Options& o)
     for (Frame frame : *pair)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
+    const std::string a(name((*pair)[0])), b(name((*pair)[1]));
+    std::vector<std::string> names = {a + ".png", "difference.png"};
+    if (a != b)
+        names.push_back(b + ".png");
+    if (Status planned = planOutputs(o.common, plannedIn("-o", o.common.output, names)); !planned)
+        return planned;
     auto picture = openPicture(o.picture, o.common, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
@@ -97,9 +104,8 @@ Status run(const Options& o)
 
     if (Status made = makeFolder(o.common.output); !made)
         return made;
-    const std::string a(name((*pair)[0])), b(name((*pair)[1]));
     const Image heat = heatMap(degrees, picture->view.width, picture->view.height);
-    const std::pair<std::string, const Image*> files[] = {
+    const std::map<std::string, const Image*> files = {
         {a + ".png", &drawn[0].shaded}, {b + ".png", &drawn[1].shaded}, {"difference.png", &heat}};
     for (const auto& [file, image] : files)
         if (Status written = writeImage(o.common.output / file, *image); !written)

@@ -61,9 +61,15 @@ Result<FramePair> checkUsage(const Options& o)
         return usageError("convert: expected -o FILE; found none");
     if (Status names = checkGltfNames(o.model, o.common.output); !names)
         return names.error();
+    std::vector<PlannedOutput> files = {{"-o", o.common.output}};
+    if (!o.verify.empty())
+        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, verifyPictures()))
+            files.push_back(picture);
+    if (Status planned = planOutputs(o.common, files); !planned)
+        return planned.error();
     std::error_code ignored;
-    if (std::filesystem::equivalent(o.model, o.common.output, ignored))
-        return usageError(fmt::format("-o: {} is the model itself; expected another file", o.common.output.string()));
+    if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.common.output, ignored))
+        return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
     return FramePair{*from, *to, o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
                      TangentOrigin::generated};
 }

@@ -8,7 +8,7 @@
 #include <sys/utsname.h>
 
 #include "cost_tables.hpp"
-#include "file_output.hpp"
+#include "cotan/files/output.hpp"
 
 namespace cotan::app {
 
@@ -113,6 +113,8 @@ Status run(const Options& o)
     auto rows = chosenRows(o.frames);
     if (!rows)
         return rows.error();
+    if (Status planned = planOutputs(o.common, {{"-o", o.common.output}, {"--csv", o.csv}}); !planned)
+        return planned;
     CostReport report;
     report.machine = machineText();
     report.rows = std::move(*rows);
@@ -120,7 +122,7 @@ Status run(const Options& o)
     const std::string tables = toMarkdown(report);
     if (o.common.output.empty()) {
         if (o.common.json != "-")
-            fmt::print("{}", tables);
+            print(tables);
     } else if (Status written = writeTables(o.common.output, tables); !written) {
         return written;
     }
@@ -151,6 +153,7 @@ Command addCostCommand(CLI::App& app)
         *command, options->common,
         "file for the tables instead of standard output; where it has the marks of docs/cost.md, "
         "only what is between them is replaced");
+    command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used
     command
         ->add_option("--frames", options->frames,
                      "rows to price besides floor and mikktspace; default: all")

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "cotan/asset/image_file.hpp"
+#include "cotan/files/output.hpp"
 #include "figures/figure.hpp"
 #include "figures/stage.hpp"
 #include "figures/studio.hpp"
-#include "file_output.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -140,6 +140,8 @@ Status run(const Options& o)
     const auto figures = chosen(o.only);
     if (!figures)
         return figures.error();
+    if (Status planned = planOutputs(o.common, plannedIn("-o", o.common.output, {"index.html", "overview.png"})); !planned)
+        return planned;
     std::string note;
     auto painter = openPainter(o.device, o.common.threads, note);
     if (!painter)

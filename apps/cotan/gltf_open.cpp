@@ -4,7 +4,6 @@
 
 #include "cotan/asset/extension.hpp"
 #include "cotan/asset/load.hpp"
-#include "file_output.hpp"
 
 namespace cotan::app {
 
@@ -23,7 +22,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
     const auto extension = output.extension();
     if (extension != ".glb" && extension != ".gltf")
         return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", output.string()));
-    return checkFolderOf(output);
+    return Done{};
 }
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)

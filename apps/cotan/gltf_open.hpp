@@ -13,7 +13,7 @@ namespace cotan::app {
 bool namedAsGltf(const std::filesystem::path& file);
 
 // Whether MODEL is named as glTF. Errors: ErrorKind::usage, also for an -o that is not .gltf or .glb in
-// lower case; ErrorKind::output where the folder of -o does not exist. No -o is no error here.
+// lower case. No -o is no error here.
 Status checkGltfNames(const std::string& model, const std::filesystem::path& output);
 
 struct OpenedGltf {

@@ -6,6 +6,7 @@
 
 #include "cotan/asset/load.hpp"
 #include "cotan/lint/lint.hpp"
+#include "normal_map_option.hpp"
 #include "parse.hpp"
 #include "spread_report.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string model;
+    NormalMapOption normalMap;
     double distance = 0;
     bool strict = false;
     double limitDegrees = -1;
@@ -155,8 +157,6 @@ std::vector<std::string> exceeded(const Options& o, const LintReport& report)
 
 Status checkUsage(const Options& o)
 {
-    if (!o.common.output.empty())
-        return usageError("lint writes no files but --json FILE; leave out -o");
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
     const auto outside = [](double limit, double most) { return !(limit == -1 || (limit >= 0 && limit <= most)); };
@@ -173,10 +173,14 @@ Status run(const Options& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
+    if (Status planned = planOutputs(o.common, {}); !planned)
+        return planned;
     Stopwatch watch;
-    const auto scene = loadScene(o.model);
+    auto scene = loadScene(o.model);
     if (!scene)
         return scene.error();
+    if (Status applied = applyNormalMap(o.normalMap, *scene); !applied)
+        return applied;
     for (const std::string& line : scene->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
@@ -219,8 +223,10 @@ Command addLintCommand(CLI::App& app)
 {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("lint", "what to expect of a model's normal maps without stored tangents, in degrees");
-    addCommonOptions(*command, options->common, "not used: lint writes no files");
+    addCommonOptions(*command, options->common, "");
+    command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used
     command->add_option("MODEL", options->model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file")->required();
+    addNormalMapOption(*command, options->normalMap);
     command->add_option("--distance", options->distance,
                         "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the picture")
         ->type_name("D")->capture_default_str();

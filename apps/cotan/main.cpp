@@ -1,21 +1,36 @@
 // The command line: a table of commands, and exit codes.
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "cotan/files/account.hpp"
+#include "cotan/files/interrupt.hpp"
 
 namespace {
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 usage, 2 bad input, 3 not available here, 4 cannot write, 5 over a limit.";
 
+// Not fmt::print, which throws where standard error cannot be written.
 int fail(const cotan::Error& error)
 {
-    fmt::print(stderr, "cotan: error: {}\n", error.message);
+    std::fputs(fmt::format("cotan: error: {}\n", error.message).c_str(), stderr);
     return int(error.kind);
+}
+
+// The exit code of a command, once what it printed has arrived.
+int finish(const cotan::Status& status)
+{
+    if (const auto refused = cotan::refusal(); refused && !status)
+        return fail(*refused); // a reader may have put it in other words
+    if (!status)
+        return fail(status.error());
+    const cotan::Status printed = cotan::app::flushOutput();
+    return printed ? 0 : fail(printed.error());
 }
 
 int runCommandLine(int argc, char** argv)
@@ -48,19 +63,20 @@ int runCommandLine(int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0)
-            return app.exit(e); // help or version
+        if (e.get_exit_code() == 0) { // help or version
+            std::ostringstream text;
+            app.exit(e, text, text);
+            print(text.str());
+            return finish(cotan::Done{});
+        }
         std::string message = e.what();
         for (char& c : message)
             c = c == '\n' ? ' ' : c;
-        fmt::print(stderr, "cotan: error: {} (see --help)\n", message);
-        return int(cotan::ErrorKind::usage);
+        return fail(cotan::usageError(message + " (see --help)"));
     }
     for (const Command& command : commands)
-        if (command.app->parsed()) {
-            const cotan::Status status = command.run();
-            return status ? 0 : fail(status.error());
-        }
+        if (command.app->parsed())
+            return finish(command.run());
     return int(cotan::ErrorKind::usage);
 }
 
@@ -68,6 +84,7 @@ int runCommandLine(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    cotan::removePartsOnInterrupt();
     try {
         return runCommandLine(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -21,6 +21,8 @@ struct DiffOptions {
 
 Status run(const DiffOptions& o)
 {
+    if (Status planned = planOutputs(o.map.common, {{"-o", o.map.common.output}}); !planned)
+        return planned;
     const auto conventionA = parseConvention(o.conventionA, "--from");
     if (!conventionA)
         return conventionA.error();

@@ -185,7 +185,9 @@ Status runDetect(const InspectOptions& o)
 
 template<class Run> Command inspect(CLI::App* command, std::shared_ptr<InspectOptions> options, Run run)
 {
-    return {command, [options, run] {
+    return {command, [options, run]() -> Status {
+                if (Status planned = planOutputs(options->map.common, {}); !planned)
+                    return planned;
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};
 }
@@ -196,7 +198,7 @@ Command addMapInfo(CLI::App& map)
 {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* command = map.add_subcommand("info", "what a map is: lengths, tilt, centre, channels, what is wrong");
-    addMapOptions(*command, options->map, "not used");
+    addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
     return inspect(command, options, runInfo);
 }
@@ -205,7 +207,7 @@ Command addMapDetect(CLI::App& map)
 {
     auto options = std::make_shared<InspectOptions>();
     CLI::App* command = map.add_subcommand("detect", "which way green points, and how sure that is");
-    addMapOptions(*command, options->map, "not used");
+    addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
     return inspect(command, options, runDetect);
 }

@@ -8,8 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "cotan/files/account.hpp"
+#include "cotan/files/output.hpp"
 #include "cotan/maps/mips.hpp"
-#include "file_output.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {
@@ -56,10 +57,17 @@ std::filesystem::path numbered(const std::filesystem::path& file, const std::str
     return file.parent_path() / fmt::format("{}{}_{}{}", file.stem().string(), mark, level, file.extension().string());
 }
 
+bool isDds(const Options& o) { return o.map.common.output.extension() == ".dds"; }
+
 Status writeChain(const Options& o, const std::vector<maps::MipLevel>& chain, const Bits& bits)
 {
-    if (o.map.common.output.extension() == ".dds")
+    if (isDds(o))
         return writeFileWhole(o.map.common.output, ddsBytes(chain));
+    for (std::size_t i = 0; i < chain.size(); ++i) // before anything is written; the first is planned
+        for (const char* mark : {"", "_roughness"})
+            if (const auto file = numbered(o.map.common.output, mark, i); i > 0 || *mark != '\0')
+                if (Status planned = planOutput("-o", file); !planned)
+                    return planned;
     for (std::size_t i = 0; i < chain.size(); ++i) {
         if (Status w = writeMap(numbered(o.map.common.output, "", i), chain[i].normals, bits); !w)
             return w;
@@ -82,7 +90,7 @@ Result<maps::SpreadModel> parseModel(const std::string& name)
 
 Result<Bits> typeOf(const Options& o, PixelType input)
 {
-    if (o.map.common.output.extension() != ".dds")
+    if (!isDds(o))
         return parseBits(o.bits, input, o.map.common.output);
     if (o.bits != "auto" && o.bits != "8")
         return usageError(fmt::format("--bits: .dds files are written with 8 bits; found '{}'", o.bits));
@@ -91,7 +99,7 @@ Result<Bits> typeOf(const Options& o, PixelType input)
 
 Status run(const Options& o)
 {
-    if (Status given = needOutput(o.map, "mips"); !given)
+    if (Status given = needOutput(o.map, "mips", isDds(o) ? o.map.common.output : numbered(o.map.common.output, "", 0)); !given)
         return given;
     const auto from = parseConvention(o.from, "--from");
     if (!from)

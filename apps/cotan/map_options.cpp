@@ -99,6 +99,15 @@ Result<Convention> parseConvention(const std::string& text, const std::string& o
     return convention;
 }
 
+NormalMapFormat formatInScene(const Convention& convention)
+{
+    NormalMapFormat format;
+    format.expansion = int(convention.expansion);
+    format.channels = int(convention.channels);
+    format.greenAlongV = !convention.greenUp;
+    return format;
+}
+
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options)
 {
     auto image = readImage(file, limitsOf(options));
@@ -194,11 +203,11 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
     return (*writer)->finish();
 }
 
-Status needOutput(const MapOptions& options, const std::string& command)
+Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file)
 {
     if (options.common.output.empty())
         return usageError(fmt::format("map {}: expected -o FILE; found none", command));
-    return Done{};
+    return planOutputs(options.common, {{"-o", file.empty() ? options.common.output : file}});
 }
 
 } // namespace cotan::app

@@ -10,7 +10,7 @@
 #include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/maps/texels.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan::app {
 
@@ -24,6 +24,9 @@ void addMapOptions(CLI::App& command, MapOptions& options, const std::string& ou
 // A convention in words separated by commas: a preset's name, then what differs from it, such as
 // "unity,xyz" or "opengl,biased". `option` is for the message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
+
+// The same as a material has it: v runs down in everything that was loaded.
+NormalMapFormat formatInScene(const Convention& convention);
 
 // All words that parseConvention knows, for help texts.
 std::string conventionWords();
@@ -63,7 +66,8 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
 // Writes a whole picture.
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits);
 
-// Says what is missing when no -o was given.
-Status needOutput(const MapOptions& options, const std::string& command);
+// For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
+// if empty.
+Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});
 
 } // namespace cotan::app

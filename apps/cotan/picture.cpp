@@ -57,6 +57,7 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
 void addPictureOptions(CLI::App& command, PictureOptions& o)
 {
     command.add_option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
+    addNormalMapOption(command, o.normalMap);
     command.add_option("--size", o.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--camera", o.camera,
                        "fit, the number of a camera of the file, or eye and target "
@@ -102,6 +103,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     }
     if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
         return ok.error();
+    if (Status applied = applyNormalMap(options.normalMap, picture.scene); !applied)
+        return applied.error();
     for (Frame frame : frames)
         deriveVertexFrames(picture.scene, frame, options.tangents == "generated");
     for (const std::string& line : picture.scene.warnings)

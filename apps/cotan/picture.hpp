@@ -6,12 +6,14 @@
 #include "common.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
+#include "normal_map_option.hpp"
 #include "painter.hpp"
 
 namespace cotan::app {
 
 struct PictureOptions {
     std::string model;            // empty: the built-in scene
+    NormalMapOption normalMap;
     std::string size = "1280x720";
     std::string camera;           // empty: the built-in scene's own, fit for a model
     std::string device = "auto";

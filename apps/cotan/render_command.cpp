@@ -81,6 +81,8 @@ Status run(const Options& o)
         return frame.error();
     if (Status fits = checkLighting(o.picture, *frame); !fits)
         return fits;
+    if (Status planned = planOutputs(o.common, {{"-o", o.common.output}}); !planned)
+        return planned;
     auto picture = openPicture(o.picture, o.common, {*frame, Frame::exact});
     if (!picture)
         return picture.error();

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cotan/files/output.hpp"
 #include "cotan/shader_text/shader_text.hpp"
-#include "file_output.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -127,6 +127,8 @@ Status run(const Options& o)
     const Result<Choice> choice = choiceOf(o);
     if (!choice)
         return choice.error();
+    if (Status planned = planOutputs(o.common, {{"-o", o.common.output}}); !planned)
+        return planned;
     const Result<shader_text::ShaderText> text = makeShaderText(*choice);
     if (!text)
         return text.error();
@@ -134,7 +136,7 @@ Status run(const Options& o)
         if (Status written = writeFileWhole(o.common.output, text->text); !written)
             return written;
     } else if (o.common.json != "-") {
-        fmt::print("{}", text->text);
+        print(text->text);
     }
     nlohmann::ordered_json report;
     report["language"] = name(choice->language);
@@ -155,6 +157,7 @@ Command addShaderCommand(CLI::App& app)
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("shader", "the text of a frame for your shader, self-contained");
     addCommonOptions(*command, o->common, "file for the text instead of standard output");
+    command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used
     command->add_option("--lang", o->language, "glsl, essl, hlsl, wgsl, msl or cpp")->required()->type_name("NAME");
     command->add_option("--frame", o->frame, "one of " + frameNames())->type_name("NAME")->capture_default_str();
     command

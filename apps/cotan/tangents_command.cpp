@@ -183,7 +183,9 @@ Status checkUsage(const Options& o)
                           "out -o for its statistics");
     if (o.replace && o.common.output.empty())
         return usageError("--replace: expected -o FILE to write to; found none");
-    return checkGltfNames(o.model, o.common.output);
+    if (Status names = checkGltfNames(o.model, o.common.output); !names)
+        return names;
+    return planOutputs(o.common, {{"-o", o.common.output}});
 }
 
 Status run(const Options& o)

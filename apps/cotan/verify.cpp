@@ -77,7 +77,18 @@ Result<std::vector<Image>> drawNormals(const Side& side, const std::array<Camera
     return images;
 }
 
+std::string pictureName(const std::string& what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
+
 } // namespace
+
+std::vector<std::string> verifyPictures()
+{
+    std::vector<std::string> names;
+    for (std::size_t view = 0; view < kViews; ++view)
+        for (const char* what : {"before", "after", "difference"})
+            names.push_back(pictureName(what, view));
+    return names;
+}
 
 Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
 {
@@ -101,7 +112,7 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
                                                        {"after", directionsAsColor((*after)[k])},
                                                        {"difference", heatMap(degrees, kSide, kSide)}};
         for (const auto& [name, image] : files)
-            if (Status written = writeImage(o.folder / fmt::format("{}-{}.png", name, k), image); !written)
+            if (Status written = writeImage(o.folder / pictureName(name, k), image); !written)
                 return written.error();
         all.insert(all.end(), degrees.begin(), degrees.end());
     }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
@@ -16,6 +17,9 @@ struct VerifyOptions {
     std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
     std::string device = "auto";
 };
+
+// The names of the pictures that verifyConversion writes.
+std::vector<std::string> verifyPictures();
 
 // Draws both from five sides, writes the pictures, says the degrees, and returns them for a report.
 // Errors: of loading, drawing and writing.

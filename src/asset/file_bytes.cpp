@@ -1,13 +1,12 @@
 #include "file_bytes.hpp"
 
-#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
+
+#include "cotan/files/account.hpp"
 
 namespace cotan {
 
@@ -19,6 +18,8 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status))
         return inputError(fmt::format("{}: no such file", file.string()));
+    if (Status free = noteInput(file); !free)
+        return free.error();
     if (fs::is_directory(status))
         return inputError(fmt::format("{}: expected a file, found a folder", file.string()));
     if (!fs::is_regular_file(status))
@@ -47,66 +48,6 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;
-}
-
-namespace {
-
-// Unique among the processes of this machine and the threads of this process.
-fs::path nameBeside(const fs::path& file)
-{
-    static std::atomic<unsigned> counter{0};
-    fs::path beside = file;
-    beside.replace_filename(fmt::format(".{}.{}-{}.part{}", file.stem().string(), ::getpid(),
-                                        counter.fetch_add(1), file.extension().string()));
-    return beside;
-}
-
-} // namespace
-
-BesideFile::BesideFile(fs::path file) : file_(std::move(file)), beside_(nameBeside(file_)) {}
-
-BesideFile::BesideFile(BesideFile&& other) noexcept
-    : file_(std::move(other.file_)), beside_(std::exchange(other.beside_, {}))
-{
-}
-
-BesideFile::~BesideFile()
-{
-    std::error_code ignored;
-    if (!beside_.empty())
-        fs::remove(beside_, ignored);
-}
-
-Result<BesideFile> BesideFile::begin(const fs::path& file)
-{
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    std::error_code error;
-    if (!fs::is_directory(folder, error))
-        return outputError(
-            fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
-    if (fs::is_directory(file, error))
-        return outputError(fmt::format("{}: is a folder", file.string()));
-    return BesideFile(file);
-}
-
-Status BesideFile::commit()
-{
-    std::error_code error;
-    fs::rename(beside_, file_, error);
-    if (error)
-        return outputError(fmt::format("{}: {}", file_.string(), error.message()));
-    beside_.clear();
-    return Done{};
-}
-
-Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
-{
-    auto beside = BesideFile::begin(file);
-    if (!beside)
-        return beside.error();
-    if (Status written = write(beside->path()); !written)
-        return written;
-    return beside->commit();
 }
 
 } // namespace cotan

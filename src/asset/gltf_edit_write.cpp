@@ -1,12 +1,13 @@
 // A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
 #include <new>
+#include <ranges>
 #include <system_error>
 
+#include "cotan/files/output.hpp"
 #include "file_bytes.hpp"
 #include "gltf_edit_state.hpp"
 
@@ -208,27 +209,22 @@ void copyImages(const GltfSource& source, const OrderedJson& root, const fs::pat
     }
 }
 
-Status writeAll(const fs::path& file, std::span<const std::byte> bytes)
-{
-    std::FILE* const stream = std::fopen(file.c_str(), "wb");
-    bool good = stream && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    good = stream && std::fclose(stream) == 0 && good;
-    return good ? Status(Done{}) : outputError(fmt::format("{}: cannot write", file.string()));
-}
-
-// All or none: each file is written beside its place, and none is renamed before the last is
-// written. The first, the model, is renamed last.
+// All or none: each file is written beside its place, and none is put there before the last is written. The first, the
+// model, comes last.
 Status writeTogether(std::span<const Output> outputs)
 {
-    if (outputs.empty())
-        return Done{};
-    std::error_code error;
-    fs::create_directories(folderOf(outputs.front().file), error);
-    return writeBeside(outputs.front().file, [&](const fs::path& beside) -> Status {
-        if (!writeAll(beside, outputs.front().bytes))
-            return outputError(fmt::format("{}: cannot write", outputs.front().file.string()));
-        return writeTogether(outputs.subspan(1));
-    });
+    std::vector<OutputFile> files;
+    for (const Output& output : outputs | std::views::reverse) {
+        std::error_code error;
+        fs::create_directories(folderOf(output.file), error);
+        auto file = OutputFile::begin(output.file);
+        if (!file)
+            return file.error();
+        files.push_back(*std::move(file));
+        if (Status written = writeBytes(files.back().path(), output.bytes); !written)
+            return files.back().failed(written.error());
+    }
+    return commitTogether(files);
 }
 
 GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits& limits)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/asset/extension.hpp"
+#include "cotan/files/output.hpp"
 #include "file_bytes.hpp"
 #include "image_convert.hpp"
 #include "image_formats.hpp"

@@ -10,6 +10,7 @@
 
 #include "cotan/asset/image_file.hpp"
 #include "cotan/asset/extension.hpp"
+#include "cotan/files/output.hpp"
 #include "file_bytes.hpp"
 #include "image_formats.hpp"
 #include "image_png.hpp"
@@ -129,8 +130,8 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPng(const fs::path& file, 
 
 class PngOut : public RowWriter {
 public:
-    PngOut(BesideFile beside, File file, std::string name)
-        : beside_(std::move(beside)), file_(std::move(file)), writer_(file_.get()), name_(std::move(name))
+    PngOut(OutputFile output, File file, std::string name)
+        : output_(std::move(output)), file_(std::move(file)), writer_(file_.get()), name_(std::move(name))
     {
     }
 
@@ -150,19 +151,19 @@ public:
         if (Status ended = check(endPng(writer_)); !ended)
             return ended;
         if (std::fclose(file_.release()) != 0)
-            return outputError(fmt::format("{}: writing failed", name_));
-        return beside_.commit();
+            return output_.failed(outputError(fmt::format("{}: writing failed", name_)));
+        return output_.commit();
     }
 
 private:
     Status check(bool fine) const
     {
         if (!fine)
-            return outputError(fmt::format("{}: {}", name_, writer_.session.message));
+            return output_.failed(outputError(fmt::format("{}: {}", name_, writer_.session.message)));
         return Done{};
     }
 
-    BesideFile beside_;
+    OutputFile output_; // removed last
     File file_;
     PngWriter writer_;
     std::string name_;
@@ -170,18 +171,20 @@ private:
 
 class OtherOut : public RowWriter {
 public:
-    OtherOut(BesideFile beside, std::unique_ptr<RowWriter> writer) : beside_(std::move(beside)), writer_(std::move(writer)) {}
+    OtherOut(OutputFile output, std::unique_ptr<RowWriter> writer) : output_(std::move(output)), writer_(std::move(writer)) {}
 
-    Status write(const Image& strip) override { return writer_->write(strip); }
+    Status write(const Image& strip) override { return told(writer_->write(strip)); }
     Status finish() override
     {
-        if (Status finished = writer_->finish(); !finished)
+        if (Status finished = told(writer_->finish()); !finished)
             return finished;
-        return beside_.commit();
+        return output_.commit();
     }
 
 private:
-    BesideFile beside_; // removed last
+    Status told(Status written) const { return written ? written : Status(output_.failed(written.error())); }
+
+    OutputFile output_; // removed last
     std::unique_ptr<RowWriter> writer_;
 };
 
@@ -225,24 +228,24 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     if (!writableImage(file))
         return usageError(fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"", name,
                                       file.extension().string()));
-    auto beside = BesideFile::begin(file);
-    if (!beside)
-        return beside.error();
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
     if (lowerExtension(file) != ".png") {
         const auto formats = imageFormats();
         if (!formats)
             return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
-        auto writer = (*formats)->createRows(beside->path(), format, threads, name);
+        auto writer = (*formats)->createRows(output->path(), format, threads, name);
         if (!writer)
-            return writer.error();
-        return std::unique_ptr<RowWriter>(std::make_unique<OtherOut>(*std::move(beside), *std::move(writer)));
+            return output->failed(writer.error());
+        return std::unique_ptr<RowWriter>(std::make_unique<OtherOut>(*std::move(output), *std::move(writer)));
     }
     if (format.type == PixelType::float32)
         return usageError(fmt::format("{}: PNG files cannot hold floats", name));
-    File stream(std::fopen(beside->path().c_str(), "wb"));
+    File stream(std::fopen(output->path().c_str(), "wb"));
     if (!stream)
-        return outputError(fmt::format("{}: cannot be opened for writing", name));
-    auto rows = std::make_unique<PngOut>(*std::move(beside), std::move(stream), name);
+        return output->failed(outputError(fmt::format("{}: cannot be opened for writing", name)));
+    auto rows = std::make_unique<PngOut>(*std::move(output), std::move(stream), name);
     if (Status started = rows->start(format); !started)
         return started.error();
     return std::unique_ptr<RowWriter>(std::move(rows));

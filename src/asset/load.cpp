@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cotan/asset/extension.hpp"
+#include "cotan/files/account.hpp"
 #include "file_bytes.hpp"
 
 namespace cotan {
@@ -21,7 +22,9 @@ constexpr std::array<std::string_view, 6> kAssimpExtensions = {".obj", ".ply", "
 
 } // namespace
 
-Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
+namespace {
+
+Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
     if (const auto size = usableFileSize(file, limits.fileBytes); !size)
         return size.error();
@@ -33,6 +36,17 @@ Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
     return inputError(fmt::format(
         "{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
         file.string(), file.extension().string()));
+}
+
+} // namespace
+
+Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
+{
+    auto scene = loadAny(file, limits);
+    // A model is read on without a texture that must not be read, with a warning; that is not enough here.
+    if (const auto refused = refusal())
+        return *refused;
+    return scene;
 }
 
 } // namespace cotan

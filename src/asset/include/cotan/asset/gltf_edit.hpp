@@ -43,6 +43,13 @@ struct GltfDocument {
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file,
                                       const LoadLimits& limits = {});
 
+// A scene as a new document: one mesh with one primitive for each of its meshes, materials of
+// metallic-roughness, images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes
+// without vertices are not for glTF: the caller keeps to scenes that were loaded or made with triangles.
+// Errors: ErrorKind::output where there is no memory for a PNG; images of floats cannot be stored
+// (ErrorKind::input).
+Result<GltfDocument> gltfDocumentOf(const Scene& scene);
+
 // ---- geometry -------------------------------------------------------------------------------
 
 // One primitive as a triangle list. Attributes are as the file has them, dequantised but not

@@ -1,0 +1,181 @@
+#include "cotan/files/account.hpp"
+
+#include <mutex>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A file by any name.
+struct Identity {
+    fs::path place;     // canonical as far as it exists
+    bool exists = false;
+    dev_t device = 0;   // where it exists
+    ino_t number = 0;
+
+    bool operator==(const Identity& other) const
+    {
+        return place == other.place
+            || (exists && other.exists && device == other.device && number == other.number);
+    }
+};
+
+// Nothing for pipes and devices, which are written to and not replaced.
+std::optional<Identity> identityOf(const fs::path& file)
+{
+    struct stat status {};
+    Identity identity;
+    identity.exists = ::stat(file.c_str(), &status) == 0;
+    if (identity.exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return std::nullopt;
+    identity.device = status.st_dev;
+    identity.number = status.st_ino;
+    std::error_code error;
+    identity.place = fs::weakly_canonical(fs::absolute(file, error), error);
+    return identity;
+}
+
+enum class State { planned, begun, done };
+
+struct Input {
+    Identity identity;
+    std::string name;
+};
+
+struct Output {
+    Identity identity;
+    std::string option, name;
+    State state = State::planned;
+};
+
+struct Account {
+    std::mutex mutex;
+    bool on = false;
+    std::vector<Input> inputs;
+    std::vector<Output> outputs;
+    std::optional<Error> refusal;
+
+    Error refuse(std::string message)
+    {
+        Error error = usageError(std::move(message) + "; expected another name, or --overwrite");
+        if (!refusal)
+            refusal = error;
+        return error;
+    }
+};
+
+Account& account()
+{
+    static Account one;
+    return one;
+}
+
+std::string nameOf(const Output& output)
+{
+    return output.option.empty() ? output.name : output.option + " " + output.name;
+}
+
+Error replaces(Account& all, const Output& output, const std::string& input)
+{
+    return all.refuse(fmt::format("{} would replace {}, which is read", nameOf(output), input));
+}
+
+// A new output against everything that is known.
+Status add(Account& all, Output output)
+{
+    for (const Input& input : all.inputs)
+        if (input.identity == output.identity)
+            return replaces(all, output, input.name);
+    for (const Output& other : all.outputs)
+        if (other.identity == output.identity)
+            return all.refuse(fmt::format("{} and {} are one file", nameOf(other), nameOf(output)));
+    all.outputs.push_back(std::move(output));
+    return Done{};
+}
+
+} // namespace
+
+void guardInputs(bool overwrite)
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    all.on = !overwrite;
+    all.inputs.clear();
+    all.outputs.clear();
+    all.refusal.reset();
+}
+
+Status planOutput(const std::string& option, const fs::path& file)
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    return identity ? add(all, {*identity, option, file.string()}) : Status(Done{});
+}
+
+Status noteInput(const fs::path& file)
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    if (!identity || !identity->exists)
+        return Done{};
+    for (const Output& output : all.outputs)
+        if (output.identity == *identity) {
+            if (output.state == State::done)
+                return Done{};
+            return replaces(all, output, file.string());
+        }
+    for (const Input& input : all.inputs)
+        if (input.identity == *identity)
+            return Done{};
+    all.inputs.push_back({*identity, file.string()});
+    return Done{};
+}
+
+Status beginOutput(const fs::path& file)
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    if (!identity)
+        return Done{};
+    if (all.refusal) // and somebody went on without what he could not read
+        return *all.refusal;
+    for (Output& output : all.outputs)
+        if (output.identity.place == identity->place && output.state == State::planned) {
+            output.state = State::begun;
+            return Done{};
+        }
+    return add(all, {*identity, "", file.string(), State::begun});
+}
+
+void endOutput(const fs::path& file)
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    if (!identity)
+        return;
+    for (Output& output : all.outputs)
+        if (output.identity.place == identity->place) {
+            output.identity = *identity; // a new file has taken the place
+            output.state = State::done;
+        }
+}
+
+std::optional<Error> refusal()
+{
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    return all.refusal;
+}
+
+} // namespace cotan

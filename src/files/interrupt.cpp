@@ -1,0 +1,102 @@
+#include "cotan/files/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include <unistd.h>
+
+namespace cotan {
+
+namespace {
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
+
+enum SlotState : int { slotFree, slotTaken, slotArmed };
+
+// Fixed, since a signal's handler may neither lock nor allocate. Pages that are never used take no memory.
+struct Slot {
+    std::atomic<int> state;
+    char name[4096];
+};
+Slot slots[kMostParts];
+
+std::atomic<int> holds = 0;
+std::atomic<int> waiting = 0; // the signal that came while it was held; 0: none
+
+static_assert(std::atomic<int>::is_always_lock_free);
+
+// Only what a signal's handler may do.
+void end(int signal)
+{
+    for (Slot& slot : slots)
+        if (slot.state.load() == slotArmed)
+            ::unlink(slot.name);
+    struct sigaction action {};
+    action.sa_handler = SIG_DFL;
+    ::sigaction(signal, &action, nullptr);
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+    ::raise(signal);
+}
+
+void onSignal(int signal)
+{
+    waiting = signal;
+    if (holds == 0)
+        end(signal);
+}
+
+} // namespace
+
+void removePartsOnInterrupt()
+{
+    for (const int signal : kSignals) {
+        struct sigaction before {};
+        if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN)
+            continue;
+        struct sigaction action {};
+        action.sa_handler = onSignal;
+        action.sa_flags = SA_RESTART;
+        sigfillset(&action.sa_mask);
+        ::sigaction(signal, &action, nullptr);
+    }
+    ::signal(SIGPIPE, SIG_IGN);
+    ::signal(SIGXFSZ, SIG_IGN);
+}
+
+InterruptsHeld::InterruptsHeld() { ++holds; }
+
+InterruptsHeld::~InterruptsHeld()
+{
+    if (--holds == 0)
+        if (const int signal = waiting)
+            end(signal);
+}
+
+GuardedPart::GuardedPart(const std::filesystem::path& file) : slot_(-1)
+{
+    if (file.empty() || file.native().size() >= sizeof Slot::name)
+        return;
+    for (std::size_t i = 0; i < kMostParts && slot_ < 0; ++i) {
+        int expected = slotFree;
+        if (!slots[i].state.compare_exchange_strong(expected, slotTaken))
+            continue;
+        std::strcpy(slots[i].name, file.c_str());
+        slots[i].state = slotArmed;
+        slot_ = int(i);
+    }
+}
+
+GuardedPart::GuardedPart(GuardedPart&& other) noexcept : slot_(std::exchange(other.slot_, -1)) {}
+
+GuardedPart::~GuardedPart()
+{
+    if (slot_ >= 0)
+        slots[slot_].state = slotFree;
+}
+
+} // namespace cotan

@@ -1,0 +1,228 @@
+#include "cotan/files/output.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cotan/files/account.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kPartStart = ".cotan-", kPartMark = ".part";
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+// Unique among the processes of this machine and the threads of this process. Short, so that it fits where the file's
+// own name does.
+fs::path partBeside(const fs::path& file)
+{
+    static std::atomic<unsigned> counter{0};
+    const std::string extension = file.extension().string();
+    return folderOf(file) / fmt::format("{}{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), kPartMark,
+                                        extension.size() <= 16 ? extension : "");
+}
+
+// The process that a part's name tells; 0 for other names.
+pid_t processOf(const std::string& name)
+{
+    if (!name.starts_with(kPartStart) || name.find(kPartMark) == std::string::npos)
+        return 0;
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(name.data() + kPartStart.size(), name.data() + name.size(), process);
+    return error == std::errc() && *end == '-' && process > 0 ? process : 0;
+}
+
+// /dev/stdout and others of its kind stand for something open, whatever that is.
+bool isSpecial(const fs::path& file)
+{
+    std::error_code ignored;
+    if ((file.native().starts_with("/dev/") || file.native().starts_with("/proc/")) && fs::is_symlink(file, ignored))
+        return true;
+    const fs::file_status status = fs::status(file, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+Error cannotWrite(const fs::path& file, int number)
+{
+    return outputError(fmt::format("{}: cannot write: {}", file.string(), reasonOf(number)));
+}
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to)
+{
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+}
+
+// All bytes to a descriptor; 0 or the errno.
+int writeAll(int file, const std::byte* bytes, std::size_t count)
+{
+    while (count > 0) {
+        const ssize_t written = ::write(file, bytes, count);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return written < 0 ? errno : ENOSPC;
+        bytes += written;
+        count -= std::size_t(written);
+    }
+    return 0;
+}
+
+// Why nothing more can be written to a part: 0 if something can.
+int trial(const fs::path& part)
+{
+    const int file = ::open(part.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return errno;
+    static constexpr std::array<std::byte, 65536> kNothing{};
+    const int number = writeAll(file, kNothing.data(), kNothing.size());
+    ::close(file);
+    return number;
+}
+
+} // namespace
+
+std::string reasonOf(int number)
+{
+    if (number == ENOSPC || number == EDQUOT)
+        return "no space left on the device";
+    if (number == EFBIG)
+        return "no space left: files may not grow beyond a limit here (ulimit -f)";
+    std::string text = std::generic_category().message(number);
+    if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z')
+        text[0] = char(text[0] + 'a' - 'A');
+    return text;
+}
+
+OutputFile::OutputFile(fs::path file, fs::path part, bool special)
+    : file_(std::move(file)), part_(std::move(part)), special_(special), guard_(special ? fs::path() : part_)
+{
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : file_(std::move(other.file_)), part_(std::move(other.part_)), special_(other.special_),
+      gone_(std::exchange(other.gone_, true)), guard_(std::move(other.guard_))
+{
+}
+
+OutputFile::~OutputFile()
+{
+    if (!gone_ && !special_)
+        ::unlink(part_.c_str());
+}
+
+Result<OutputFile> OutputFile::begin(const fs::path& file)
+{
+    std::error_code ignored;
+    if (!fs::is_directory(folderOf(file), ignored))
+        return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
+    if (fs::is_directory(file, ignored))
+        return outputError(fmt::format("{}: is a folder", file.string()));
+    if (Status free = beginOutput(file); !free)
+        return free.error();
+    const bool special = isSpecial(file);
+    return OutputFile(file, special ? file : partBeside(file), special);
+}
+
+Status OutputFile::commit()
+{
+    if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0)
+        return cannotWrite(file_, errno);
+    gone_ = true;
+    endOutput(file_);
+    return Done{};
+}
+
+Error OutputFile::failed(const Error& error) const
+{
+    if (error.kind != ErrorKind::output)
+        return error;
+    if (!special_)
+        if (const int number = trial(part_))
+            return cannotWrite(file_, number);
+    Error told = error;
+    replaceAll(told.message, part_.string(), file_.string());
+    replaceAll(told.message, part_.filename().string(), file_.filename().string());
+    return told;
+}
+
+Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
+{
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    if (Status written = write(output->path()); !written)
+        return output->failed(written.error());
+    return output->commit();
+}
+
+Status commitTogether(std::span<OutputFile> files)
+{
+    const InterruptsHeld held;
+    for (OutputFile& file : files)
+        if (Status done = file.commit(); !done)
+            return done;
+    return Done{};
+}
+
+Status writeBytes(const fs::path& file, std::span<const std::byte> bytes)
+{
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return cannotWrite(file, errno);
+    int number = writeAll(descriptor, bytes.data(), bytes.size());
+    if (::close(descriptor) != 0 && number == 0)
+        number = errno;
+    return number == 0 ? Status(Done{}) : cannotWrite(file, number);
+}
+
+Status writeFileWhole(const fs::path& file, std::string_view text)
+{
+    return writeBeside(file, [&](const fs::path& part) { return writeBytes(part, std::as_bytes(std::span(text))); });
+}
+
+Status checkWritable(const fs::path& file, bool makesFolder)
+{
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored))
+        return outputError(fmt::format("{}: is a folder", file.string()));
+    if (isSpecial(file))
+        return ::access(file.c_str(), W_OK) == 0 ? Status(Done{}) : cannotWrite(file, errno);
+    fs::path folder = folderOf(file);
+    while (makesFolder && !fs::exists(fs::symlink_status(folder, ignored)) && folder != folderOf(folder))
+        folder = folderOf(folder);
+    if (!fs::is_directory(folder, ignored))
+        return outputError(makesFolder ? fmt::format("{}: cannot make the folder: {} is a file", file.string(), folder.string())
+                                       : fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return outputError(fmt::format("{}: cannot write in the folder {}: {}", file.string(), folder.string(), reasonOf(errno)));
+    return Done{};
+}
+
+std::vector<fs::path> leftParts(const fs::path& folder)
+{
+    std::vector<fs::path> parts;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        const pid_t process = processOf(at->path().filename().string());
+        if (process != 0 && ::kill(process, 0) != 0 && errno == ESRCH)
+            parts.push_back(at->path());
+    }
+    return parts;
+}
+
+} // namespace cotan

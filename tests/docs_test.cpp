@@ -1,0 +1,285 @@
+// What the documents say: their links, the names and options they use, and the numbers that they repeat from the tables
+// that are measured.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSources = COTAN_SOURCE_DIR;
+
+std::vector<fs::path> documents()
+{
+    std::vector<fs::path> files = {kSources / "README.md", kSources / "CONTRIBUTING.md", kSources / "CHANGELOG.md"};
+    for (const char* folder : {"docs", "examples"})
+        for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
+            if (entry.path().extension() == ".md")
+                files.push_back(entry.path());
+    return files;
+}
+
+std::string shortName(const fs::path& file) { return file.lexically_relative(kSources).string(); }
+
+// Words of a text one space apart, so that a phrase is found across line ends.
+std::string folded(const std::string& text)
+{
+    std::string result;
+    for (char c : text)
+        if (!std::isspace(static_cast<unsigned char>(c)))
+            result += c;
+        else if (!result.empty() && result.back() != ' ')
+            result += ' ';
+    return result;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern, std::size_t group)
+{
+    std::vector<std::string> found;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern); it != std::sregex_iterator(); ++it)
+        found.push_back((*it)[group]);
+    return found;
+}
+
+// A heading as the anchor that pages on the web give it.
+std::string anchorOf(const std::string& heading)
+{
+    std::string anchor;
+    for (char c : heading)
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+            anchor += char(std::tolower(static_cast<unsigned char>(c)));
+        else if (c == ' ')
+            anchor += '-';
+    return anchor;
+}
+
+bool hasAnchor(const fs::path& file, const std::string& anchor)
+{
+    std::istringstream text(readWhole(file));
+    for (std::string line; std::getline(text, line);)
+        if (line.starts_with('#') && anchorOf(line.substr(line.find_first_not_of("# "))) == anchor)
+            return true;
+    return false;
+}
+
+TEST(Documents, everyLinkLeadsToAFileAndAHeading)
+{
+    const std::regex link(R"(\]\(([^)\s]+)\))");
+    std::size_t checked = 0;
+    for (const fs::path& file : documents())
+        for (const std::string& target : matches(readWhole(file), link, 1)) {
+            if (target.starts_with("http"))
+                continue;
+            const std::size_t hash = target.find('#');
+            const std::string path = target.substr(0, hash);
+            const fs::path there = path.empty() ? file : file.parent_path() / path;
+            EXPECT_TRUE(fs::exists(there)) << shortName(file) << ": " << target;
+            if (hash != std::string::npos && fs::exists(there)) {
+                EXPECT_TRUE(hasAnchor(there, target.substr(hash + 1))) << shortName(file) << ": " << target;
+            }
+            ++checked;
+        }
+    EXPECT_GT(checked, 30u);
+}
+
+std::string wholeSource()
+{
+    std::string all;
+    for (const char* folder : {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench"})
+        for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
+            if (entry.is_regular_file() && entry.path().extension() != ".md" && entry.path().filename() != "docs_test.cpp"
+                && entry.file_size() < (1u << 20))
+                all += readWhole(entry.path());
+    return all;
+}
+
+// `FrameBarA1` and the like: names of tests, types and functions that a reader will look for.
+TEST(Documents, everyNameInThemIsInTheSources)
+{
+    const std::string sources = wholeSource();
+    const std::regex name(R"(`([A-Z][a-z0-9]+[A-Z][A-Za-z0-9]*|cotan_[a-z0-9_]+|COTAN_[A-Z0-9_]+)[(`])");
+    // Words of other programs and formats.
+    const std::set<std::string> foreign = {"UpperCamel", "GLTFLoader", "UnpackNormal", "WebGLRenderer", "Cotan_half", "ShaderMaterial", "COTAN_BENCHMARKS"};
+    std::size_t checked = 0;
+    for (const fs::path& file : documents())
+        for (const std::string& word : matches(readWhole(file), name, 1)) {
+            if (foreign.contains(word))
+                continue;
+            EXPECT_NE(sources.find(word), std::string::npos) << shortName(file) << " names " << word;
+            ++checked;
+        }
+    EXPECT_GT(checked, 25u);
+}
+
+// Lines of code that call the tool, continued lines joined, comments off.
+std::vector<std::string> callsIn(const std::string& text)
+{
+    std::vector<std::string> calls;
+    std::istringstream lines(std::regex_replace(text, std::regex(R"(\\\n\s*)"), " "));
+    bool fenced = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("```"))
+            fenced = !fenced;
+        const std::regex call(R"(^\s*(?:build/release/bin/)?cotan ([a-z].*)$)");
+        std::smatch match;
+        if ((fenced || line.starts_with("    ")) && std::regex_match(line, match, call))
+            calls.push_back(match[1].str().substr(0, match[1].str().find(" #")));
+    }
+    for (const std::string& inLine : matches(text, std::regex(R"(`cotan ([a-z][^`\n]*)`)"), 1))
+        calls.push_back(inLine);
+    return calls;
+}
+
+std::string helpOf(const std::vector<std::string>& words)
+{
+    static std::map<std::vector<std::string>, std::string> known;
+    auto [entry, isNew] = known.try_emplace(words);
+    if (isNew) {
+        std::vector<std::string> asked = words;
+        asked.push_back("--help");
+        TemporaryFolder folder;
+        const ToolRun run = runTool(asked, folder.path());
+        entry->second = run.code == 0 ? run.out : "";
+    }
+    return entry->second;
+}
+
+// A command and its subcommand, and each --option of the line, are what --help has.
+TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
+{
+    std::size_t checked = 0;
+    for (const fs::path& file : documents())
+        for (const std::string& call : callsIn(readWhole(file))) {
+            std::istringstream stream(call);
+            std::vector<std::string> words;
+            for (std::string word; stream >> word;)
+                words.push_back(word);
+            std::vector<std::string> command = {words[0]};
+            if (words[0] == "map" && words.size() > 1 && std::isalpha(static_cast<unsigned char>(words[1][0])))
+                command.push_back(words[1]);
+            const std::string help = helpOf(command);
+            EXPECT_FALSE(help.empty()) << shortName(file) << ": cotan " << call;
+            for (const std::string& word : words)
+                if (word.starts_with("--") && word.size() > 2 && !help.empty()) {
+                    const std::string option = word.substr(0, word.find('='));
+                    EXPECT_TRUE(std::regex_search(help, std::regex(option + "\\b"))) << shortName(file) << ": " << option << " in cotan " << call;
+                    ++checked;
+                }
+        }
+    EXPECT_GT(checked, 40u);
+}
+
+// The cells of the line of docs/accuracy.csv that begins with `row`: samples, mean, 95 %, maximum.
+double fromAccuracy(const std::string& row, std::size_t column)
+{
+    std::istringstream lines(readWhole(kSources / "docs/accuracy.csv"));
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with(row + ",")) {
+            std::istringstream cells(line.substr(row.size() + 1));
+            std::string cell;
+            for (std::size_t i = 0; i <= column; ++i)
+                std::getline(cells, cell, ',');
+            return std::stod(cell);
+        }
+    ADD_FAILURE() << "docs/accuracy.csv has no row " << row;
+    return -1;
+}
+
+// A cell of the first table of docs/cost.md that has the row and the column.
+double fromCost(const std::string& row, const std::string& column)
+{
+    std::istringstream lines(readWhole(kSources / "docs/cost.md"));
+    std::vector<std::string> heads;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("|"))
+            heads.clear();
+        else {
+            std::vector<std::string> cells;
+            std::istringstream stream(line.substr(1));
+            for (std::string cell; std::getline(stream, cell, '|');)
+                cells.push_back(std::regex_replace(cell, std::regex(R"(^\s+|\s+$)"), ""));
+            if (heads.empty())
+                heads = cells;
+            const auto at = std::find(heads.begin(), heads.end(), column);
+            if (at != heads.end() && cells[0] == row && cells[std::size_t(at - heads.begin())].find_first_of("0123456789") != std::string::npos)
+                return std::stod(cells[std::size_t(at - heads.begin())]);
+        }
+    }
+    ADD_FAILURE() << "docs/cost.md has no row " << row << " with " << column;
+    return -1;
+}
+
+constexpr std::size_t kMean = 1, kMaximum = 3;
+
+std::string flat(const char* layout, const char* frame)
+{
+    return fmt::format("flat,{},\"domes, frontal\",{},S,double", layout, frame);
+}
+
+std::string sphere(int segments, const char* frame) { return fmt::format("curved,sphere,{},{},S,double", segments, frame); }
+
+// A phrase of a document whose numbers come from tables: {} stands for each.
+struct Claim {
+    const char* document;
+    const char* phrase;
+    std::vector<double> numbers;
+    int decimals = 0;
+};
+
+std::string filled(const Claim& claim)
+{
+    std::string text;
+    auto number = claim.numbers.begin();
+    for (const char* c = claim.phrase; *c; ++c)
+        if (c[0] == '{' && c[1] == '}') {
+            text += fmt::format("{:.{}f}", *number++, claim.decimals);
+            ++c;
+        } else
+            text += *c;
+    return text;
+}
+
+TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
+{
+    auto over = [](const char* row) { return fromCost(row, "NAVI21"); };
+    const Claim claims[] = {
+        {"README.md", "| square texels | {} degrees | {} degrees |",
+         {fromAccuracy(flat("square", "cotangent"), kMean), fromAccuracy(flat("square", "orthonormal"), kMean)}, 2},
+        {"README.md", "| stretched 2:1 | 0.00 | {} mean, {} at most |",
+         {fromAccuracy(flat("stretch 2:1", "orthonormal"), kMean), fromAccuracy(flat("stretch 2:1", "orthonormal"), kMaximum)}, 1},
+        {"README.md", "| sheared by 45 degrees | 0.00 | {} mean, {} at most |",
+         {fromAccuracy(flat("shear 45", "orthonormal"), kMean), fromAccuracy(flat("shear 45", "orthonormal"), kMaximum)}, 1},
+        {"README.md", "{} instructions on a NAVI21 over normalising the normal (a plain port of the published code {}, the total form above {}, "
+                      "stored tangents {} a pixel and {} a vertex)",
+         {over("cotangent-fused"), over("cotangent-plain"), over("cotangent"), over("mikktspace"), over("tangent")}},
+        {"docs/cost.md", "On NAVI21 totality costs {} instructions more than the fused form", {over("cotangent") - over("cotangent-fused")}},
+        {"docs/baking.md", "second order: {} degrees on a sphere of 32 segments where `cotangent` has {}",
+         {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean)}, 2},
+        {"docs/testing.md", "{}/{}/{}/{};",
+         {fromAccuracy(sphere(16, "cotangent"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean),
+          fromAccuracy(sphere(64, "cotangent"), kMean), fromAccuracy(sphere(128, "cotangent"), kMean)}, 2},
+        {"docs/testing.md", "| {}/{}; 0 | `AccuracyBarB2`", {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(64, "smooth"), kMean)}, 2},
+    };
+    for (const Claim& claim : claims) {
+        const std::string expected = filled(claim);
+        EXPECT_NE(folded(readWhole(kSources / claim.document)).find(expected), std::string::npos)
+            << claim.document << " should say: " << expected;
+    }
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,205 @@
+// The one way in which files are written, and the account of what is read and written.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/files/account.hpp"
+#include "cotan/files/output.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+// The account is the process's; each test has one of its own.
+class FileAccount : public ::testing::Test {
+protected:
+    void SetUp() override
+    {
+        guardInputs(/*overwrite*/ false);
+        fs::create_directories(folder / "real/deep");
+        fs::create_directory_symlink("real", folder / "link");
+        std::ofstream(folder / "real/in.png") << "input";
+        fs::create_hard_link(folder / "real/in.png", folder / "hard.png");
+        fs::create_symlink("real/in.png", folder / "soft.png");
+    }
+    void TearDown() override { guardInputs(/*overwrite*/ true); }
+
+    TemporaryFolder folder;
+    // Names of one file.
+    const std::vector<std::string> spellings = {"real/in.png", "real/./in.png", "real/deep/../in.png", "link/in.png",
+                                                "link/deep/../in.png", "hard.png", "soft.png"};
+};
+
+TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
+{
+    for (const std::string& input : spellings)
+        for (const std::string& output : spellings) {
+            guardInputs(false);
+            ASSERT_TRUE(noteInput(folder / input));
+            const Status planned = planOutput("-o", folder / output);
+            ASSERT_FALSE(planned) << input << " " << output;
+            EXPECT_EQ(planned.error().kind, ErrorKind::usage);
+            EXPECT_NE(planned.error().message.find("-o " + (folder / output).string()), std::string::npos);
+            EXPECT_NE(planned.error().message.find((folder / input).string() + ", which is read"), std::string::npos);
+        }
+}
+
+TEST_F(FileAccount, readingIsRefusedByEveryNameOfAPlannedOutput)
+{
+    for (const std::string& input : spellings)
+        for (const std::string& output : spellings) {
+            guardInputs(false);
+            ASSERT_TRUE(planOutput("-o", folder / output));
+            EXPECT_FALSE(noteInput(folder / input)) << input << " " << output;
+            EXPECT_TRUE(refusal().has_value());
+            EXPECT_FALSE(beginOutput(folder / output)) << "written although a reader went on without it";
+        }
+}
+
+TEST_F(FileAccount, twoOutputsAreRefusedInOnePlaceThatDoesNotExistYet)
+{
+    for (const auto& [a, b] : {std::pair("new.png", "./new.png"), {"real/new.png", "link/deep/../new.png"},
+                               {"no/such/new.png", "no/other/../such/./new.png"}, {"hard.png", "soft.png"}}) {
+        guardInputs(false);
+        ASSERT_TRUE(planOutput("-o", folder / a));
+        const Status second = planOutput("--json", folder / b);
+        ASSERT_FALSE(second) << a << " " << b;
+        EXPECT_NE(second.error().message.find("-o "), std::string::npos);
+        EXPECT_NE(second.error().message.find("--json "), std::string::npos);
+    }
+}
+
+TEST_F(FileAccount, whatIsWrittenWithoutAPlanIsCheckedToo)
+{
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    EXPECT_FALSE(writeFileWhole(folder / "hard.png", "new"));
+    EXPECT_EQ(readWhole(folder / "real/in.png"), "input");
+    ASSERT_TRUE(writeFileWhole(folder / "a", "first"));
+    EXPECT_FALSE(writeFileWhole(folder / "link/../a", "second"));
+    EXPECT_EQ(readWhole(folder / "a"), "first");
+}
+
+TEST_F(FileAccount, differentFilesPipesAndFinishedOutputsAreLeftAlone)
+{
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    EXPECT_TRUE(planOutput("-o", folder / "in.png"));
+    EXPECT_TRUE(writeFileWhole(folder / "in.png", "out"));
+    EXPECT_TRUE(noteInput(folder / "in.png"));
+    EXPECT_TRUE(planOutput("-o", "/dev/null"));
+    EXPECT_TRUE(planOutput("--json", "/dev/null"));
+}
+
+TEST_F(FileAccount, withOverwriteEverythingIsAllowedAndReplacedWhole)
+{
+    guardInputs(/*overwrite*/ true);
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    ASSERT_TRUE(planOutput("-o", folder / "hard.png"));
+    ASSERT_TRUE(writeFileWhole(folder / "hard.png", "new"));
+    EXPECT_EQ(readWhole(folder / "hard.png"), "new");
+    EXPECT_EQ(readWhole(folder / "real/in.png"), "input") << "written into the file that both names had";
+}
+
+std::size_t entries(const fs::path& folder) { return std::size_t(std::distance(fs::directory_iterator(folder), {})); }
+
+TEST(OutputFiles, whatIsNotCommittedLeavesNothingAndTheOldFile)
+{
+    TemporaryFolder folder;
+    std::ofstream(folder / "a.png") << "old";
+    {
+        auto output = OutputFile::begin(folder / "a.png");
+        ASSERT_TRUE(output);
+        EXPECT_EQ(output->path().extension(), ".png");
+        ASSERT_TRUE(writeBytes(output->path(), {}));
+        EXPECT_EQ(entries(folder.path()), 2u);
+    }
+    EXPECT_EQ(entries(folder.path()), 1u);
+    EXPECT_EQ(readWhole(folder / "a.png"), "old");
+}
+
+TEST(OutputFiles, aNameAsLongAsAFolderTakesCanBeWritten)
+{
+    TemporaryFolder folder;
+    const std::string name = std::string(251, 'x') + ".txt";
+    EXPECT_TRUE(writeFileWhole(folder / name, "text"));
+    EXPECT_EQ(readWhole(folder / name), "text");
+}
+
+TEST(OutputFiles, aFullDeviceIsSaidToBeFull)
+{
+    const Status written = writeFileWhole("/dev/full", "text");
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().message, "/dev/full: cannot write: no space left on the device");
+}
+
+TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
+{
+    TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(0);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child); // its number is free now
+    const fs::path left = folder / (".cotan-" + std::to_string(child) + "-0.part.png");
+    std::ofstream(left) << "half";
+    std::ofstream(folder / (".cotan-" + std::to_string(::getpid()) + "-7.part.png")) << "half";
+    std::ofstream(folder / ".cotan-x-0.part") << "mine";
+    std::ofstream(folder / "a.part.png") << "mine";
+    EXPECT_EQ(leftParts(folder.path()), std::vector<fs::path>{left});
+}
+
+// Dies by `signal` in the middle of writing; the status of the process.
+int statusAfter(int signal, const fs::path& folder, bool hold, bool ignored)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        if (ignored)
+            ::signal(signal, SIG_IGN);
+        removePartsOnInterrupt();
+        auto a = OutputFile::begin(folder / "a.png"), b = OutputFile::begin(folder / "b.png");
+        if (!a || !b || !writeBytes(a->path(), {}) || !writeBytes(b->path(), {}))
+            ::_exit(70);
+        if (hold) {
+            const InterruptsHeld held;
+            ::raise(signal);
+            if (!writeBytes(folder / "reached", {}))
+                ::_exit(71);
+        } else {
+            ::raise(signal);
+        }
+        ::_exit(72); // parts stay
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(OutputFiles, signalsRemoveThePartsAndEndTheProcessAsTheyWouldHave)
+{
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+        TemporaryFolder folder;
+        const int status = statusAfter(signal, folder.path(), false, false);
+        ASSERT_TRUE(WIFSIGNALED(status)) << signal;
+        EXPECT_EQ(WTERMSIG(status), signal);
+        EXPECT_TRUE(fs::is_empty(folder.path())) << signal;
+    }
+}
+
+TEST(OutputFiles, aSignalThatIsHeldComesAfterwardsAndOneThatWasIgnoredStaysIgnored)
+{
+    TemporaryFolder folder;
+    const int held = statusAfter(SIGTERM, folder.path(), true, false);
+    EXPECT_TRUE(WIFSIGNALED(held));
+    EXPECT_TRUE(fs::exists(folder / "reached"));
+    EXPECT_EQ(entries(folder.path()), 1u);
+    const int ignored = statusAfter(SIGHUP, folder.path(), false, true);
+    EXPECT_TRUE(WIFEXITED(ignored) && WEXITSTATUS(ignored) == 72);
+}
+
+} // namespace
+} // namespace cotan

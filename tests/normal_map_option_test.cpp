@@ -1,0 +1,194 @@
+// --normal-map: a picture on a model, read as the convention says; and bake -o MODEL, which puts it there for good.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/load.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+// Every texel the same.
+void writeMap(const std::filesystem::path& file, std::array<int, 4> texel)
+{
+    Image image = makeImage(4, 4, PixelType::unorm8);
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+        image.bytes8()[i] = std::uint8_t(texel[i % 4]);
+    ASSERT_TRUE(writeImage(file, image));
+}
+
+// A unit square in xy that faces +z, u along x, v of the file along y.
+void writeSquare(const std::filesystem::path& file, bool texcoords = true)
+{
+    std::ofstream obj(file);
+    obj << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n";
+    if (texcoords)
+        obj << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    else
+        obj << "f 1//1 2//1 3//1 4//1\n";
+}
+
+glm::vec3 normalInTheMiddle(const std::filesystem::path& file)
+{
+    const auto image = readImage(file);
+    EXPECT_TRUE(image);
+    if (!image)
+        return {};
+    const std::size_t at = 4 * (std::size_t(image->height / 2) * std::size_t(image->width) + std::size_t(image->width / 2));
+    const std::uint8_t* c = image->bytes8() + at;
+    return glm::vec3(c[0], c[1], c[2]) / 127.5f - 1.0f;
+}
+
+const std::vector<std::string> kSeen = {"--size", "64x64", "--view", "normal", "--camera", "0.5,0.5,2,0.5,0.5,0", "--device", "reference",
+                                        "--quiet", "-o", "n.png"};
+
+std::vector<std::string> drawn(std::vector<std::string> words)
+{
+    words.insert(words.end(), kSeen.begin(), kSeen.end());
+    return words;
+}
+
+// The texel (0.6, 0.48, 0.64): x to the right, y up where green points up, down where it points down. A byte's step is
+// 0.0079, half of it in each of three components moves a unit vector by at most 0.007; the picture rounds once more.
+TEST(NormalMapOption, readsTheMapAsTheConventionSays)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    const auto byte = [](double x) { return int(std::lround(x * 127 + 128)); };
+    writeMap(folder / "xyz.png", {byte(0.6), byte(0.48), byte(0.64), 255});
+    // The same direction in two channels: x and y as red and green; as grey and alpha; as slopes.
+    writeMap(folder / "rg.png", {byte(0.6), byte(0.48), 0, 255});
+    writeMap(folder / "ga.png", {byte(0.48), byte(0.48), byte(0.48), byte(0.6)});
+    const struct { const char* file; const char* convention; double green; } cases[] = {
+        {"xyz.png", "gltf", 1}, {"xyz.png", "opengl", 1}, {"xyz.png", "directx", -1}, {"xyz.png", "3dsmax", -1},
+        {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal", -1}};
+    for (const auto& c : cases) {
+        const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", c.file, "--convention", c.convention}), folder.path());
+        ASSERT_EQ(r.code, 0) << r.err;
+        const glm::vec3 n = normalInTheMiddle(folder / "n.png");
+        EXPECT_LT(glm::distance(n, glm::vec3(0.6, 0.48 * c.green, 0.64)), 0.015) << c.file << " as " << c.convention;
+    }
+}
+
+TEST(NormalMapOption, saysWhatIsWrongWithItInOneLine)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeSquare(folder / "bare.obj", false);
+    writeMap(folder / "map.png", {128, 128, 255, 255});
+    std::ofstream(folder / "text.png") << "not a picture";
+    const struct { std::vector<std::string> words; int code; const char* says; } cases[] = {
+        {{"render", "square.obj", "--convention", "directx"}, 1, "--convention: expected --normal-map"},
+        {{"render", "square.obj", "--material", "0"}, 1, "--material: expected --normal-map"},
+        {{"render", "square.obj", "--normal-map", "map.png", "--convention", "gltf,object"}, 1, "tangent space"},
+        {{"render", "square.obj", "--normal-map", "map.png", "--convention", "left"}, 1, "found 'left'"},
+        {{"render", "square.obj", "--normal-map", "map.png", "--material", "7"}, 1, "found 7"},
+        {{"render", "bare.obj", "--normal-map", "map.png"}, 2, "expected a mesh with texture coordinates"},
+        {{"render", "square.obj", "--normal-map", "none.png"}, 2, "none.png"},
+        {{"render", "square.obj", "--normal-map", "text.png"}, 2, "text.png"}};
+    for (const auto& c : cases) {
+        const ToolRun r = runTool(drawn(c.words), folder.path());
+        EXPECT_EQ(r.code, c.code) << c.says;
+        EXPECT_NE(r.err.find(c.says), std::string::npos) << r.err;
+        EXPECT_EQ(lines(r.err), 1) << r.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "n.png"));
+    }
+}
+
+// A map that leans to one side everywhere is no relief; what lint says of it has to be about this file.
+TEST(NormalMapOption, lintAndCompareTakeIt)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeMap(folder / "leaning.png", {200, 128, 220, 255});
+    const ToolRun lint = runTool({"lint", "square.obj", "--normal-map", "leaning.png", "--json", "-"}, folder.path());
+    ASSERT_EQ(lint.code, 0) << lint.err;
+    const auto report = nlohmann::json::parse(lint.out);
+    ASSERT_EQ(report["maps"].size(), 1u);
+    EXPECT_NE(report["maps"][0]["name"].get<std::string>().find("leaning.png"), std::string::npos);
+    const ToolRun compare = runTool({"compare", "square.obj", "--normal-map", "leaning.png", "--frames", "cotangent,orthonormal",
+                                     "--size", "64x64", "--device", "reference", "-o", "out", "--json", "-"}, folder.path());
+    ASSERT_EQ(compare.code, 0) << compare.err;
+    EXPECT_LT(nlohmann::json::parse(compare.out)["normals"]["max_degrees"].get<double>(), 0.01); // square texels: the frames agree
+}
+
+// A bump between two flat squares.
+void writeBump(const std::filesystem::path& file)
+{
+    std::ofstream obj(file);
+    constexpr int kCells = 16;
+    for (int j = 0; j <= kCells; ++j)
+        for (int i = 0; i <= kCells; ++i) {
+            const double x = double(i) / kCells, y = double(j) / kCells;
+            obj << "v " << x << ' ' << y << ' ' << 0.05 * std::sin(6.28318530718 * x) * y << '\n';
+        }
+    for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i) {
+            const int a = j * (kCells + 1) + i + 1, c = a + kCells + 1;
+            obj << "f " << a << ' ' << a + 1 << ' ' << c + 1 << ' ' << c << '\n';
+        }
+}
+
+class BakeIntoModel : public testing::TestWithParam<const char*> {};
+
+// The model that bake writes draws as the low mesh with the map that bake writes otherwise: to the bit, for OBJ and for glTF.
+TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "low.obj");
+    writeBump(folder / "high.obj");
+    const std::string frame = GetParam();
+    const auto bake = [&](const char* low, const char* out) {
+        const ToolRun r = runTool({"bake", "--high", "high.obj", "--low", low, "--size", "64x64", "--max-distance", "0.2", "--frame", frame,
+                                   "--quiet", "-o", out}, folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+    };
+    const auto picture = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--frame", frame});
+        const ToolRun r = runTool(drawn(words), folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+        const auto image = readImage(folder / "n.png");
+        return image ? image->data : std::vector<std::byte>();
+    };
+    bake("low.obj", "map.png");
+    bake("low.obj", "first.glb");
+    bake("first.glb", "second.gltf"); // its map is replaced, and the files of a .gltf are found again
+    const auto expected = picture({"render", "low.obj", "--normal-map", "map.png", "--convention", "opengl"});
+    ASSERT_FALSE(expected.empty());
+    EXPECT_EQ(picture({"render", "first.glb"}), expected);
+    EXPECT_EQ(picture({"render", "second.gltf"}), expected);
+    const auto flat = picture({"render", "low.obj"});
+    EXPECT_NE(flat, expected); // there is a bump to be seen
+    const auto scene = loadGltf(folder / "second.gltf");
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "second.gltf"))["images"].size(), 1u); // the first map is gone
+    EXPECT_EQ(scene->meshes[0].tangents.empty(), frame != "mikktspace" && frame != "vertex");
+}
+
+INSTANTIATE_TEST_SUITE_P(Frames, BakeIntoModel, testing::Values("cotangent", "smooth", "mikktspace", "vertex"));
+
+TEST(BakeIntoModelWords, refusesWhatAModelCannotHold)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "low.obj");
+    writeBump(folder / "high.obj");
+    const std::vector<std::vector<std::string>> wrong = {
+        {"--kind", "height"}, {"--bits", "32"}, {"--udim", "1002"}, {"--convention", "directx"}, {"--convention", "unity"}};
+    for (const auto& words : wrong) {
+        std::vector<std::string> all = {"bake", "--high", "high.obj", "--low", "low.obj", "--size", "16x16", "-o", "out.glb"};
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun r = runTool(all, folder.path());
+        EXPECT_EQ(r.code, 1) << words[0] << ' ' << words[1];
+        EXPECT_EQ(lines(r.err), 1) << r.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+    }
+}
+
+} // namespace
+} // namespace cotan::test
