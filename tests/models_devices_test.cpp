@@ -100,8 +100,8 @@ TEST(BlendedModel, solidTexelsHideWhatIsBehindThemOnBothDevices)
         if (!painter)
             continue; // no Vulkan device
         const Twins t = twins(scene, *painter);
-        EXPECT_LT(t.share, 0.02) << device;
-        EXPECT_LT(t.mean, 0.5) << device;
+        EXPECT_LT(t.share, 0.005) << device;
+        EXPECT_LT(t.mean, 0.1) << device;
     }
 }
 
