@@ -5,11 +5,15 @@
 #include "cotan/lang.h"
 #include "bindings.glsl"
 
+#ifndef COTAN_NO_RAY
 layout(location = 0) out vec3 outRay;
+#endif
 
 void main()
 {
     vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
+#ifndef COTAN_NO_RAY
     outRay = view.forward.xyz + view.right.xyz * corner.x + view.up.xyz * corner.y;
+#endif
     gl_Position = vec4(corner, 0.0, 1.0);
 }

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The picture: material, frame, perturbed normal, light. Compiled a second time with COTAN_EXACT
-// for the frame `exact`, which reads the triangle's vertices and so asks more of the device.
+// for the frame `exact`, which reads the triangle's vertices and so asks more of the device, and with
+// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order.
 #ifdef COTAN_EXACT
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -23,7 +24,12 @@ layout(location = 5) in vec3 inCotangentU;
 layout(location = 6) in vec3 inCotangentV;
 layout(location = 7) flat in vec4 inTexcoordOrigin;
 
+#ifdef COTAN_LAYERS
+#include "layers.glsl"
+layout(early_fragment_tests) in; // what opaque surfaces hide is not kept
+#else
 layout(location = 0) out vec4 outColor;
+#endif
 
 #include "frame.glsl"
 #include "lights.glsl"
@@ -97,6 +103,30 @@ vec4 vectorOutput(cotan_frame frame, vec3 n, vec2 uv)
     return vec4(finiteVector(v), 1.0);
 }
 
+#ifdef COTAN_LAYERS
+void keepLayer(vec4 value, float depthX, float depthY)
+{
+    uint index = atomicAdd(lists.count, 1u);
+    if (index >= lists.capacity)
+        return;
+    CotanLayer layer;
+    layer.value = value;
+    layer.depth = gl_FragCoord.z;
+    layer.depthX = depthX;
+    layer.depthY = depthY;
+    layer.samples = uint(gl_SampleMaskIn[0]);
+    layer.instance = draw.order;
+#ifdef COTAN_EXACT
+    layer.triangle = uint(gl_PrimitiveID);
+#else
+    layer.triangle = 0u;
+#endif
+    layer.before = atomicExchange(newest[pixelInBand()], index + 1u);
+    layer.spare = 0u;
+    layers[index] = layer;
+}
+#endif
+
 void main()
 {
     // Like the position, the uv are differentiated near zero, where floats are dense.
@@ -112,6 +142,7 @@ void main()
     n *= side;
 
     vec4 base = baseColor();
+    vec4 value;
     if (OUTPUT == OUTPUT_SHADED) {
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
@@ -119,13 +150,21 @@ void main()
             color = lit(s, inPosition, smoothNormal * side);
         }
         float alpha = ALPHA_MODE == ALPHA_BLEND ? clamp(base.a, 0.0, 1.0) : 1.0;
-        outColor = vec4(finished(color), alpha);
+        value = vec4(finished(color), alpha);
     } else {
-        outColor = vectorOutput(frame, n, uv);
+        value = vectorOutput(frame, n, uv);
     }
+#ifdef COTAN_LAYERS
+    float depthX = dFdx(gl_FragCoord.z);
+    float depthY = dFdy(gl_FragCoord.z);
+    if (value.a > 0.0)
+        keepLayer(value, depthX, depthY);
+#else
+    outColor = value;
     // After every texture read: derivatives end where a neighbour is discarded.
     if (ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w)
         discard;
     if (ALPHA_MODE == ALPHA_BLEND && OUTPUT != OUTPUT_SHADED && base.a < 1.0 / 255.0)
         discard;
+#endif
 }

@@ -66,9 +66,30 @@ struct CotanDraw {
     uvec2 texcoords; // address of the uv set of the normal map, two floats a vertex; 0 if none
     uvec2 indices;   // address of the mesh's indices
     uint flags;      // COTAN_DRAW_...
-    uint spare;
+    uint order;      // number of a translucent instance in the scene
 };
 
 #define COTAN_DRAW_HAS_TANGENTS 1u
 #define COTAN_DRAW_HAS_COTANGENTS 2u
 #define COTAN_DRAW_HAS_TEXCOORDS 4u // the uv set of the normal map (or set 0 where there is none)
+
+// Storage buffer: what the lists of translucent fragments start with.
+struct CotanLayerLists {
+    uint count;    // of layers that were asked for: beyond the capacity they are not there
+    uint capacity;
+    uint width;    // of the picture, in pixels
+    uint top;      // row of the raster at which the band starts
+};
+
+// Storage buffer, an array: one translucent fragment.
+struct CotanLayer {
+    vec4 value;    // linear colour and alpha
+    float depth;   // in the middle of the pixel: 1 near, 0 far
+    float depthX;  // its step to the next pixel in x
+    float depthY;
+    uint samples;  // a bit for each that is covered
+    uint instance; // CotanDraw::order
+    uint triangle; // of the mesh, where the device tells it, otherwise 0
+    uint before;   // name (index + 1) of the layer of the same pixel that arrived before, or 0
+    uint spare;
+};

@@ -139,5 +139,32 @@ TEST(FoundInput, isBoundedInEveryCommandThatReadsIt)
         GTEST_SKIP() << "no files: " << COTAN_SHARED_DATA << "/found is missing";
 }
 
+// A million instances of 4,000 vertices: 3.9 billion triangles, and 4 billion vertices to find the box around.
+TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
+{
+    const std::string model = std::string(COTAN_SHARED_DATA) + "/found/million_instances.glb";
+    if (!std::filesystem::exists(model))
+        GTEST_SKIP() << "no files: " << COTAN_SHARED_DATA << "/found is missing";
+    TemporaryFolder folder;
+    const std::vector<std::vector<std::string>> calls = {
+        {"render", model, "-o", "out.png", "--size", "64x64", "--device", "reference"},
+        {"render", model, "-o", "out.png", "--size", "64x64"},
+        {"compare", model, "-o", "out", "--size", "64x64", "--frames", "cotangent,exact"},
+        {"lint", model, "--quiet"}};
+    for (const auto& call : calls) {
+        SCOPED_TRACE(call[0]);
+        const ToolRun run = runTool(call, folder.path(), 20);
+        EXPECT_LT(run.seconds, kSeconds);
+        EXPECT_LT(run.megabytes, kMegabytes);
+        if (call[0] == "lint") {
+            EXPECT_EQ(run.code, 0) << run.err;
+            continue;
+        }
+        EXPECT_EQ(run.code, 2);
+        EXPECT_EQ(run.err, "cotan: error: million_instances: 1000000 instances draw 3900000000 triangles: expected at most 100000000\n");
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    }
+}
+
 } // namespace
 } // namespace cotan

@@ -51,6 +51,71 @@ TEST(Bounds, areOfTheTransformedInstances)
     EXPECT_TRUE(bounds(Scene{}).empty());
 }
 
+// Points on the unit sphere, its poles on all axes among them.
+Mesh pointsOnASphere(int count)
+{
+    Mesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const float a = 2.4f * float(i), z = 2 * (float(i) + 0.5f) / float(count) - 1;
+        mesh.positions.push_back({std::cos(a) * std::sqrt(1 - z * z), std::sin(a) * std::sqrt(1 - z * z), z});
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float s : {-1.0f, 1.0f}) {
+            mesh.positions.push_back(glm::vec3(0));
+            mesh.positions.back()[axis] = s;
+        }
+    return mesh;
+}
+
+TEST(Bounds, areTheSmallestForFewInstancesAndHoldTheBoxesOfMany)
+{
+    Scene scene;
+    scene.meshes = {pointsOnASphere(4000)};
+    const glm::mat4 turned = glm::rotate(glm::mat4(1), 0.6f, glm::normalize(glm::vec3(1, 2, 3)));
+    scene.instances = {{"", 0, turned}};
+    const Bounds one = bounds(scene);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(one.high[axis], 1, 2e-3f); // of a sphere in 4000 points
+        EXPECT_NEAR(one.low[axis], -1, 2e-3f);
+    }
+    // 4006 vertices each: 4188 instances are the last that are looked at vertex by vertex.
+    scene.instances.assign(kMostPlacedVertices / 4006, {"", 0, turned});
+    EXPECT_EQ(bounds(scene).high, one.high);
+    scene.instances.push_back({"", 0, turned});
+    const Bounds many = bounds(scene);
+    for (int axis = 0; axis < 3; ++axis) { // the corners of [-1, 1]^3, turned: the rows' absolute sums
+        const float reach = std::abs(turned[0][axis]) + std::abs(turned[1][axis]) + std::abs(turned[2][axis]);
+        EXPECT_NEAR(many.high[axis], reach, 1e-6f);
+        EXPECT_NEAR(many.low[axis], -reach, 1e-6f);
+    }
+}
+
+TEST(Bounds, areExactOfAMillionInstancesThatOnlyMove)
+{
+    Scene scene;
+    scene.meshes = {pointsOnASphere(4000)};
+    for (int i = 0; i < 1'000'000; ++i)
+        scene.instances.push_back({"", 0, glm::translate(glm::mat4(1), glm::vec3(i % 100, i / 100 % 100, i / 10000))});
+    const Bounds box = bounds(scene);
+    EXPECT_EQ(box.low, glm::vec3(-1));
+    EXPECT_EQ(box.high, glm::vec3(100));
+}
+
+TEST(Bounds, leaveOutWhatIsNotFiniteAndHoldTheLargestFloats)
+{
+    Scene scene;
+    scene.meshes = {sharedCube()};
+    scene.meshes[0].positions.push_back(glm::vec3(std::numeric_limits<float>::infinity(), 0, 0));
+    scene.meshes[0].positions.push_back(glm::vec3(0, std::nanf(""), 0));
+    scene.instances = {{"", 0, glm::mat4(1)}, {"", 7, glm::mat4(1)}, {"", -1, glm::mat4(1)}};
+    EXPECT_EQ(bounds(scene).high, glm::vec3(1));
+    scene.meshes[0].positions.assign(1, glm::vec3(2e38f, -3e38f, 1e35f));
+    EXPECT_EQ(bounds(scene).low, glm::vec3(2e38f, -3e38f, 1e35f));
+    EXPECT_EQ(bounds(scene).high, glm::vec3(2e38f, -3e38f, 1e35f));
+    scene.meshes[0].positions.clear();
+    EXPECT_TRUE(bounds(scene).empty());
+}
+
 TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
 {
     const Bounds boxes[] = {{{-1, -1, -1}, {1, 1, 1}},

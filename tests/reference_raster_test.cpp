@@ -85,6 +85,23 @@ TEST(ReferenceRaster, orthographicPatchInterpolatesUvAsRaysDo)
     expectUvOfRays(kTilted, view, 1e-3, kUvRounding);
 }
 
+TEST(ReferenceRaster, turnedCamerasInterpolateAlikeInBothProjections)
+{
+    View view = viewOf(Output::uv);
+    view.width = 90;
+    view.height = 50;
+    view.camera.eye = {0.7f, 2.1f, 4};
+    view.camera.target = {0.2f, -0.1f, -0.5f};
+    view.camera.up = {0.2f, 1, 0.1f};
+    view.camera.verticalExtent = 3.5f;
+    for (const bool orthographic : {false, true})
+        for (const bool rowsUpward : {false, true}) {
+            view.camera.orthographic = orthographic;
+            view.rowsUpward = rowsUpward;
+            expectUvOfRays(kTilted, view, 1e-3, 2 * kUvRounding); // the camera's own axes are rounded too
+        }
+}
+
 TEST(ReferenceRaster, oddSizesInterpolateAlike)
 {
     View view = viewOf(Output::uv);

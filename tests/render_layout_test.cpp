@@ -93,4 +93,22 @@ TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
     EXPECT_OFFSET(CotanDraw, flags);
 }
 
+TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
+{
+    for (const Shader shader : {Shader::forwardLayersFrag, Shader::forwardExactLayersFrag, Shader::composeFrag,
+                                Shader::composeMultisampledFrag}) {
+        const auto offsets = memberOffsets(spirv(shader));
+        EXPECT_OFFSET(CotanLayerLists, count);
+        EXPECT_OFFSET(CotanLayerLists, capacity);
+        EXPECT_OFFSET(CotanLayerLists, width);
+        EXPECT_OFFSET(CotanLayerLists, top);
+        EXPECT_OFFSET(CotanLayer, value);
+        EXPECT_OFFSET(CotanLayer, depth);
+        EXPECT_OFFSET(CotanLayer, samples);
+        EXPECT_OFFSET(CotanLayer, instance);
+        EXPECT_OFFSET(CotanLayer, before);
+    }
+    EXPECT_EQ(memberOffsets(spirv(Shader::composeFrag)).at("ListBlock.newest"), sizeof(gpu::CotanLayerLists));
+}
+
 } // namespace cotan

@@ -104,6 +104,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
             return scene.error();
         picture.scene = std::move(*scene);
     }
+    if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
+        return ok.error();
     if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
@@ -153,11 +155,9 @@ bool drawsNormalMaps(const Scene& scene)
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)
 {
     const Scene& scene = picture.scene;
-    std::size_t triangles = 0, drawn = 0;
+    std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangleCount();
-    for (const Instance& instance : scene.instances)
-        drawn += scene.meshes[std::size_t(instance.mesh)].triangleCount();
     return {{"model", options.model.empty() ? "built-in" : options.model},
             {"size", {picture.view.width, picture.view.height}},
             {"meshes", scene.meshes.size()},
@@ -165,7 +165,7 @@ nlohmann::ordered_json describeScene(const PictureOptions& options, const Pictur
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
             {"triangles", triangles},
-            {"triangles_drawn", drawn},
+            {"triangles_drawn", trianglesDrawn(scene)},
             {"warnings", scene.warnings}};
 }
 

@@ -12,25 +12,6 @@ namespace {
 
 bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-} // namespace
-
-Bounds bounds(const Scene& scene)
-{
-    Bounds box;
-    for (const Instance& instance : scene.instances) {
-        for (const glm::vec3& position : scene.meshes[std::size_t(instance.mesh)].positions) {
-            const glm::vec3 world(instance.toWorld * glm::vec4(position, 1));
-            if (!finite(world))
-                continue;
-            box.low = glm::min(box.low, world);
-            box.high = glm::max(box.high, world);
-        }
-    }
-    return box;
-}
-
-namespace {
-
 constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
 constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
 constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture

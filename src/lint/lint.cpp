@@ -10,6 +10,7 @@
 
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/bounds.hpp"
 #include "parts.hpp"
 
 namespace cotan {
@@ -39,18 +40,10 @@ std::vector<std::vector<glm::dmat3>> placings(const Scene& scene)
 // Where a sphere around everything just fits into the picture.
 double fittingDistance(const Scene& scene)
 {
-    glm::dvec3 low(1e300), high(-1e300);
-    for (const Instance& instance : scene.instances)
-        for (const glm::vec3& p : scene.meshes[std::size_t(instance.mesh)].positions) {
-            const glm::dvec3 world(glm::dmat4(instance.toWorld) * glm::dvec4(glm::dvec3(p), 1));
-            if (!std::isfinite(world.x + world.y + world.z))
-                continue;
-            low = glm::min(low, world);
-            high = glm::max(high, world);
-        }
-    if (low.x > high.x)
+    const Bounds box = bounds(scene);
+    if (box.empty())
         return 1;
-    const double radius = glm::length(high - low) / 2;
+    const double radius = glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) / 2;
     return radius > 0 ? radius / std::sin(glm::radians(kFieldOfView / 2)) : 1;
 }
 

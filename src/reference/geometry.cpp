@@ -71,19 +71,6 @@ void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>
         });
 }
 
-// The distance of the middle of the mesh's box from the eye; 0 if it is nowhere.
-double centreDistance(const std::vector<glm::vec3>& positions)
-{
-    glm::dvec3 low(1e300), high(-1e300);
-    for (glm::vec3 p : positions) {
-        if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) < 1e37f))
-            continue;
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    return low.x <= high.x ? glm::length(low * 0.5 + high * 0.5) : 0.0;
-}
-
 Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame frame)
 {
     Transform t = transformOf(toWorld, eye);
@@ -105,7 +92,6 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
         transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
         transformAll(mesh.cotangentsV, count, draw.cotangentsV, asCovector);
     }
-    draw.centreDistance = centreDistance(draw.positions);
     return draw;
 }
 
@@ -128,13 +114,9 @@ std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, int frame, bool 
         if (hasMaterial && mesh.triangleCount() > 0)
             draws.push_back(makeDraw(mesh, instance.toWorld, eye, Frame(frame)));
     }
-    if (!blending)
-        return draws;
-    auto firstBlended = std::stable_partition(
-        draws.begin(), draws.end(), [&](const Draw& draw) { return !isBlended(scene, draw); });
-    std::stable_sort(firstBlended, draws.end(), [](const Draw& a, const Draw& b) {
-        return a.centreDistance > b.centreDistance;
-    });
+    if (blending)
+        std::stable_partition(draws.begin(), draws.end(),
+                              [&](const Draw& draw) { return !isBlended(scene, draw); });
     return draws;
 }
 

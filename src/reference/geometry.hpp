@@ -18,7 +18,6 @@ struct Draw {
     int material = 0;
     glm::mat3 vectors{1};                  // takes differences of mesh positions to the world
     bool mirrored = false;                 // the matrix reverses orientation
-    double centreDistance = 0;             // of the middle of the mesh, from the eye
     std::vector<glm::vec3> positions;      // relative to the eye, world axes
     std::vector<glm::vec3> normals;        // unit, or zero where unknown
     std::vector<glm::vec4> tangents;       // unit; w = handedness along +v, see geometry.cpp
@@ -26,8 +25,8 @@ struct Draw {
     std::vector<glm::vec3> cotangentsV;
 };
 
-// The draws of a scene: opaque and masked instances in the scene's order, then blended ones from
-// back to front. Instances without a valid mesh or triangles are left out.
+// The draws of a scene: opaque and masked instances in the scene's order, then blended ones likewise:
+// these can be tested against all that hides them, and keep no depth themselves. Instances without a valid mesh or triangles are left out.
 // frame: cotan::Frame as an integer; only the attributes that it reads are made.
 // blending: false draws blended materials as opaque ones, in the scene's order.
 std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, int frame, bool blending);

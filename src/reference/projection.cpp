@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/scene/bounds.hpp"
+
 namespace cotan::reference {
 
 namespace {
-
-constexpr double kLowest = std::numeric_limits<double>::lowest();
-constexpr double kHighest = std::numeric_limits<double>::max();
-
-bool isFinite(glm::dvec3 v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 glm::dvec3 normalizeOr(glm::dvec3 v, glm::dvec3 otherwise)
 {
@@ -52,21 +45,10 @@ double usableOr(float value, double otherwise)
 
 Ball boundingBall(const Scene& scene)
 {
-    glm::dvec3 low(kHighest), high(kLowest);
-    for (const Instance& instance : scene.instances) {
-        if (instance.mesh < 0 || std::size_t(instance.mesh) >= scene.meshes.size())
-            continue;
-        glm::dmat4 toWorld(instance.toWorld);
-        for (glm::vec3 p : scene.meshes[std::size_t(instance.mesh)].positions) {
-            glm::dvec3 q(toWorld * glm::dvec4(p, 1));
-            if (!isFinite(q))
-                continue;
-            low = glm::min(low, q);
-            high = glm::max(high, q);
-        }
-    }
-    if (low.x > high.x)
+    const Bounds box = bounds(scene);
+    if (box.empty())
         return {};
+    const glm::dvec3 low(box.low), high(box.high);
     return {low * 0.5 + high * 0.5, std::max(glm::length(high * 0.5 - low * 0.5), 1e-30)};
 }
 

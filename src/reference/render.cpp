@@ -13,6 +13,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "cotan/frame.hpp"
+#include "cotan/scene/bounds.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
@@ -85,7 +86,7 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f,
         if (fragment.discarded)
             continue;
         if (blended)
-            tile.blend(x, y, samples, fragment.value);
+            tile.blend(x, y, samples, fragment.value, triangle.z, pattern);
         else
             tile.write(x, y, samples, fragment.value, triangle.z, pattern);
     }
@@ -158,10 +159,15 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
+    if (const Status ok = checkTrianglesDrawn(scene); !ok)
+        return ok.error();
     try {
         std::optional<Image> picture;
         onThreads(threads, [&] { picture = draw(scene, view, progress); });
         return std::move(*picture);
+    } catch (const TooManyLayers&) {
+        return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)
+                                + " translucent fragments in a tile of 32x32 pixels");
     } catch (const std::bad_alloc&) {
         return unavailableError("reference renderer: not enough memory for this scene and size");
     }

@@ -69,8 +69,9 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
     if (!(longer > 0))
         return f;
     bool stretched = longer > 1 && s.mip != MipFilter::none && s.minify == Filter::linear;
+    // Less a little, so that rounding does not make two probes of a square.
     if (stretched)
-        f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer))), 1,
+        f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer) - 1e-3f)), 1,
                               kMaxProbes);
     f.axis = alongX >= alongY ? dx : dy;
     f.lod = std::log2(longer / float(f.probes));

@@ -1,5 +1,6 @@
 #include "tile.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cotan/portable.hpp"
@@ -59,12 +60,28 @@ void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
     }
 }
 
-void Tile::blend(int x, int y, unsigned samples, glm::vec4 value)
+void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
+                 const SamplePattern& pattern)
 {
-    glm::vec4 premultiplied(glm::vec3(value) * value.w, value.w);
-    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
-        if (samples >> s & 1)
-            value_[at(x, y) + s] = premultiplied + value_[at(x, y) + s] * (1 - value.w);
+    if (layers_.size() == kMostLayers)
+        throw TooManyLayers{};
+    const auto samplesOfPixel = std::size_t(samples_);
+    if (newest_.empty())
+        newest_.assign(value_.size() / samplesOfPixel, kNone);
+    std::uint32_t& newest = newest_[at(x, y) / samplesOfPixel];
+    Layer layer{glm::vec4(glm::vec3(value) * value.w, value.w), {}, samples, newest};
+    for (std::size_t s = 0; s < samplesOfPixel; ++s)
+        layer.nearness[s] = nearnessAt(z, x, y, pattern.offset[s]);
+    newest = std::uint32_t(layers_.size());
+    layers_.push_back(layer);
+}
+
+std::vector<const Tile::Layer*> Tile::layersOf(std::size_t pixel) const
+{
+    std::vector<const Layer*> layers;
+    for (std::uint32_t i = newest_.empty() ? kNone : newest_[pixel]; i != kNone; i = layers_[i].before)
+        layers.push_back(&layers_[i]);
+    return layers;
 }
 
 void Tile::clear(int x, int y, glm::vec4 value)
@@ -76,8 +93,18 @@ void Tile::clear(int x, int y, glm::vec4 value)
 glm::vec4 Tile::resolve(int x, int y) const
 {
     glm::vec4 sum(0);
-    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
-        sum += value_[at(x, y) + s];
+    std::vector<const Layer*> layers = layersOf(at(x, y) / std::size_t(samples_));
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
+        // Their addresses are in the order in which they were added.
+        std::sort(layers.begin(), layers.end(), [&](const Layer* a, const Layer* b) {
+            return a->nearness[s] != b->nearness[s] ? a->nearness[s] < b->nearness[s] : a < b;
+        });
+        glm::vec4 value = value_[at(x, y) + s];
+        for (const Layer* layer : layers) // farthest first
+            if (layer->samples >> s & 1)
+                value = layer->value + value * (1 - layer->value.w);
+        sum += value;
+    }
     return sum / float(samples_);
 }
 

@@ -1,6 +1,8 @@
 // A tile of the picture while it is drawn.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -9,6 +11,11 @@
 #include "raster.hpp"
 
 namespace cotan::reference {
+
+// Of a tile: 1024 for each pixel, 40 MiB.
+inline constexpr std::size_t kMostLayers = std::size_t(1) << 20;
+
+struct TooManyLayers {};
 
 // Colour and nearness of every sample of an area. Values are linear; alpha is coverage, and
 // colours are premultiplied by it, as they are in a render target after blending.
@@ -24,22 +31,35 @@ public:
     void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
                const SamplePattern& pattern);
 
-    // Mixes a colour over the samples by its alpha; nearness stays.
-    void blend(int x, int y, unsigned samples, glm::vec4 value);
+    // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
+    // composed in `resolve`, by nearness; of equally near ones the later is in front.
+    // Throws TooManyLayers over kMostLayers.
+    void blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern);
 
     // Fills all samples of a pixel, behind everything.
     void clear(int x, int y, glm::vec4 value);
 
-    // The mean of a pixel's samples.
+    // The mean of a pixel's samples, each with its layers over what was written.
     glm::vec4 resolve(int x, int y) const;
 
 private:
+    struct Layer {
+        glm::vec4 value{0};
+        std::array<float, 4> nearness{}; // of each sample
+        unsigned samples = 0;
+        std::uint32_t before = 0; // the pixel's layer that was added before, kNone if none
+    };
+    static constexpr std::uint32_t kNone = 0xffffffff;
+
     std::size_t at(int x, int y) const;
+    std::vector<const Layer*> layersOf(std::size_t pixel) const;
 
     Rectangle area_;
     int samples_;
     std::vector<glm::vec4> value_;
     std::vector<float> nearness_;
+    std::vector<Layer> layers_;
+    std::vector<std::uint32_t> newest_; // of each pixel; empty before the first layer
 };
 
 // Writes a pixel as the image's type: float32 as it is; unorm8 with colours sRGB-encoded and, as

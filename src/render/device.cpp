@@ -107,6 +107,8 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
     if (!v13.dynamicRendering || !v13.synchronization2)
         return "lacks dynamicRendering or synchronization2";
+    if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics)
+        return "lacks fragmentStoresAndAtomics";
     return {};
 }
 
@@ -197,6 +199,7 @@ void openLogicalDevice(Device& d)
     use12.bufferDeviceAddress = d.exact;
     use12.pNext = &use13;
     vk::PhysicalDeviceFeatures2 use;
+    use.features.fragmentStoresAndAtomics = VK_TRUE; // lists of translucent fragments
     use.features.samplerAnisotropy = d.anisotropy;
     use.features.geometryShader = d.exact; // what SPIR-V asks for reading gl_PrimitiveID
     use.pNext = &use12;

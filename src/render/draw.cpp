@@ -14,7 +14,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
-constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
 double now()
 {
@@ -53,24 +52,6 @@ void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& me
         constants.flags |= COTAN_DRAW_HAS_TANGENTS;
     if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
         constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
-}
-
-PipelineKey forwardKey(const View& view, const Targets& targets)
-{
-    PipelineKey key;
-    key.frame = view.frame;
-    key.output = view.output;
-    key.coarse = view.derivatives == Derivatives::coarse;
-    key.normalMaps = view.normalMaps;
-    key.samples = targets.kind().samples;
-    key.format = targets.kind().format;
-    if (view.output == Output::shaded) {
-        key.shading = view.shading;
-        key.environment = view.environment;
-        key.shadows = castsShadow(view);
-        key.toneMap = !view.linearOutput;
-    }
-    return key;
 }
 
 // The maps that a pipeline reads, of those that a material has.
@@ -132,19 +113,23 @@ void divideByAlpha(Image& image)
 
 } // namespace
 
-struct Drawer::Item {
-    gpu::CotanDraw constants{};
-    const GpuMesh* mesh = nullptr;
-    const GpuMaterial* material = nullptr;
-    bool clockwise = false; // front faces run clockwise over the raster
-    double distance = 0;    // of the centre from the eye
-};
-
-struct Drawer::DrawLists {
-    std::vector<Item> opaque; // near to far
-    std::vector<Item> mask;   // near to far
-    std::vector<Item> blend;  // far to near
-};
+PipelineKey forwardKey(const View& view, const Targets& targets)
+{
+    PipelineKey key;
+    key.frame = view.frame;
+    key.output = view.output;
+    key.coarse = view.derivatives == Derivatives::coarse;
+    key.normalMaps = view.normalMaps;
+    key.samples = targets.kind().samples;
+    key.format = targets.kind().format;
+    if (view.output == Output::shaded) {
+        key.shading = view.shading;
+        key.environment = view.environment;
+        key.shadows = castsShadow(view);
+        key.toneMap = !view.linearOutput;
+    }
+    return key;
+}
 
 Drawer::Drawer(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device),
@@ -158,9 +143,10 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     sampler.compareEnable = VK_TRUE;
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
+    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 1),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 2)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
 }
@@ -178,18 +164,19 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         addMesh(item.constants, scene, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
-        item.distance = eyeDistance(instance.toWorld, item.mesh->bounds.centre(), axes);
+        item.distance = eyeDistance(instance.toWorld, item.mesh->centre, axes);
         switch (item.material->alphaMode) {
         case AlphaMode::opaque: lists.opaque.push_back(item); break;
         case AlphaMode::mask: lists.mask.push_back(item); break;
-        case AlphaMode::blend: lists.blend.push_back(item); break;
+        case AlphaMode::blend:
+            item.constants.order = static_cast<std::uint32_t>(lists.blend.size());
+            lists.blend.push_back(item);
+            break;
         }
     }
     const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
     std::stable_sort(lists.opaque.begin(), lists.opaque.end(), nearer);
     std::stable_sort(lists.mask.begin(), lists.mask.end(), nearer);
-    std::stable_sort(lists.blend.begin(), lists.blend.end(),
-                     [&](const Item& a, const Item& b) { return nearer(b, a); });
     return lists;
 }
 
@@ -209,7 +196,7 @@ void Drawer::prepareShadowMap(bool needed)
     shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
 }
 
-void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
+void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered)
 {
     const gpu::CotanView constants = viewConstants(view, axes, bounds);
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
@@ -223,20 +210,41 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds)
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
-    writePictureSet();
+    if (layered)
+        prepareLayers();
+    writePictureSet(layered);
 }
 
-void Drawer::writePictureSet()
+void Drawer::prepareLayers()
+{
+    const std::uint32_t width = targets_->kind().width;
+    if (layers_ && layers_->width() == width)
+        return;
+    layers_.reset(); // its memory may be needed for the new ones
+    layers_ = std::make_unique<LayerLists>(*device_, width);
+}
+
+// Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
+// driver (22.3) does.
+void Drawer::writePictureSet(bool layered)
 {
     const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view,
                                          vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
+                                        vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     using T = vk::DescriptorType;
     device_->device.updateDescriptorSets(
         {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
          vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow)},
+         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
+         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
+         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
+         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
+                                layered && targets_->multisampled() ? depth : shadow)},
         {});
 }
 
@@ -258,7 +266,7 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
 void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                        const std::vector<Item>& items, PipelineKey key)
 {
-    const bool shadow = key.pass != Pass::forward;
+    const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
     const std::uint32_t asked = shadow ? 0 : mapsNeeded(key);
     const Item* before = nullptr;
     for (const Item& item : items) {
@@ -307,12 +315,21 @@ void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScen
                Access::eShaderSampledRead);
 }
 
+// Draws the triangle that covers the picture.
+void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
+{
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
+    commands.setCullMode(vk::CullModeFlagBits::eNone);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+    commands.draw(3, 1, 0, 0);
+}
+
+// Everything that writes depth, and the background.
 void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                            const DrawLists& lists, const View& view)
 {
     PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
-    targets_->begin(commands);
     drawItems(commands, scene, lists.opaque, key);
     key.alphaMode = AlphaMode::mask;
     drawItems(commands, scene, lists.mask, key);
@@ -322,14 +339,19 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         background.toneMap = key.toneMap;
         background.samples = key.samples;
         background.format = key.format;
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(background));
-        commands.setCullMode(vk::CullModeFlagBits::eNone);
-        commands.setFrontFace(vk::FrontFace::eCounterClockwise);
-        commands.draw(3, 1, 0, 0);
+        drawOver(commands, background);
     }
     key.alphaMode = AlphaMode::blend;
-    drawItems(commands, scene, lists.blend, key);
-    targets_->end(commands);
+    if (!shaded)
+        drawItems(commands, scene, lists.blend, key);
+}
+
+const vk::raii::CommandBuffer& Drawer::begin()
+{
+    const vk::raii::CommandBuffer& commands = commands_.begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
+                                pictureSet_, {});
+    return commands;
 }
 
 Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
@@ -343,15 +365,24 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     }
     const Axes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
-    prepare(view, axes, scene.bounds);
     const DrawLists lists = makeLists(scene, view, axes);
+    const bool layered = view.output == Output::shaded && !lists.blend.empty();
+    prepare(view, axes, scene.bounds, layered);
 
-    const vk::raii::CommandBuffer& commands = commands_.begin();
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
-                                pictureSet_, {});
-    recordShadow(commands, scene, lists);
-    recordPicture(commands, scene, lists, view);
     const double start = now();
+    const vk::raii::CommandBuffer& commands = begin();
+    recordShadow(commands, scene, lists);
+    targets_->begin(commands, layered);
+    recordPicture(commands, scene, lists, view);
+    if (layered) {
+        targets_->endOpaque(commands);
+        commands_.submitAndWait();
+        if (const Status ok = drawLayers(scene, lists, view); !ok)
+            return ok.error();
+        targets_->copy(begin());
+    } else {
+        targets_->end(commands);
+    }
     commands_.submitAndWait();
     const double drawn = now();
     Image image = targets_->image(view.rowsUpward);

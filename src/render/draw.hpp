@@ -5,12 +5,16 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/render/renderer.hpp"
+#include "layers.hpp"
 #include "pipeline.hpp"
 #include "scene_upload.hpp"
 #include "targets.hpp"
 #include "view_data.hpp"
 
 namespace cotan {
+
+// The pipeline that draws opaque surfaces of a view, without the maps.
+PipelineKey forwardKey(const View& view, const Targets& targets);
 
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
 class Drawer {
@@ -20,17 +24,35 @@ public:
     Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
 
 private:
-    struct Item;      // one instance, ready to be drawn
-    struct DrawLists; // all of them, in the order in which they are drawn
+    // One instance, ready to be drawn.
+    struct Item {
+        gpu::CotanDraw constants{};
+        const GpuMesh* mesh = nullptr;
+        const GpuMaterial* material = nullptr;
+        bool clockwise = false; // front faces run clockwise over the raster
+        double distance = 0;    // of the centre from the eye
+    };
+    // All of them, in the order in which they are drawn.
+    struct DrawLists {
+        std::vector<Item> opaque; // near to far
+        std::vector<Item> mask;   // near to far
+        std::vector<Item> blend;  // as in the scene
+    };
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
-    void prepare(const View& view, const Axes& axes, const Bounds& bounds);
+    void prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered);
     void prepareShadowMap(bool needed);
-    void writePictureSet();
+    void prepareLayers();
+    void writePictureSet(bool layered);
     void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                       const DrawLists& lists);
     void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                        const DrawLists& lists, const View& view);
+    void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
+    const vk::raii::CommandBuffer& begin();
+    Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
+    std::uint32_t keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view, const vk::Rect2D& band);
+    void composeLayers(const vk::Rect2D& band);
     void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
                   const Item& item) const;
     void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
@@ -50,6 +72,8 @@ private:
     vk::raii::DescriptorPool pool_{nullptr};
     vk::DescriptorSet pictureSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;
+    std::unique_ptr<LayerLists> layers_; // once there is something translucent
+    vk::raii::Sampler depthSampler_{nullptr};
 };
 
 } // namespace cotan

@@ -9,8 +9,6 @@ namespace cotan {
 
 namespace {
 
-constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-
 vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
                                             std::span<const vk::DescriptorType> types)
 {
@@ -52,18 +50,28 @@ struct StageShaders {
     std::optional<Shader> fragment;
 };
 
-StageShaders shadersOf(const PipelineKey& key)
+// exact: the device can tell fragments their triangle.
+StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
     constexpr int kExact = 10;
     switch (key.pass) {
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
+    case Pass::layers:
+        return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
+    case Pass::compose:
+        return {Shader::composeVert, key.samples == vk::SampleCountFlagBits::e1
+                                            ? Shader::composeFrag
+                                            : Shader::composeMultisampledFrag};
     case Pass::forward: break;
     }
     return {Shader::forwardVert,
             key.frame == kExact ? Shader::forwardExactFrag : Shader::forwardFrag};
 }
+
+// One triangle, made by the vertex stage, over everything.
+bool coversPicture(Pass pass) { return pass == Pass::background || pass == Pass::compose; }
 
 // One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
 struct VertexInput {
@@ -82,7 +90,8 @@ struct VertexInput {
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
             const bool forShadow = i == kPosition || i == kTexcoord0 || i == kTexcoord1
                 || i == kColor || i == kTexcoordOrigin;
-            if (pass == Pass::background || (pass != Pass::forward && !forShadow))
+            const bool shadow = pass == Pass::shadow || pass == Pass::shadowMask;
+            if (coversPicture(pass) || (shadow && !forShadow))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
             attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
@@ -93,13 +102,14 @@ struct VertexInput {
     VertexInput(const VertexInput&) = delete;
 };
 
+// Of colours that are multiplied by their alpha.
 vk::PipelineColorBlendAttachmentState blending(bool blend)
 {
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState state;
     state.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
     state.blendEnable = blend;
-    state.srcColorBlendFactor = vk::BlendFactor::eSrcAlpha;
+    state.srcColorBlendFactor = vk::BlendFactor::eOne;
     state.dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
     state.srcAlphaBlendFactor = vk::BlendFactor::eOne;
     state.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
@@ -107,14 +117,15 @@ vk::PipelineColorBlendAttachmentState blending(bool blend)
 }
 
 // Depth is reversed for the camera; the shadow map is not.
-vk::PipelineDepthStencilStateCreateInfo depthState(const PipelineKey& key, bool blend)
+vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
 {
+    const bool camera = pass == Pass::forward || pass == Pass::layers;
     vk::PipelineDepthStencilStateCreateInfo state;
-    state.depthTestEnable = VK_TRUE;
-    state.depthWriteEnable = key.pass != Pass::background && !blend;
-    state.depthCompareOp = key.pass == Pass::forward ? vk::CompareOp::eGreater
-        : key.pass == Pass::background               ? vk::CompareOp::eGreaterOrEqual
-                                                     : vk::CompareOp::eLess;
+    state.depthTestEnable = pass != Pass::compose;
+    state.depthWriteEnable = pass != Pass::compose && pass != Pass::background && pass != Pass::layers;
+    state.depthCompareOp = camera          ? vk::CompareOp::eGreater
+        : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
+                                   : vk::CompareOp::eLess;
     return state;
 }
 
@@ -133,7 +144,8 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    picture = makeSetLayout(device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage});
+    picture = makeSetLayout(device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
+                                               T::eStorageBuffer, kImage});
     material = makeSetLayout(device,
                              std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
     const std::array sets{*picture, *material};
@@ -164,10 +176,9 @@ vk::ShaderModule Pipelines::module(Shader shader)
 vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
 {
     const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
-    const bool blend = key.pass == Pass::forward && key.alphaMode == AlphaMode::blend
-        && key.output == Output::shaded;
+    const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
     const Specialization specialization(key);
-    const StageShaders shaders = shadersOf(key);
+    const StageShaders shaders = shadersOf(key, device_->exact);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
     stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex,
                         module(shaders.vertex), "main");
@@ -182,18 +193,17 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
-    const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key, blend);
-    const vk::PipelineColorBlendAttachmentState attachment = blending(blend);
-    const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, shadow ? 0u : 1u,
-                                                      &attachment);
+    const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key.pass);
+    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose);
+    const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
     std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                           vk::DynamicState::eCullMode,
                                           vk::DynamicState::eFrontFace};
-    if (key.pass != Pass::background)
+    if (!coversPicture(key.pass))
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
-    const vk::PipelineRenderingCreateInfo rendering(0, shadow ? 0u : 1u, &key.format,
-                                                    vk::Format::eD32Sfloat);
+    const vk::PipelineRenderingCreateInfo rendering(
+        0, colors, &key.format, key.pass == Pass::compose ? vk::Format::eUndefined : vk::Format::eD32Sfloat);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr,
                                         &viewport, &raster, &multisample, &depth, &color,
                                         &dynamicState, *layouts_->pipeline);

@@ -12,10 +12,12 @@
 
 namespace cotan {
 
+inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    vk::raii::DescriptorSetLayout picture{nullptr};  // set 0: view, lights, shadow map
+    vk::raii::DescriptorSetLayout picture{nullptr};  // set 0: view, lights, shadow map, lists, layers, opaque depth
     vk::raii::DescriptorSetLayout material{nullptr}; // set 1
     vk::raii::PipelineLayout pipeline{nullptr};
 };
@@ -24,7 +26,8 @@ struct Layouts {
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
                               const vk::raii::DescriptorSetLayout& layout);
 
-enum class Pass { shadow, shadowMask, forward, background };
+// layers: translucent fragments into their lists; compose: these lists over the picture.
+enum class Pass { shadow, shadowMask, forward, background, layers, compose };
 
 // Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
 // defaults, so that equal pipelines have equal keys.

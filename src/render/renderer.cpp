@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "cotan/scene/bounds.hpp"
 #include "draw.hpp"
 
 namespace cotan {
@@ -58,6 +59,8 @@ Renderer::~Renderer() = default;
 Status Renderer::load(const Scene& scene)
 {
     return guarded<Done>("uploading the scene", [&]() -> Status {
+        if (const Status ok = checkTrianglesDrawn(scene); !ok)
+            return ok;
         const auto start = std::chrono::steady_clock::now();
         state_->scene.reset(); // its memory may be needed for the new one
         state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cotan/convention.hpp"
+#include "cotan/scene/bounds.hpp"
 #include "gpu_structs.hpp"
 #include "view_data.hpp"
 
@@ -105,15 +106,11 @@ std::vector<std::uint32_t> usableIndices(const Mesh& mesh)
     return result;
 }
 
-Bounds boundsOf(const Mesh& mesh)
+// What the shaders' floats can take the square of.
+Bounds withinReach(const Bounds& box)
 {
-    Bounds bounds;
-    for (const glm::vec3& p : mesh.positions)
-        if (finite(p)) {
-            bounds.low = glm::min(bounds.low, p);
-            bounds.high = glm::max(bounds.high, p);
-        }
-    return bounds;
+    constexpr float kFarthest = 1e18f;
+    return {glm::clamp(box.low, -kFarthest, kFarthest), glm::clamp(box.high, -kFarthest, kFarthest)};
 }
 
 vk::DeviceSize padded(std::size_t bytes) { return (vk::DeviceSize(bytes) + 15) / 16 * 16; }
@@ -199,7 +196,8 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
 } // namespace
 
 GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& scene)
-    : device_(&device), memory_(device), samplers_(device), textures_(device)
+    : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
+      textures_(device)
 {
     Uploader uploader(device, kStaging);
     textures_.load(scene, uploader);
@@ -228,13 +226,12 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
             indices.push_back(usableIndices(mesh));
             gpu.indexCount = static_cast<std::uint32_t>(indices.back().size());
             gpu.material = mesh.material;
-            gpu.bounds = boundsOf(mesh);
+            gpu.centre = cotan::bounds(mesh).centre();
         }
         const GpuMesh& gpu = meshes[gpuOf[m]];
         if (gpu.indexCount == 0)
             continue;
         instances.push_back({instance.toWorld, gpuOf[m]});
-        extend(bounds, gpu.bounds, instance.toWorld);
     }
 
     // Many meshes share a buffer; one larger than a buffer has its own.

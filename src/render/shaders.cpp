@@ -2,8 +2,13 @@
 
 #include "cotanBackgroundFrag.h"
 #include "cotanBackgroundVert.h"
+#include "cotanComposeFrag.h"
+#include "cotanComposeMultisampledFrag.h"
+#include "cotanComposeVert.h"
 #include "cotanForwardExactFrag.h"
+#include "cotanForwardExactLayersFrag.h"
 #include "cotanForwardFrag.h"
+#include "cotanForwardLayersFrag.h"
 #include "cotanForwardVert.h"
 #include "cotanShadowFrag.h"
 #include "cotanShadowVert.h"
@@ -16,6 +21,11 @@ std::span<const std::uint32_t> spirv(Shader shader)
     case Shader::forwardVert: return cotanForwardVert;
     case Shader::forwardFrag: return cotanForwardFrag;
     case Shader::forwardExactFrag: return cotanForwardExactFrag;
+    case Shader::forwardLayersFrag: return cotanForwardLayersFrag;
+    case Shader::forwardExactLayersFrag: return cotanForwardExactLayersFrag;
+    case Shader::composeVert: return cotanComposeVert;
+    case Shader::composeFrag: return cotanComposeFrag;
+    case Shader::composeMultisampledFrag: return cotanComposeMultisampledFrag;
     case Shader::backgroundVert: return cotanBackgroundVert;
     case Shader::backgroundFrag: return cotanBackgroundFrag;
     case Shader::shadowVert: return cotanShadowVert;

@@ -10,13 +10,18 @@ enum class Shader {
     forwardVert,
     forwardFrag,
     forwardExactFrag, // needs the features geometryShader (for gl_PrimitiveID) and buffer addresses
+    forwardLayersFrag,
+    forwardExactLayersFrag, // as forwardExactFrag
+    composeVert,
+    composeFrag,
+    composeMultisampledFrag,
     backgroundVert,
     backgroundFrag,
     shadowVert,
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 7;
+inline constexpr int kShaderCount = 12;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);

@@ -10,6 +10,8 @@ using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
 constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
+constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
+constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 vk::DeviceSize bytesPerPixel(vk::Format format)
 {
@@ -49,6 +51,8 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
     TextureInfo depth = attachmentInfo(kind);
     depth.format = vk::Format::eD32Sfloat;
     depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    if (multisampled()) // then the hidden samples of translucent layers are found by it
+        depth.usage |= vk::ImageUsageFlagBits::eSampled;
     depth.aspect = vk::ImageAspectFlagBits::eDepth;
     depth_ = makeTexture(device, memory_, depth);
     readBack_ = makeHostBuffer(
@@ -56,7 +60,27 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
         vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
 
-void Targets::begin(const vk::raii::CommandBuffer& commands)
+// The viewport is the whole picture, whatever part of it is drawn.
+void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const
+{
+    commands.setViewport(0,
+                         vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
+    commands.setScissor(0, area);
+}
+
+vk::RenderingAttachmentInfo Targets::colorInfo(bool resolve) const
+{
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
+    color.storeOp = resolve && resolved_ ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore;
+    if (resolve && resolved_) {
+        color.resolveMode = vk::ResolveModeFlagBits::eAverage;
+        color.resolveImageView = *resolved_->view;
+        color.resolveImageLayout = kAttachment;
+    }
+    return color;
+}
+
+void Targets::begin(const vk::raii::CommandBuffer& commands, bool layersFollow)
 {
     transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
                Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
@@ -65,34 +89,62 @@ void Targets::begin(const vk::raii::CommandBuffer& commands)
         transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined,
                    kAttachment, Stage::eTransfer | Stage::eColorAttachmentOutput, {},
                    Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    const auto depthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
-               vk::ImageLayout::eUndefined, vk::ImageLayout::eDepthAttachmentOptimal, depthStages,
-               Access::eDepthStencilAttachmentWrite, depthStages,
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
+               Access::eDepthStencilAttachmentWrite, kDepthStages,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 
-    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
+    vk::RenderingAttachmentInfo color = colorInfo(!layersFollow);
     color.loadOp = vk::AttachmentLoadOp::eClear;
-    color.storeOp = resolved_ ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore;
-    if (resolved_) {
-        color.resolveMode = vk::ResolveModeFlagBits::eAverage;
-        color.resolveImageView = *resolved_->view;
-        color.resolveImageLayout = kAttachment;
-    }
     vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
     depth.loadOp = vk::AttachmentLoadOp::eClear;
-    depth.storeOp = vk::AttachmentStoreOp::eDontCare;
+    depth.storeOp = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
     depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
     const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
-    commands.setViewport(0,
-                         vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
-    commands.setScissor(0, area);
+    setArea(commands, area);
+}
+
+void Targets::endOpaque(const vk::raii::CommandBuffer& commands)
+{
+    commands.endRendering();
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+               vk::ImageLayout::eDepthAttachmentOptimal, kDepthRead, kDepthStages,
+               Access::eDepthStencilAttachmentWrite, kDepthStages | Stage::eFragmentShader,
+               Access::eDepthStencilAttachmentRead | Access::eShaderSampledRead);
+}
+
+void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    vk::RenderingAttachmentInfo depth(*depth_.view, kDepthRead);
+    depth.loadOp = vk::AttachmentLoadOp::eLoad;
+    depth.storeOp = vk::AttachmentStoreOp::eNone;
+    vk::RenderingInfo rendering({}, area, 1);
+    rendering.pDepthAttachment = &depth;
+    commands.beginRendering(rendering);
+    setArea(commands, area);
+}
+
+void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
+    transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment,
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+               Stage::eColorAttachmentOutput, both);
+    vk::RenderingAttachmentInfo color = colorInfo(/*resolve*/ true);
+    color.loadOp = vk::AttachmentLoadOp::eLoad;
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
 }
 
 void Targets::end(const vk::raii::CommandBuffer& commands)
 {
     commands.endRendering();
+    copy(commands);
+}
+
+void Targets::copy(const vk::raii::CommandBuffer& commands)
+{
     const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
     transition(commands, source, kColorAspect, kAttachment, vk::ImageLayout::eTransferSrcOptimal,
                Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,

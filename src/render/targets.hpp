@@ -28,13 +28,26 @@ public:
     bool multisampled() const { return kind_.samples != vk::SampleCountFlagBits::e1; }
 
     // Starts drawing: everything cleared to 0 (depth is reversed, so 0 is far away).
-    void begin(const vk::raii::CommandBuffer& commands);
-    // Ends drawing, resolves, and copies into the read-back buffer.
+    // layersFollow: translucent layers come afterwards, and with them the resolve.
+    void begin(const vk::raii::CommandBuffer& commands, bool layersFollow = false);
+    // Ends drawing that began with layersFollow: the depth can be read from here on.
+    void endOpaque(const vk::raii::CommandBuffer& commands);
+    // Starts fragments that write no target and are tested against the depth; ends with endRendering.
+    void beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
+    // Starts drawing over the colours of the area, which is then resolved; ends with endRendering.
+    void beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
+    // Ends drawing that began without layersFollow.
     void end(const vk::raii::CommandBuffer& commands);
+    // Copies into the read-back buffer.
+    void copy(const vk::raii::CommandBuffer& commands);
+    vk::ImageView depthView() const { return *depth_.view; }
     // The picture, upright. Only after the commands have been waited for.
     Image image(bool flipRows) const;
 
 private:
+    void setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
+    vk::RenderingAttachmentInfo colorInfo(bool resolve) const;
+
     Memory memory_;
     Kind kind_;
     Texture2D color_;

@@ -231,17 +231,4 @@ double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes&
     return std::isfinite(distance) ? distance : 0;
 }
 
-void extend(Bounds& bounds, const Bounds& box, const glm::mat4& toWorld)
-{
-    if (box.empty())
-        return;
-    for (const dvec3& corner : corners(box)) {
-        const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(corner, 1));
-        if (!finite(p) || glm::length(p) > 1e18)
-            continue;
-        bounds.low = glm::min(bounds.low, glm::vec3(p));
-        bounds.high = glm::max(bounds.high, glm::vec3(p));
-    }
-}
-
 } // namespace cotan

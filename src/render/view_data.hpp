@@ -39,7 +39,4 @@ gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye);
 // Distance from the eye to a point of the mesh; 0 where that is not finite.
 double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes& axes);
 
-// The box around the eight transformed corners of `box`.
-void extend(Bounds& bounds, const Bounds& box, const glm::mat4& toWorld);
-
 } // namespace cotan

@@ -1,13 +1,11 @@
 // Small geometry over Scene and Mesh.
 #pragma once
 
+#include "cotan/scene/bounds.hpp"
 #include "cotan/scene/scene.hpp"
 #include "cotan/scene/view.hpp"
 
 namespace cotan {
-
-// The box around all instances in world space. Instances of empty meshes count for nothing.
-Bounds bounds(const Scene& scene);
 
 // Replaces the mesh's normals by angle-weighted averages over corners that share a position,
 // separated where faces meet at more than `creaseDegrees` (180: everything is smoothed).

@@ -36,10 +36,14 @@ public:
     ~Renderer();
 
     // Uploads a scene; it replaces the one before. Errors: ErrorKind::unavailable when the device
-    // has not enough memory.
+    // has not enough memory; ErrorKind::input over kMostTrianglesDrawn (cotan/scene/bounds.hpp).
     Status load(const Scene& scene);
 
-    // Draws the loaded scene. Errors: ErrorKind::usage for a size the device cannot draw.
+    // Draws the loaded scene. Translucent materials are composed per sample in the order of their distance,
+    // whatever their number of layers; of equally far ones the one later in the scene is in front. Lists of
+    // their fragments take 144 MiB of device memory.
+    // Errors: ErrorKind::usage for a size the device cannot draw; ErrorKind::unavailable without the memory,
+    // or for more than 2.8 million translucent fragments in one row of pixels.
     Result<Image> render(const View& view);
 
     const std::string& deviceName() const;

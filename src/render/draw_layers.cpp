@@ -1,0 +1,67 @@
+// Translucent fragments: kept in lists, a list for each pixel, and composed in the order of their distance.
+#include <algorithm>
+#include <string>
+
+#include "draw.hpp"
+
+namespace cotan {
+
+// Draws the translucent fragments of a band into their lists; returns how many there are.
+std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
+                                 const vk::Rect2D& band)
+{
+    PipelineKey key = forwardKey(view, *targets_);
+    key.pass = Pass::layers;
+    key.alphaMode = AlphaMode::blend;
+    key.format = vk::Format::eUndefined;
+    const vk::raii::CommandBuffer& commands = begin();
+    layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
+    targets_->beginLayers(commands, band);
+    drawItems(commands, scene, lists.blend, key);
+    commands.endRendering();
+    layers_->finish(commands);
+    commands_.submitAndWait();
+    return layers_->count();
+}
+
+// Lays the lists of a band over the picture, one sample after the other: so they need no device that
+// shades each sample.
+void Drawer::composeLayers(const vk::Rect2D& band)
+{
+    PipelineKey key;
+    key.pass = Pass::compose;
+    key.samples = targets_->kind().samples;
+    key.format = targets_->kind().format;
+    const vk::raii::CommandBuffer& commands = begin();
+    targets_->beginCompose(commands, band);
+    for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(key.samples); ++sample) {
+        commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);
+        drawOver(commands, key);
+    }
+    commands.endRendering();
+    commands_.submitAndWait();
+}
+
+// The picture in bands of rows that are low enough for their layers to find room.
+Status Drawer::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
+{
+    const Targets::Kind& kind = targets_->kind();
+    std::uint32_t rows = layers_->mostRows();
+    for (std::uint32_t top = 0; top < kind.height;) {
+        const std::uint32_t height = std::min(rows, kind.height - top);
+        const vk::Rect2D band({0, std::int32_t(top)}, {kind.width, height});
+        const std::uint32_t count = keepLayers(scene, lists, view, band);
+        if (count <= layers_->capacity()) {
+            composeLayers(band);
+            top += height;
+        } else if (height > 1) {
+            rows = height / 2;
+        } else {
+            return unavailableError(std::to_string(count) + " translucent fragments in one row of pixels: at most "
+                                    + std::to_string(layers_->capacity()) + " can be put in order");
+        }
+    }
+    return Done{};
+}
+
+} // namespace cotan
