@@ -231,6 +231,20 @@ TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
     EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.95);
 }
 
+TEST(Lint, givesTheVerdictOfTheMapsOwnDetectorAlsoOnAMapOfCharts)
+{
+    Image map = makeReliefMap(Relief::waves, 128);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i)
+        if (i % 128 > 60 || i / 128 > 90) // black outside
+            std::fill_n(map.bytes8() + 4 * i, 3, std::uint8_t(0));
+    const GreenEvidence e = greenOf(map);
+    const maps::GreenVerdict v = maps::greenOf(map);
+    EXPECT_EQ(v.green, maps::Green::up);
+    EXPECT_TRUE(e.decided() && e.asDeclared());
+    EXPECT_EQ(e.verdict.agreement, v.agreement);
+    EXPECT_EQ(e.verdict.confidence, v.confidence);
+}
+
 TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
 {
     Image flat = makeImage(64, 64, PixelType::unorm8, "flat"), ridges = flat;
