@@ -60,7 +60,7 @@ Problem checkMaterial(const Material& m, std::size_t images)
     if (!finite(m.baseColor) || !finite(m.emissive) || !finite(factors) || !finite(m.alphaCutoff))
         return "expected finite factors";
     const NormalMapFormat& format = m.normalFormat;
-    if (!below(format.expansion, COTAN_EXPAND_SIGNED + 1) || !below(format.channels, COTAN_CHANNELS_SLOPE + 1))
+    if (!below(format.expansion, COTAN_EXPAND_EXACT16 + 1) || !below(format.channels, COTAN_CHANNELS_SLOPE + 1))
         return fmt::format("expected a way to store normals, found {} {}", format.expansion, format.channels);
     return std::nullopt;
 }
