@@ -250,6 +250,9 @@ TEST(SmoothFrame, oneUnusableNumberLeavesThePlainNormal)
             EXPECT_EQ(f.b, glm::vec3(0)) << k << ' ' << bad;
             EXPECT_LT(glm::length(f.n - n), 1e-6f) << k << ' ' << bad;
         }
+    // However different in length.
+    EXPECT_EQ(f32::cotan_frame_smooth({0, 0, 1}, {1e-20f, 0, 0}, {0, 1e20f, 0}).b, glm::vec3(0, 1, 0));
+    EXPECT_EQ(f32::cotan_frame_smooth({0, 0, 1}, {1e20f, 0, 0}, {0, 1e-20f, 0}).t, glm::vec3(1, 0, 0));
     const f32::cotan_frame none = f32::cotan_frame_smooth(n, {0, 0, 0}, {0, 0, 0});
     EXPECT_EQ(none.t, glm::vec3(0));
     EXPECT_EQ(none.b, glm::vec3(0));

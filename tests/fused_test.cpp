@@ -190,6 +190,17 @@ TEST(Fused, degenerateInputGivesAUnitNormalAndTheInterpolatedOneWhereThereIsNoFr
             }
 }
 
+TEST(Fused, orthonormalLeansNothingWhereUvHaveNoArea)
+{
+    // As its frame, which has no t and b there. Doubling is exact, and so is the area of zero.
+    Random random(23);
+    for (int k = 0; k < 500; ++k) {
+        Input i = soundInput(random, k & 1, k & 2, 1e-2);
+        i.duvdy = i.duvdx * 2.0f;
+        ASSERT_LT(degreesBetween(i.n, run(f32::cotan_perturb_orthonormal, i)), 1e-4);
+    }
+}
+
 TEST(Fused, theLimitsOfScaleAreInside)
 {
     // Products of the differences of 1e-12 and 1e5, as fused.h promises; gradient has its own

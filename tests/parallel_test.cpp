@@ -1,11 +1,14 @@
-// Loops over several threads: every item once, whatever the number of threads, and what a task throws arrives.
+// Loops over several threads: every item once, whatever the number of threads, and what a task throws arrives. And
+// the search for equal keys that is spread over them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
-#include "../src/core/parallel.hpp"
+#include "../src/core/tangents_mesh.hpp"
 
 namespace {
 
@@ -59,6 +62,20 @@ TEST(Parallel, whatATaskThrowsArrivesAfterAllHaveEnded)
                                      }),
                      std::runtime_error);
         EXPECT_EQ(running, 0);
+    }
+}
+
+TEST(FirstEqual, keysWithEqualHashesAreToldApart)
+{
+    // Among 300,000 keys some ten pairs share their 32 bits of hash. Every tenth is the one before it again.
+    std::mt19937 random(9);
+    std::vector<std::array<std::uint32_t, 2>> keys;
+    for (std::uint32_t i = 0; i < 300000; ++i)
+        keys.push_back(i % 10 == 9 ? keys.back() : std::array{std::uint32_t(random()), std::uint32_t(random())});
+    for (const std::size_t threads : {1u, 3u}) {
+        const auto first = cotan::tangents::firstEqual(300000, [&](std::uint32_t i) { return keys[i]; }, threads);
+        for (std::uint32_t i = 0; i < 300000; ++i)
+            ASSERT_EQ(first[i], i % 10 == 9 ? i - 1 : i);
     }
 }
 
