@@ -164,7 +164,7 @@ TEST_F(AssimpFile, objByteOrderMarkIsNoPartOfTheFirstLine)
 TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
 {
     const std::pair<std::string, std::string> cases[] = {
-        {"v 0 0\n", "line 1: expected 3 to 7 numbers, found 2"},
+        {"v 0 0\n", "line 1: expected 3, 4, 6 or 7 numbers, found 2"},
         {"v 0 0 0\r\nv 0 \\\r\n0 0\r\nv 1 2 x\r\n",
          "line 4: expected a finite number, found \"x\""},
         {"v 0 0 inf\n", "found \"inf\""},
@@ -327,7 +327,7 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
                                               0.125 * step * std::cos(y * step) * depth, 1));
                 const std::uint16_t* c = map.words() + 4 * (y * side + x);
                 const glm::dvec3 found = glm::normalize(
-                    glm::dvec3(c[0], c[1], c[2]) / 65535.0 * (255.0 / 127) - 128.0 / 127);
+                    (glm::dvec3(c[0], c[1], c[2]) - 32768.0) / 32767.0);
                 worst = std::max(worst, glm::length(expected - found));
             }
         }
@@ -430,6 +430,54 @@ TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
     }
     EXPECT_NE(problem("a.ply", "ply\nformat ascii 1.0\n"), "");
     EXPECT_NE(problem("a.ply", "hello"), "");
+}
+
+std::string plyHeader(const std::string& format, const std::string& rest)
+{
+    return "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + rest
+        + "end_header\n";
+}
+
+// `bytes` of a number, the lowest first or last.
+std::string plyNumber(std::uint64_t value, int bytes, bool bigEndian)
+{
+    std::string text;
+    for (int i = 0; i < bytes; ++i)
+        text += char(value >> (8 * (bigEndian ? bytes - 1 - i : i)));
+    return text;
+}
+
+TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
+{
+    const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";
+    for (const bool big : {false, true}) {
+        const std::string format = big ? "binary_big_endian" : "binary_little_endian";
+        std::string vertices;
+        for (const float f : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &f, 4);
+            vertices += plyNumber(bits, 4, big);
+        }
+        const auto face = [&](std::uint64_t count) {
+            return "x" + plyNumber(count, 4, big) + plyNumber(0, 4, big) + plyNumber(1, 4, big) + plyNumber(2, 4, big);
+        };
+        const std::string head = plyHeader(format, faces) + vertices;
+        EXPECT_EQ(problem("a.ply", head + face(3) + face(3)), "") << format;
+        EXPECT_NE(problem("b.ply", head + face(3) + face(1'500'000'000)).find("1500000000 values are promised"), std::string::npos);
+        EXPECT_NE(problem("c.ply", head + face(3) + face(4)).find("values are promised"), std::string::npos);
+        EXPECT_NE(problem("d.ply", head + face(3) + face(3).substr(0, 16)).find("values are promised"), std::string::npos);
+        EXPECT_NE(problem("e.ply", head + face(3) + "x").find("the file ends"), std::string::npos);
+        const std::string small = plyHeader(format, "element face 1\nproperty list char int vertex_indices\n") + vertices;
+        // -1, also where 255 values are there.
+        EXPECT_NE(problem("f.ply", small + "\xff" + std::string(1020, '\0')).find("values are promised"), std::string::npos);
+    }
+    const std::string text = plyHeader("ascii", faces) + "0 0 0\n1 0 0\r\n\n0 1 0\n";
+    EXPECT_EQ(problem("g.ply", text + "7 3 0 1 2\n7 3 2 1 0"), "");
+    EXPECT_NE(problem("h.ply", text + "7 3 0 1 2\n7 1500000000 0 1 2\n").find("their line has 3"), std::string::npos);
+    EXPECT_NE(problem("i.ply", text + "7 3 0 1\n2 7 3 2 1 0\n").find("3 values are promised, their line has 2"), std::string::npos);
+    EXPECT_NE(problem("j.ply", text + "7 -3 0 1 2\n7 3 0 1 2\n").find("expected the count of a list"), std::string::npos);
+    EXPECT_NE(problem("k.ply", text + "7 3 0 1 2\n").find("the file ends"), std::string::npos);
+    EXPECT_NE(problem("l.ply", plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n")), "");
 }
 
 std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& numbers)

@@ -20,8 +20,7 @@ const std::filesystem::path kWaves = COTAN_SHARED_DATA "/bake/synthetic_waves";
 glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
 {
     auto component = [&](std::size_t k) {
-        const double c = image.type == PixelType::unorm16 ? image.words()[4 * i + k] / 65535.0 : image.bytes8()[4 * i + k] / 255.0;
-        return (255 * c - 128) / 127;
+        return image.type == PixelType::unorm16 ? (image.words()[4 * i + k] - 32768.0) / 32767 : (image.bytes8()[4 * i + k] - 128.0) / 127;
     };
     return {component(0), component(1) * (green ? 1 : -1), component(2)};
 }

@@ -112,7 +112,7 @@ TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
     const double expected[3] = {-0.6, 0, 0.8};
     for (std::size_t i = 0; i < 16; ++i)
         for (std::size_t k = 0; k < 3; ++k) // half a step of 16 bits is 1.5e-5 of [-1,1]
-            EXPECT_NEAR((255 * (image.words()[4 * i + k] / 65535.0) - 128) / 127, expected[k], 3e-5);
+            EXPECT_NEAR((image.words()[4 * i + k] - 32768.0) / 32767, expected[k], 3e-5);
 }
 
 TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)

@@ -23,7 +23,7 @@ glm::dvec3 relief(double u, double v)
     return glm::normalize(glm::dvec3(0.6 * std::cos(turn * u), 0.4 * std::sin(turn * (u + 2 * v)), 1));
 }
 
-// Stored green up (against +v), as (127 x + 128) / 255.
+// Stored green up (against +v), as 127 x + 128; floats as (x + 1) / 2.
 Image storedMap(int width, int height, PixelType type, const std::function<glm::dvec3(double, double)>& texel)
 {
     Image image = makeImage(width, height, type, "map");
@@ -33,11 +33,10 @@ Image storedMap(int width, int height, PixelType type, const std::function<glm::
             m.y = -m.y;
             const std::size_t at = 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
             for (int k = 0; k < 3; ++k) {
-                const double c = 127 * m[k] + 128;
                 if (type == PixelType::unorm8)
-                    image.bytes8()[at + std::size_t(k)] = std::uint8_t(std::lround(c));
+                    image.bytes8()[at + std::size_t(k)] = std::uint8_t(std::lround(127 * m[k] + 128));
                 else
-                    image.floats()[at + std::size_t(k)] = float(c / 255);
+                    image.floats()[at + std::size_t(k)] = float((m[k] + 1) / 2);
             }
         }
     return image;
@@ -266,7 +265,9 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     view.width = view.height = 16;
     view.camera.eye = {0.5f, 0.5f, 3};
     view.camera.target = {0.5f, 0.5f, 0};
-    const Image seen = expectedNormals(*low, *surface, options, view);
+    const auto drawn = expectedNormals(*low, *surface, options, view);
+    ASSERT_TRUE(drawn);
+    const Image& seen = *drawn;
     int found = 0;
     for (std::size_t i = 0; i < seen.pixelCount(); ++i)
         if (const float* p = seen.floats() + 4 * i; p[3] > 0) {

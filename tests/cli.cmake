@@ -10,3 +10,11 @@ cotan_test(files_test
   LIBRARIES cotan_files cotan_asset nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(files_test cotan)
+cotan_test(help_test
+  SOURCES help_test.cpp progress_test.cpp
+  LIBRARIES cotan_app fmt::fmt)
+target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+add_dependencies(help_test cotan)
+# A few commands under every fault; the whole table is in docs/testing.md.
+add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
+set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)

@@ -38,10 +38,24 @@ TEST(Convention, knownEnginesPointGreenTheirWay)
     EXPECT_TRUE(greenAlongV(*conventionFromName("unity")));
 }
 
+// What a flat texel is after reading: 128 of 8 bits, 32768 of 16, 0.5 of floats.
+TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
+{
+    for (const ConventionPreset& p : conventionPresets())
+        for (auto [bits, middle] : {std::pair(8, 128.0 / 255), {16, 32768.0 / 65535}, {32, 0.5}}) {
+            const auto format = toFormat<f64::cotan_normal_format>(p.convention, 1, bits);
+            EXPECT_NEAR(f64::cotan_expand(middle, format.expansion), 0, 1e-15) << p.name << " " << bits;
+            EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << p.name << " " << bits;
+            EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
+        }
+    EXPECT_EQ(expansionFor(COTAN_EXPAND_BIASED, 16), COTAN_EXPAND_BIASED);
+    EXPECT_EQ(expansionFor(COTAN_EXPAND_SIGNED, 32), COTAN_EXPAND_SIGNED);
+}
+
 TEST(Convention, descriptionNamesEveryChoice)
 {
     const std::string s = describe(*conventionFromName("unreal"));
-    for (const char* part : {"tangent space", "two channels", "green down", "v down", "biased"})
+    for (const char* part : {"tangent space", "two channels", "green down", "v down", "exact"})
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
 
@@ -50,10 +64,74 @@ TEST(Convention, enumeratorsAreThePortableTextsNumbers)
     EXPECT_EQ(int(Expansion::exact), COTAN_EXPAND_EXACT);
     EXPECT_EQ(int(Expansion::biased), COTAN_EXPAND_BIASED);
     EXPECT_EQ(int(Expansion::signedValues), COTAN_EXPAND_SIGNED);
+    EXPECT_EQ(int(Expansion::exact16), COTAN_EXPAND_EXACT16);
     EXPECT_EQ(int(Channels::xyz), COTAN_CHANNELS_XYZ);
     EXPECT_EQ(int(Channels::orthographic), COTAN_CHANNELS_ORTHOGRAPHIC);
     EXPECT_EQ(int(Channels::stereographic), COTAN_CHANNELS_STEREOGRAPHIC);
     EXPECT_EQ(int(Channels::slope), COTAN_CHANNELS_SLOPE);
+}
+
+TEST(Convention, presetsStoreAsTheirEnginesDo)
+{
+    struct Expected {
+        const char* name;
+        bool greenUp;
+        VDirection v;
+        Channels channels;
+    };
+    using enum VDirection;
+    // By each program's own documentation: which way green is drawn, where v = 0 is, what is left after import.
+    const Expected table[] = {
+        {"gltf", true, down, Channels::xyz},           {"opengl", true, up, Channels::xyz},
+        {"directx", false, down, Channels::xyz},       {"unity", true, up, Channels::orthographic},
+        {"unreal", false, down, Channels::orthographic}, {"blender", true, up, Channels::xyz},
+        {"godot", true, down, Channels::orthographic}, {"maya", true, up, Channels::xyz},
+        {"3dsmax", false, up, Channels::xyz},          {"source", false, down, Channels::xyz},
+    };
+    EXPECT_EQ(conventionPresets().size(), std::size(table));
+    for (const Expected& e : table) {
+        const auto c = conventionFromName(e.name);
+        ASSERT_TRUE(c) << e.name;
+        EXPECT_EQ(c->kind, MapKind::tangentSpace) << e.name;
+        EXPECT_EQ(c->greenUp, e.greenUp) << e.name;
+        EXPECT_EQ(c->v, e.v) << e.name;
+        EXPECT_EQ(c->channels, e.channels) << e.name;
+    }
+}
+
+TEST(Convention, everyValueHasItsWord)
+{
+    Convention c;
+    const auto says = [&](const char* word) { return describe(c).find(word) != std::string::npos; };
+    c.kind = MapKind::objectSpace;
+    c.channels = Channels::stereographic;
+    c.greenUp = true;
+    c.v = VDirection::up;
+    c.expansion = Expansion::signedValues;
+    for (const char* word : {"object space", "stereographic", "green up", "v up", "signed"})
+        EXPECT_TRUE(says(word)) << word << " in " << describe(c);
+    c.kind = MapKind::height;
+    c.channels = Channels::slope;
+    c.expansion = Expansion::exact;
+    for (const char* word : {"height", "slopes", "exact"})
+        EXPECT_TRUE(says(word)) << word << " in " << describe(c);
+    c.channels = Channels::xyz;
+    EXPECT_TRUE(says("xyz")) << describe(c);
+}
+
+TEST(Convention, becomesTheFormatOfThePortableText)
+{
+    Convention c;
+    c.expansion = Expansion::biased;
+    c.channels = Channels::slope;
+    c.greenUp = false; // with v up: against it
+    c.v = VDirection::up;
+    const auto f = toFormat<f32::cotan_normal_format>(c, 2.5);
+    EXPECT_EQ(f.expansion, COTAN_EXPAND_BIASED);
+    EXPECT_EQ(f.channels, COTAN_CHANNELS_SLOPE);
+    EXPECT_EQ(f.green, -1);
+    EXPECT_EQ(f.strength, 2.5f);
+    EXPECT_EQ(toFormat<f64::cotan_normal_format>(Convention{}).strength, 1);
 }
 
 } // namespace

@@ -32,7 +32,9 @@ Image constantMap(glm::dvec3 m, int side = 32)
 
 glm::dvec3 texelOf(const Image& image, int x, int y)
 {
-    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), kGltf));
+    f64::cotan_normal_format format = kGltf;
+    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 
 MapUse useOf(const Mesh& mesh, double scale = 1) { return {makeSurface(mesh, Texture{}), {0, 0, -1, scale}, Wrap::repeat, Wrap::repeat}; }

@@ -2,6 +2,8 @@
 // tests/core.cmake with covector_mixture.cpp.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {
@@ -121,6 +123,91 @@ TEST(CotangentFrame, uniformScaleAndRotationCarryTheFrameWithTheNormal)
     const auto g = transform(LinearMap<double>(rotation() * 3.0), f);
     const glm::dvec3 m = tiltedTexel(random, 30);
     EXPECT_LT(degreesBetween(perturb(g, m).raw(), rotation() * perturb(f, m).raw()), 1e-10);
+}
+
+TEST(Covector, arithmeticIsByComponent)
+{
+    const Covector3d a(1, -2, 3), b(0.5, 4, -6);
+    EXPECT_EQ(a + b, (Covector3d{1.5, 2, -3}));
+    EXPECT_EQ(a - b, (Covector3d{0.5, -6, 9}));
+    EXPECT_EQ(-a, (Covector3d{-1, 2, -3}));
+    EXPECT_EQ(a * 2.0, (Covector3d{2, -4, 6}));
+    EXPECT_EQ(2.0 * a, a * 2.0);
+    EXPECT_EQ(dot(a, Vector3d(2, 5, 7)), 13);
+    EXPECT_EQ(dot(Vector3d(2, 5, 7), a), 13);
+    EXPECT_EQ(cross(a, b), (Vector3d{0, 7.5, 5}));
+    EXPECT_EQ(cross(raise(a), raise(b)), (Covector3d{0, 7.5, 5}));
+    EXPECT_EQ(raise(lower(Vector3d(1, 2, 3))), (Vector3d{1, 2, 3}));
+    EXPECT_EQ(length(Vector3d(2, -3, 6)), 7);
+    EXPECT_EQ(a.raw(), glm::dvec3(1, -2, 3));
+}
+
+TEST(Covector, normalizeOrGivesTheOtherForZeroInfinityAndNan)
+{
+    const Vector3d other(0, 1, 0);
+    const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_LT(length(normalizeOr(Vector3d(2, -3, 6), other) - Vector3d(2, -3, 6) * (1 / 7.0)), 1e-15);
+    for (const Vector3d bad : {Vector3d(0, 0, 0), Vector3d(inf, 0, 0), Vector3d(0, nan, 1)})
+        EXPECT_EQ(normalizeOr(bad, other), other);
+}
+
+TEST(Covector, angleIsAccurateNearZeroAndHalfATurn)
+{
+    const Vector3d x(3, 0, 0);
+    EXPECT_NEAR(angle(x, Vector3d(std::cos(1e-9), std::sin(1e-9), 0)), 1e-9, 1e-18);
+    EXPECT_NEAR(angle(x, Vector3d(-1, 0, 1e-9)), std::numbers::pi - 1e-9, 1e-15);
+    EXPECT_NEAR(angle(x, Vector3d(0, 0, -2)), std::numbers::pi / 2, 1e-15);
+    EXPECT_EQ(angle(x, Vector3d(0, 0, 0)), 0);
+}
+
+TEST(Covector, mapsGoByTheMatrixAndItsInverseTranspose)
+{
+    const glm::dmat3 m(1, 0, 0, 2, 3, 0, 0, 1, -4); // columns; determinant -12
+    const LinearMap<double> map(m);
+    EXPECT_NEAR(map.determinant(), -12, 1e-12);
+    EXPECT_EQ(map(Vector3d(1, 2, 3)), Vector3d(m * glm::dvec3(1, 2, 3)));
+    const glm::dvec3 c(0.5, -1, 2), expected = glm::transpose(glm::inverse(m)) * c;
+    EXPECT_LT(length(map(Covector3d(c)) - Covector3d(expected)), 1e-12);
+    // The cofactors times c have the same direction, mirrored or not.
+    EXPECT_LT(length(map.planeImage(Covector3d(c)) - Covector3d(expected * 12.0)), 1e-12);
+    const LinearMap<double> unmirrored(glm::dmat3(1, 0, 0, 2, 3, 0, 0, 1, 4));
+    EXPECT_GT(dot(unmirrored.planeImage(Covector3d(c)), raise(unmirrored(Covector3d(c)))), 0);
+}
+
+TEST(NormalTransform, formulasOfAMirroredScaleInARotation)
+{
+    // M = R S with S = (-2, 3, 5): inverse transpose and undoing the scale are R S^-1 n; R n drops S.
+    const glm::dmat3 r(0, 1, 0, 0, 0, 1, 1, 0, 0); // x to y, y to z, z to x
+    const glm::dmat3 m(r[0] * -2.0, r[1] * 3.0, r[2] * 5.0);
+    const glm::dvec3 n(0.6, -0.48, 0.64);
+    const glm::dvec3 undone = glm::normalize(r * glm::dvec3(n.x / -2, n.y / 3, n.z / 5));
+    for (const NormalTransform way : {NormalTransform::undoScale, NormalTransform::inverseTranspose})
+        EXPECT_LT(glm::length(transformNormal(way, m, Covector3d(n)).raw() - undone), 1e-12);
+    EXPECT_LT(glm::length(transformNormal(NormalTransform::rotationOnly, m, Covector3d(n)).raw() - r * n), 1e-12);
+    // A scale of zero leaves n, at unit length.
+    const glm::dmat3 flat(r[0], r[1], r[2] * 0.0);
+    for (const NormalTransform way : {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
+        EXPECT_LT(glm::length(transformNormal(way, flat, Covector3d(n * 3.0)).raw() - n), 1e-12);
+}
+
+TEST(CotangentFrame, goesToAnotherSpaceByTheInverseTranspose)
+{
+    const glm::dmat3 m(1, 0, 0, 2, 3, 0, 0, 1, -4);
+    const CotangentFrame<double> f{Covector3d(1, 0.2, -0.3), Covector3d(0.4, 2, 0.1), Covector3d(-0.2, 0.3, 0.9)};
+    const CotangentFrame<double> g = transform(LinearMap<double>(m), f);
+    const glm::dmat3 it = glm::transpose(glm::inverse(m));
+    EXPECT_LT(glm::length(g.t.raw() - it * f.t.raw()), 1e-12);
+    EXPECT_LT(glm::length(g.b.raw() - it * f.b.raw()), 1e-12);
+    EXPECT_LT(glm::length(g.n.raw() - it * f.n.raw()), 1e-12);
+}
+
+TEST(CotangentFrame, perturbsByItsThreeCovectors)
+{
+    const CotangentFrame<double> f{Covector3d(1, 0.2, -0.3), Covector3d(0.4, 2, 0.1), Covector3d(-0.2, 0.3, 0.9)};
+    const glm::dvec3 m(0.3, -0.5, 0.8);
+    const glm::dvec3 expected = glm::normalize(f.t.raw() * m.x + f.b.raw() * m.y + f.n.raw() * m.z);
+    EXPECT_LT(glm::length(perturb(f, m).raw() - expected), 1e-12);
+    EXPECT_LT(glm::length(encode(f, Covector3d(expected)) - glm::normalize(m)), 1e-12);
 }
 
 } // namespace

@@ -40,7 +40,8 @@ std::string rowsFromTheBottom(const Image& image)
     return bytes;
 }
 
-// The normals that our own renderer draws of the sheet of examples/three from both sides, and the map on it.
+// The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet with
+// stored tangents.
 void writeOwnNormals(const TemporaryFolder& folder)
 {
     const Image map = makeReliefMap(Relief::domes, 128);
@@ -51,6 +52,8 @@ void writeOwnNormals(const TemporaryFolder& folder)
         const ToolRun drawn = runTool({"render", name + ".gltf", "-o", name + ".exr", "--view", "normal", "--size", "256x256", "--camera",
                                        "0", "--device", "reference", "--point-sampled", "--quiet"}, folder.path());
         ASSERT_EQ(drawn.code, 0) << drawn.err;
+        const ToolRun stored = runTool({"tangents", name + ".gltf", "-o", name + "_tangents.glb"}, folder.path());
+        ASSERT_EQ(stored.code, 0) << stored.err;
         const Result<Image> normals = readImage(folder / (name + ".exr"));
         ASSERT_TRUE(normals) << normals.error().message;
         ASSERT_EQ(normals->type, PixelType::float32);
@@ -64,6 +67,7 @@ void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const 
     std::string page = readWhole(kSources + "/tests/examples_" + name + ".html.in");
     put(page, "COTAN;", json(readWhole(kSources + "/examples/" + example + "/cotan.glsl")).dump() + ";");
     put(page, "LIBRARY_URL", "file://" + library);
+    put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
     put(page, "TESTS_URL", "file://" + kSources + "/tests");
     put(page, "EXAMPLE_URL", "file://" + kSources + "/examples/" + example);
     put(page, "FOLDER_URL", "file://" + folder.path().string());
@@ -155,6 +159,13 @@ void expectPrintedToday(const std::string& example)
         << "cotan shader --lang essl --form total -o examples/" + example + "/cotan.glsl";
 }
 
+// A frame that is wrong on purpose shows: u reversed turns the domes' slopes, some twenty degrees in the mean, along u.
+void expectBroken(const std::string& label, const json& side)
+{
+    ASSERT_TRUE(side.contains("mean")) << label << ": " << side;
+    EXPECT_GT(side["mean"].get<double>(), 10) << label;
+}
+
 // Ours is right in every scene, the library's own in those that are not flipped.
 void expectRightWhereTheirsIsAndFlipped(const json& page)
 {
@@ -185,6 +196,9 @@ TEST(ExampleThree, cotansFrameIsRightWhereverThreesOwnIsAndInFlippedTargetsToo)
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
     ASSERT_TRUE(measured().contains("three")) << measured();
     expectRightWhereTheirsIsAndFlipped(measured()["three"]);
+    for (const auto& [scene, side] : measured()["three"]["broken"].items()) // with tangents too
+        expectBroken("broken, " + scene, side);
+    EXPECT_EQ(measured()["three"]["broken"].size(), measured()["three"]["cotan"].size());
 }
 
 TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTargets)
@@ -204,7 +218,12 @@ TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTar
         EXPECT_LE(worst("cotan upright and y down"), 2) << side; // so may it in both; interpolation rounds otherwise there
         // The domes are lit from the other side, or are dents; between them nothing changes.
         EXPECT_GT(page["stock upright and y down"]["mean"].get<double>(), 15) << side;
+        EXPECT_GT(page["stock and broken"]["mean"].get<double>(), 3) << side; // less light falls on the back
         expectRight(std::string("three and Cotan's own renderer, ") + side, page["normals"]);
+        // A model with tangents, through three's loader.
+        for (const char* loaded : {"loaded, stock", "loaded, cotan", "loaded, cotan, y down"})
+            expectRight(std::string(loaded) + ", " + side, page[loaded]);
+        expectBroken(std::string("loaded, broken, ") + side, page["loaded, broken"]);
     }
 }
 

@@ -1,4 +1,4 @@
-// The list of malformed and hostile files in the shared data folder, with what must happen.
+// The lists of malformed and hostile files in the shared data folder, with what must happen.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,23 @@ struct Expected {
     std::string verdict; // reject, accept, warn, either
 };
 
-// The rows whose file has that extension; empty where the folder is missing.
+// The rows of both folders, bad (collected) and found (by hard use), whose file has that extension;
+// empty where they are missing.
 inline std::vector<Expected> expectedFor(const std::string& extension)
 {
-    const std::filesystem::path folder = std::filesystem::path(COTAN_SHARED_DATA) / "bad";
-    std::ifstream list(folder / "EXPECTED.tsv");
     std::vector<Expected> rows;
-    for (std::string line; std::getline(list, line);) {
-        std::istringstream fields(line);
-        std::string file, verdict;
-        if (line.starts_with('#') || !std::getline(fields, file, '\t')
-            || !std::getline(fields, verdict, '\t'))
-            continue;
-        if (std::filesystem::path(file).extension() == extension)
-            rows.push_back({folder / file, verdict});
+    for (const char* const name : {"bad", "found"}) {
+        const std::filesystem::path folder = std::filesystem::path(COTAN_SHARED_DATA) / name;
+        std::ifstream list(folder / "EXPECTED.tsv");
+        for (std::string line; std::getline(list, line);) {
+            std::istringstream fields(line);
+            std::string file, verdict;
+            if (line.starts_with('#') || !std::getline(fields, file, '\t')
+                || !std::getline(fields, verdict, '\t'))
+                continue;
+            if (std::filesystem::path(file).extension() == extension)
+                rows.push_back({folder / file, verdict});
+        }
     }
     return rows;
 }

@@ -50,6 +50,61 @@ TEST(GltfTangents, copyOnlyTheVertexWhoseCornersDiffer)
     EXPECT_EQ(p["mode"], 4);
 }
 
+// Two triangles on so many vertices, of which tangents copy one more.
+void expectIndexType(std::size_t vertices, int before, int after)
+{
+    Gltf g;
+    std::vector<float> positions, normals;
+    for (std::size_t i = 0; i < vertices; ++i) {
+        positions.insert(positions.end(), {float(i), float(i % 5), float(i * i % 3)});
+        normals.insert(normals.end(), {0, 0, 1});
+    }
+    const std::vector<std::uint32_t> order = {0, 1, 2, 0, 2, std::uint32_t(vertices - 1)};
+    int indices = 0;
+    if (before == kUByte)
+        indices = g.accessor(std::vector<std::uint8_t>(order.begin(), order.end()), "SCALAR", kUByte);
+    else
+        indices = g.accessor(std::vector<std::uint16_t>(order.begin(), order.end()), "SCALAR", kUShort);
+    g.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", g.floats(positions, "VEC3")}, {"NORMAL", g.floats(normals, "VEC3")}}},
+                                      {"indices", indices}}}}});
+    g.add("nodes", {{"mesh", 0}});
+    const TemporaryFolder folder;
+    const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, -1, 1, 1})}}, 1);
+    const json& p = out.root["meshes"][0]["primitives"][0];
+    EXPECT_EQ(out.root["accessors"][p["indices"].get<int>()]["componentType"], after) << vertices;
+}
+
+// The largest value of a type restarts primitives and is never an index.
+TEST(GltfTangents, indicesGrowBeforeTheRestartValueIsMet)
+{
+    expectIndexType(254, kUByte, kUByte);
+    expectIndexType(255, kUByte, kUShort);
+    expectIndexType(65534, kUShort, kUShort);
+    expectIndexType(65535, kUShort, kUInt);
+}
+
+// Floats at byte 2 of a view at byte 2: a view keeps its place within four bytes when it moves.
+TEST(GltfTangents, viewsKeepTheirAlignment)
+{
+    Gltf g = square();
+    std::vector<std::uint8_t> gap(6, 0x77); // 4 bytes of the view's and 2 before it
+    const int first = g.view(gap);
+    const int positions = g.view(kSquare);
+    json& view = g.root["bufferViews"][std::size_t(positions)];
+    const std::size_t at = view["byteOffset"];
+    view["byteOffset"] = at - 2;
+    view["byteLength"] = kSquare.size() * 4 + 2;
+    g.root["bufferViews"][std::size_t(first)]["byteLength"] = 2;
+    primitive(g)["attributes"]["POSITION"] = g.accessor(
+        {{"bufferView", positions}, {"byteOffset", 2}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+    const TemporaryFolder folder;
+    const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
+    const json& accessor = out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
+    const std::size_t offset = out.root["bufferViews"][accessor["bufferView"].get<int>()].value("byteOffset", 0u)
+        + accessor.value("byteOffset", 0u);
+    EXPECT_EQ(offset % 4, 0u) << "floats begin at multiples of four bytes";
+}
+
 // Bytes and shorts with padding, joints, weights, an attribute that nobody knows, a morph target and
 // sparse values: all follow, byte for byte.
 TEST(GltfTangents, copyAttributesOfAnyType)

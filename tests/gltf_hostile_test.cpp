@@ -96,7 +96,7 @@ TEST(GltfHostile, wrongTypesAndRangesAreNamed)
     const double huge = 1e300;
     const std::vector<Wrong> cases = {
         {"/asset/version", 2, "asset.version: expected a string"},
-        {"/asset/version", "1.0", "asset.version: expected 2.x"},
+        {"/asset/version", "3.0", "asset.version: expected 2.x"},
         {"/scene", 7, "scene: expected an index below 1"},
         {"/scene", -1, "scene: expected an index"},
         {"/scene", 0.5, "scene: expected an index"},
@@ -141,6 +141,30 @@ TEST(GltfHostile, wrongTypesAndRangesAreNamed)
     }
 }
 
+// Before anything about structure, which is another one there.
+TEST(GltfHostile, versionOneIsNamedWithWhatConvertsIt)
+{
+    const std::vector<json> files = {
+        {{"asset", {{"version", "1.0"}}}, {"meshes", {{"m", json::object()}}}},
+        {{"asset", {{"version", "1.0.1"}}}},
+        {{"asset", {{"version", 1.0}}}},
+        {{"asset", {{"version", "0.8"}}}},
+        {{"nodes", {{"n", json::object()}}}},
+        {{"asset", {{"premultipliedAlpha", true}}}, {"accessors", json::object()}},
+    };
+    for (const json& root : files) {
+        SCOPED_TRACE(root.dump());
+        COTAN_REFUSED(loadText(root.dump()), "glTF version 1 is not supported");
+        COTAN_REFUSED(loadText(root.dump()), "npx gltf-pipeline");
+    }
+    // Its GLB: 20 bytes of header, the length of the JSON and its format instead of chunks.
+    const std::string text = "{\"asset\":{\"version\":\"1.0\"}}  ";
+    COTAN_REFUSED(loadText("glTF" + word(1) + word(std::uint32_t(20 + text.size())) + word(std::uint32_t(text.size()))
+                               + word(0) + text,
+                           "model.glb"),
+                  "glTF version 1 is not supported");
+}
+
 TEST(GltfHostile, infinityInAnyVertexAttributeIsRefused)
 {
     for (const char* const name : {"POSITION", "NORMAL", "TANGENT", "COLOR_0"}) {
@@ -169,6 +193,19 @@ TEST(GltfHostile, sparseIndicesAreChecked)
     sparse["count"] = 5;
     g.root["accessors"][0]["sparse"] = sparse;
     COTAN_REFUSED(g.load(), "accessors[0].sparse.count");
+}
+
+// As the specification asks; reading parts of an accessor relies on it.
+TEST(GltfHostile, sparseIndicesHaveToRise)
+{
+    for (const auto& order : {std::vector<std::uint8_t>{1, 1}, std::vector<std::uint8_t>{3, 2}}) {
+        Gltf g = square();
+        g.root["accessors"][0]["sparse"] = {
+            {"count", 2},
+            {"indices", {{"bufferView", g.view(order)}, {"componentType", kUByte}}},
+            {"values", {{"bufferView", g.view(std::vector<float>(6, 1.0f))}}}};
+        COTAN_REFUSED(g.load(), "sparse.indices[1]: expected an index above " + std::to_string(order[0]));
+    }
 }
 
 TEST(GltfHostile, attributesOfTheWrongKindAreRefused)
@@ -233,6 +270,104 @@ TEST(GltfHostile, accessorsWithoutViewCannotTakeAllMemory)
         {"POSITION",
          g.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4000000000u}})}};
     COTAN_REFUSED(g.load(), "the limit is");
+    // 30 million of them stay below every limit on counts.
+    g.root["accessors"].back()["count"] = 30'000'000;
+    COTAN_REFUSED(g.load(), "accessors[4]: the accessors take 360");
+    // So do morph targets, skins and instances that nothing draws.
+    g = square();
+    g.accessor({{"componentType", kFloat}, {"type", "MAT4"}, {"count", 30'000'000}});
+    COTAN_REFUSED(g.load(), "the accessors take");
+}
+
+// The limit grows with the file: 16 times its size and geometryBytes.
+TEST(GltfHostile, zerosWithinTheAllowanceAreRead)
+{
+    Gltf g = square();
+    primitive(g)["attributes"]["COLOR_0"] = g.accessor({{"componentType", kFloat}, {"type", "VEC4"}, {"count", 4}});
+    LoadLimits limits;
+    limits.geometryBytes = 0;
+    COTAN_LOADED(scene, g.load(limits));
+    EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(0));
+}
+
+// A mesh of many parts with one set of vertices: each part has its own vertices, not all of them.
+TEST(GltfHostile, primitivesThatShareAnAccessorTakeTheirOwnPartOfIt)
+{
+    constexpr std::uint32_t kParts = 2000;
+    Gltf g;
+    std::vector<float> positions, normals;
+    for (std::uint32_t i = 0; i < 3 * kParts; ++i) {
+        positions.insert(positions.end(), {float(i), float(i % 3 == 1), float(i % 3 == 2)});
+        normals.insert(normals.end(), {0, 0, 1});
+    }
+    const json attributes = {{"POSITION", g.floats(positions, "VEC3")}, {"NORMAL", g.floats(normals, "VEC3")}};
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 3 * kParts; ++i)
+        indices.push_back(3 * kParts - 1 - i);
+    const int view = g.view(indices);
+    json primitives = json::array();
+    for (std::uint32_t part = 0; part < kParts; ++part)
+        primitives.push_back({{"attributes", attributes},
+                              {"indices", g.accessor({{"bufferView", view},
+                                                      {"byteOffset", 12 * part},
+                                                      {"componentType", kUInt},
+                                                      {"type", "SCALAR"},
+                                                      {"count", 3}})}});
+    g.add("meshes", {{"primitives", primitives}});
+    g.add("nodes", {{"mesh", 0}});
+    LoadLimits limits;
+    limits.geometryBytes = 0; // copies of all vertices would take 144 KB a part
+    COTAN_LOADED(scene, g.load(limits));
+    ASSERT_EQ(scene.meshes.size(), kParts);
+    for (std::uint32_t part = 0; part < kParts; part += 333) {
+        const Mesh& mesh = scene.meshes[part];
+        ASSERT_EQ(mesh.vertexCount(), 3u);
+        for (std::uint32_t corner = 0; corner < 3; ++corner)
+            EXPECT_EQ(mesh.positions[mesh.indices[corner]].x, float(3 * kParts - 1 - 3 * part - corner));
+    }
+    // The same part a thousand times over is a copy each, and they are counted.
+    for (json& p : g.root["meshes"][0]["primitives"])
+        p.erase("indices");
+    COTAN_REFUSED(g.load(limits), "the geometry takes");
+}
+
+TEST(GltfHostile, aPrimitiveWithoutPositionIsLeftOut)
+{
+    Gltf g = square();
+    json second = primitive(g);
+    second["attributes"].erase("POSITION");
+    second["indices"] = g.accessor(std::vector<std::uint32_t>{4000000000u, 5, 6}, "SCALAR", kUInt);
+    g.root["meshes"][0]["primitives"].push_back(second);
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    EXPECT_TRUE(warns(scene, "meshes[0].primitives[1]: no POSITION"));
+}
+
+// ---- images ---------------------------------------------------------------------------------
+
+TEST(GltfHostile, brokenImagesThatNothingUsesAreNamedAndTheModelDrawn)
+{
+    const std::vector<std::pair<json, std::string>> images = {
+        {{{"uri", "../secret.png"}}, "leads out of it"},
+        {{{"uri", "http://localhost/a.png"}}, "http://localhost/a.png"},
+        {{{"uri", "data:image/png;base64,*"}}, "not valid base64"},
+        {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}, "ends in its header"},
+        {json{{"name", "none"}}, "either uri or bufferView"},
+    };
+    for (const auto& [image, problem] : images) {
+        Gltf g = square();
+        addNormalMap(g);
+        g.add("images", image);
+        g.add("textures", {{"source", 1}}); // which no material reads
+        SCOPED_TRACE(image.dump());
+        COTAN_LOADED(scene, g.load());
+        EXPECT_EQ(scene.images.size(), 1u);
+        EXPECT_TRUE(warns(scene, "images[1]")) << scene.warnings.size();
+        EXPECT_TRUE(warns(scene, problem));
+        EXPECT_TRUE(warns(scene, "nothing uses this image"));
+        g.root["materials"][0]["normalTexture"]["index"] = 1;
+        COTAN_REFUSED(g.load(), "images[1]");
+    }
 }
 
 // ---- files ----------------------------------------------------------------------------------

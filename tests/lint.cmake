@@ -3,3 +3,13 @@ cotan_test(lint_test
   LIBRARIES cotan_lint cotan_asset cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(lint_test cotan)
+# The parts of lint and convert by themselves: builds and runs in seconds.
+cotan_test(judgement_test SEPARATE
+  SOURCES lint_recommend_test.cpp lint_parts_test.cpp map_fit_test.cpp convert_parts_test.cpp
+  LIBRARIES cotan_lint cotan_convert cotan_bake)
+target_include_directories(judgement_test PRIVATE ${PROJECT_SOURCE_DIR}/src/lint ${PROJECT_SOURCE_DIR}/src/convert)
+cotan_test(judgement_command_test
+  SOURCES judgement_command_test.cpp
+  LIBRARIES cotan_asset nlohmann_json::nlohmann_json fmt::fmt)
+target_compile_definitions(judgement_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+add_dependencies(judgement_command_test cotan)

@@ -104,7 +104,8 @@ TEST(Lint, uvInOnePointAreDegenerateAndGiveNoError)
     const PrimitiveLint p = lintOf(mesh);
     EXPECT_NEAR(p.uv.degenerate, 1, 1e-9);
     EXPECT_EQ(p.steps.edges, 0u);
-    EXPECT_EQ(errorOf(p, "cotangent").maximum, 0);
+    EXPECT_EQ(errorOf(p, "cotangent").count, 0u); // not an error of zero
+    EXPECT_EQ(p.notJudged, "no triangle has area, also in uv");
 }
 
 TEST(Lint, chartsThatShareTexelsOverlapAndNeighboursDoNot)
@@ -222,12 +223,26 @@ TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
     for (Relief relief : {Relief::waves, Relief::domes, Relief::bricks}) {
         const GreenEvidence right = greenOf(makeReliefMap(relief, 256));
         // bricks: straight edges say nothing, the corners must do
-        EXPECT_TRUE(right.decided && right.asDeclared) << int(relief) << " " << right.correlation;
+        EXPECT_TRUE(right.decided() && right.asDeclared()) << int(relief) << " " << right.verdict.agreement;
         const GreenEvidence wrong = greenOf(withGreenReversed(makeReliefMap(relief, 256)));
-        EXPECT_TRUE(wrong.decided && !wrong.asDeclared) << int(relief) << " " << wrong.correlation;
+        EXPECT_TRUE(wrong.decided() && !wrong.asDeclared()) << int(relief) << " " << wrong.verdict.agreement;
     }
     // A smooth height field, but for rounding to 8 bits.
-    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).correlation, 0.95);
+    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.95);
+}
+
+TEST(Lint, givesTheVerdictOfTheMapsOwnDetectorAlsoOnAMapOfCharts)
+{
+    Image map = makeReliefMap(Relief::waves, 128);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i)
+        if (i % 128 > 60 || i / 128 > 90) // black outside
+            std::fill_n(map.bytes8() + 4 * i, 3, std::uint8_t(0));
+    const GreenEvidence e = greenOf(map);
+    const maps::GreenVerdict v = maps::greenOf(map);
+    EXPECT_EQ(v.green, maps::Green::up);
+    EXPECT_TRUE(e.decided() && e.asDeclared());
+    EXPECT_EQ(e.verdict.agreement, v.agreement);
+    EXPECT_EQ(e.verdict.confidence, v.confidence);
 }
 
 TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
@@ -241,8 +256,8 @@ TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
         std::copy_n(up, 4, flat.bytes8() + 4 * i);
         std::copy_n(ridge, 4, ridges.bytes8() + 4 * i);
     }
-    EXPECT_FALSE(greenOf(flat).decided);
-    EXPECT_FALSE(greenOf(ridges).decided);
+    EXPECT_FALSE(greenOf(flat).decided());
+    EXPECT_FALSE(greenOf(ridges).decided());
 }
 
 TEST(Lint, roundingFallsWithTheDistanceAndGrowsWithTheUv)

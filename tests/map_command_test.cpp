@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -50,6 +51,57 @@ TEST(MapCommand, detects_every_texture_of_the_collection)
         ++seen;
     }
     EXPECT_GT(seen, 0);
+}
+
+// A relief on the left half; `outside` fills the right one.
+Image chartOn(const std::array<std::uint8_t, 4>& outside)
+{
+    Image map = makeReliefMap(Relief::waves, 128);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i)
+        if (i % 128 >= 64)
+            std::ranges::copy(outside, map.bytes8() + 4 * i);
+    return map;
+}
+
+TEST(MapCommand, what_lies_between_charts_is_left_out)
+{
+    TemporaryFolder folder;
+    for (const std::array<std::uint8_t, 4>& outside : {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {9, 99, 200, 0}, {128, 128, 255, 255}}) {
+        ASSERT_TRUE(writeImage(folder / "map.png", chartOn(outside)));
+        const auto detected = reportOf(runTool({"map", "detect", "map.png", "--json", "-"}, folder.path()));
+        EXPECT_EQ(detected["green"], "up") << detected;
+        const auto info = reportOf(runTool({"map", "info", "map.png", "--json", "-"}, folder.path()));
+        EXPECT_EQ(info["contents"], "tangent space");
+        EXPECT_NEAR(info["background"].get<double>(), outside[2] == 255 && outside[0] == 128 ? 0 : 0.5, 1e-9);
+        EXPECT_EQ(info["below_horizon"], 0);
+    }
+}
+
+TEST(MapCommand, flat_stays_128_between_any_two_presets)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "flat.png", chartOn({128, 128, 255, 255})));
+    for (const std::string to : {"gltf", "opengl", "unity,xyz", "unreal,xyz", "blender"}) {
+        ASSERT_EQ(runTool({"map", "convert", "flat.png", "--from", "directx", "--to", to, "-o", "out.png"}, folder.path()).code, 0);
+        const auto out = readImage(folder / "out.png");
+        ASSERT_TRUE(out);
+        EXPECT_EQ(int(out->bytes8()[4 * 100]), 128) << to;
+        EXPECT_EQ(int(out->bytes8()[4 * 100 + 1]), 128) << to;
+        EXPECT_EQ(int(out->bytes8()[4 * 100 + 2]), 255) << to;
+        fs::remove(folder / "out.png");
+    }
+}
+
+TEST(MapCommand, heights_with_free_borders_honour_the_kernel)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
+    const auto share = [&](const std::string& kernel) {
+        const auto report = reportOf(runTool({"map", "to-height", "map.png", "--free", "--kernel", kernel, "-o", kernel + ".exr", "--json", "-"}, folder.path()));
+        return report["residual_share"].get<double>();
+    };
+    EXPECT_NE(share("forward"), share("spectral"));
+    EXPECT_NE(share("scharr"), share("central"));
 }
 
 TEST(MapCommand, conversion_there_and_back_is_within_rounding)

@@ -1,6 +1,7 @@
 # The part maps by its functions, and `cotan map` as a user runs it.
 cotan_test(map_test SEPARATE
-  SOURCES map_blend_test.cpp map_detect_test.cpp map_height_test.cpp map_mips_test.cpp map_recode_test.cpp
+  SOURCES blend_formula_test.cpp map_blend_test.cpp map_charts_test.cpp map_detect_test.cpp map_height_test.cpp map_kernel_test.cpp
+    map_mips_test.cpp map_recode_test.cpp map_small_test.cpp map_zero_test.cpp
   LIBRARIES cotan_maps cotan_asset)
 find_package(JPEG REQUIRED)
 cotan_test(map_command_test

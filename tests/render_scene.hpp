@@ -14,6 +14,10 @@
 
 namespace cotan::rendertest {
 
+// Mesa's CPU driver compiles a shader for every picture of its kind: of most tests here that is most of the time, and a third
+// of it is to make code fast that then draws 64 x 64 pixels. Read by the driver when it starts.
+inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*/ 0) == 0;
+
 // Opens a renderer, or skips the test with the reason.
 #define COTAN_RENDERER_OR_SKIP(name, options)                                                      \
     Result<Renderer> name##Result = Renderer::create(options);                                     \
@@ -59,10 +63,10 @@ inline Image flatImage(glm::vec4 color, int size = 2)
     return image;
 }
 
-// Stored texel of the tangent-space vector m (along +u, along green, outwards), exact expansion.
+// Stored texel of floats of the tangent-space vector m (along +u, along green, outwards): 0.5 is zero.
 inline glm::vec4 texelOf(glm::vec3 m)
 {
-    return glm::vec4((glm::normalize(m) * 127.0f + 128.0f) / 255.0f, 1.0f);
+    return glm::vec4(glm::normalize(m) * 0.5f + 0.5f, 1.0f);
 }
 
 // A quad in the xy plane, -1 to 1, facing +z; uv = uv0 + du * x + dv * y.

@@ -176,6 +176,8 @@ TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
     EXPECT_EQ(drawn(renderer, view).data, drawn(renderer, view).data);
 }
 
+// What a frame can spoil are its two vectors and the normal made with it. What is made of that normal, and what no frame has
+// a part in, is the same text for all: drawn with the first.
 TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
@@ -183,6 +185,8 @@ TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
         const bool first = info.frame == Frame::cotangent;
         load(renderer, first ? hostile() : opaqueOnly(hostile()));
         for (const Output output : kOutputs) {
+            if (!first && (output == Output::shaded || output == Output::uv || output == Output::depth))
+                continue;
             View view = viewOf(output, info.frame);
             view.linearOutput = true;
             view.lights = someLights();
@@ -222,11 +226,16 @@ TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
     COTAN_RENDERER_OR_SKIP(renderer, options);
     if (!renderer.messages().empty())
         GTEST_SKIP() << renderer.messages().front();
+    // Frames made from differences give the driver the same buffers and the same stages, so one of them draws every output of
+    // both scenes; the others one picture of each scene, for their shader.
     for (const FrameInfo& info : frames()) {
         const bool first = info.frame == Frame::cotangent;
+        const bool alike = !first && info.source == FrameSource::differences;
         for (const Scene& scene : {everything(), hostile()}) {
             load(renderer, first ? scene : opaqueOnly(scene));
             for (const Output output : kOutputs) {
+                if (alike && output != Output::shaded)
+                    continue;
                 View view = viewOf(output, info.frame);
                 view.width = view.height = 16;
                 view.lights = someLights();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "cotan/report/angles.hpp"
+#include "cotan/report/measurements.hpp"
 #include "cotan/report/tangent_difference.hpp"
 
 namespace cotan {
@@ -33,10 +35,74 @@ TEST(Statistics, ofOneToHundredAreItsRanks)
     EXPECT_NEAR(s.over5, 0.50, 1e-9);
 }
 
-TEST(Statistics, ofNothingAreZero)
+TEST(Statistics, ofNothingAreNoNumbers)
 {
-    EXPECT_EQ(statisticsOf({}).count, 0u);
-    EXPECT_EQ(statisticsOf({}).maximum, 0);
+    for (const AngleStatistics& s : {statisticsOf({}), AngleHistogram().statistics(), angleStatistics({-1, -1}), AngleStatistics{}}) {
+        EXPECT_EQ(s.count, 0u);
+        for (double x : {s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1, s.over5})
+            EXPECT_TRUE(std::isnan(x));
+        EXPECT_FALSE(s.mean < 1 || s.maximum <= 0); // no limit holds
+        EXPECT_EQ(toText(s), "nothing was compared");
+        const auto written = nlohmann::json::parse(toJson(s).dump());
+        EXPECT_EQ(written["pixels"], 0);
+        for (const char* figure : {"mean_degrees", "median_degrees", "percentile95_degrees", "percentile99_degrees", "max_degrees",
+                                   "share_over_1_degree", "share_over_5_degrees"})
+            EXPECT_TRUE(written[figure].is_null()) << figure;
+    }
+    EXPECT_TRUE(std::isnan(shareOpposed({-1, -1})));
+}
+
+TEST(Statistics, areWrittenUnderTheirNames)
+{
+    const AngleStatistics s = statisticsOf({0.5f, 0.25f, 2, 8});
+    EXPECT_EQ(toText(s), "mean 2.688, median 0.500, 95 % 2.000, 99 % 2.000, max 8.00 degrees; over 1: 50.0 %, over 5: 25.0 %");
+    const auto written = toJson(s);
+    EXPECT_EQ(written["pixels"], 4);
+    EXPECT_EQ(written["mean_degrees"], 2.6875);
+    EXPECT_EQ(written["median_degrees"], 0.5);
+    EXPECT_EQ(written["percentile95_degrees"], 2);
+    EXPECT_EQ(written["percentile99_degrees"], 2);
+    EXPECT_EQ(written["max_degrees"], 8);
+    EXPECT_EQ(written["share_over_1_degree"], 0.5);
+    EXPECT_EQ(written["share_over_5_degrees"], 0.25);
+}
+
+TEST(Statistics, ofAHistogramAreThoseOfTheListToOnePartIn4096)
+{
+    std::vector<float> list;
+    AngleHistogram histogram;
+    for (int i = 0; i < 5000; ++i)
+        list.push_back(0.003f * float((i * 37) % 5000));
+    for (float d : list)
+        histogram.add(d);
+    histogram.add(-1);
+    histogram.add(NAN);
+    const AngleStatistics s = statisticsOf(list), h = histogram.statistics();
+    EXPECT_EQ(h.count, s.count);
+    EXPECT_NEAR(h.mean, s.mean, 1e-9);
+    EXPECT_EQ(h.maximum, s.maximum);
+    EXPECT_EQ(h.over1, s.over1);
+    EXPECT_EQ(h.over5, s.over5);
+    for (auto [a, b] : {std::pair(h.median, s.median), {h.percentile95, s.percentile95}, {h.percentile99, s.percentile99}}) {
+        EXPECT_LE(a, b);
+        EXPECT_GT(a, b * (1 - 1.0 / 4096));
+    }
+    EXPECT_EQ(statisticsOf({1, 5}).over1, 0.5); // over means over
+    AngleHistogram exactly;
+    exactly.add(1);
+    exactly.add(5);
+    EXPECT_EQ(exactly.statistics().over1, 0.5);
+    EXPECT_EQ(exactly.statistics().over5, 0);
+}
+
+TEST(Measurements, withoutAFiniteResultHaveNoFiguresInJson)
+{
+    const auto written = toJson(std::vector<Measurement>{{"t", "s", "x", "f", "S", "half", 10, 1, 2, 3, 0.5}, {"t", "s", "y", "f", "S", "half", 10, 0, 0, 0, 1}});
+    EXPECT_EQ(written[0]["mean"], 1);
+    EXPECT_EQ(written[0]["percentile95"], 2);
+    EXPECT_EQ(written[0]["maximum"], 3);
+    for (const char* figure : {"mean", "percentile95", "maximum"})
+        EXPECT_TRUE(written[1][figure].is_null()) << figure;
 }
 
 TangentDifference difference(std::vector<float> degrees, std::size_t handedness)
@@ -57,6 +123,48 @@ TEST(TangentDifferenceText, saysInWordsWhatIsWrongAndPrintsNoRounding)
     EXPECT_NE(text(difference({0, 180, 0, 180}, 0)).find("half of them turned against MikkTSpace"), std::string::npos);
     EXPECT_NE(text(difference({0, 7, 8, 9}, 0)).find("off MikkTSpace by mean 6"), std::string::npos);
     EXPECT_EQ(text(difference({}, 0)), "nothing to compare");
+}
+
+TEST(TangentDifferenceVerdict, hasLimitsOnBothSides)
+{
+    const auto verdict = [](int turned, int w) { // of 100 corners
+        std::vector<float> degrees(100, 10.0f);
+        std::fill_n(degrees.begin(), turned, 170.0f);
+        return verdictOf(difference(degrees, std::size_t(w)));
+    };
+    EXPECT_EQ(verdict(0, 90), TangentVerdict::inverted);
+    EXPECT_EQ(verdict(0, 89), TangentVerdict::off);
+    EXPECT_EQ(verdict(39, 0), TangentVerdict::off);
+    EXPECT_EQ(verdict(40, 0), TangentVerdict::turned);
+    EXPECT_EQ(verdict(60, 0), TangentVerdict::turned);
+    EXPECT_EQ(verdict(61, 0), TangentVerdict::off);
+    EXPECT_EQ(verdict(50, 95), TangentVerdict::inverted); // w first
+    EXPECT_EQ(verdictOf(difference({0, 0.049f}, 0)), TangentVerdict::equal);
+    EXPECT_EQ(verdictOf(difference({0, 0.051f}, 0)), TangentVerdict::off);
+    EXPECT_EQ(verdictOf(difference({0, 0.01f}, 1)), TangentVerdict::off);
+    EXPECT_EQ(verdictOf(difference({}, 0)), TangentVerdict::nothing);
+}
+
+TEST(TangentDifferenceVerdict, isWrittenWithItsShares)
+{
+    TangentDifference d = difference({10, 170, 20, 30}, 1);
+    d.corners = 6;
+    d.degenerate = 2;
+    const auto written = toJson(d);
+    EXPECT_EQ(written["verdict"], "off");
+    EXPECT_EQ(written["corners"], 6);
+    EXPECT_EQ(written["degenerate"], 2);
+    EXPECT_EQ(written["w_different"], 0.25);
+    EXPECT_EQ(written["turned"], 0.25);
+    EXPECT_EQ(written["directions"]["max_degrees"], 170);
+    EXPECT_FALSE(written["directions"].contains("pixels"));
+    EXPECT_NE(toText(d, "X").find("; 2 of 6 corners are degenerate"), std::string::npos) << toText(d, "X");
+    TangentDifference sum = difference({1, 2}, 1);
+    append(sum, d);
+    EXPECT_EQ(sum.degrees.size(), 6u);
+    EXPECT_EQ(sum.corners, 8u);
+    EXPECT_EQ(sum.degenerate, 2u);
+    EXPECT_EQ(sum.handedness, 2u);
 }
 
 TEST(Angles, areMeasuredWhereBothPicturesHaveADirection)
@@ -82,6 +190,49 @@ TEST(Angles, interiorLeavesOutTheBorderOfWhatWasCompared)
     d[12] = -1;
     keepInterior(d, 5, 5);
     EXPECT_EQ(std::count(d.begin(), d.end(), 1.0f), 0);
+}
+
+TEST(Angles, interiorKeepsWhatTouchesNothingMissingInAnOblongPicture)
+{
+    std::vector<float> d(7 * 4, 1.0f);
+    d[1 * 7 + 4] = -1; // (4,1)
+    keepInterior(d, 7, 4);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 7; ++x) {
+            const bool inside = x > 0 && x < 6 && y > 0 && y < 3 && !(std::abs(x - 4) <= 1 && y <= 2);
+            EXPECT_EQ(d[std::size_t(y * 7 + x)], inside ? 1.0f : -1.0f) << x << " " << y;
+        }
+}
+
+TEST(HeatMap, goesThroughItsStops)
+{
+    const auto color = [](float degrees) {
+        const Image h = heatMap({degrees}, 1, 1);
+        return std::array{int(h.bytes8()[0]), int(h.bytes8()[1]), int(h.bytes8()[2])};
+    };
+    EXPECT_EQ(color(0.5f), (std::array{20, 60, 200}));
+    EXPECT_EQ(color(2), (std::array{30, 180, 80}));
+    EXPECT_EQ(color(5), (std::array{250, 220, 40}));
+    EXPECT_EQ(color(15), (std::array{220, 30, 20}));
+    EXPECT_EQ(color(45), (std::array{255, 255, 255}));
+    EXPECT_EQ(color(3.5f), (std::array{140, 200, 60})); // half way
+}
+
+TEST(Pictures, showDirectionsUvAndDepthWhereThereIsSurface)
+{
+    const Image d = directionsAsColor(directions({{1, -1, 0, 1}, {0, 0, 1, 0}}));
+    EXPECT_EQ(d.bytes8()[0], 255);
+    EXPECT_EQ(d.bytes8()[1], 0);
+    EXPECT_EQ(d.bytes8()[2], 128);
+    EXPECT_EQ(d.bytes8()[3], 255);
+    EXPECT_EQ(d.bytes8()[7], 0); // no surface
+    const Image uv = uvAsColor(directions({{1.2f, -0.2f, 0, 1}}));
+    EXPECT_EQ(uv.bytes8()[0], 51);
+    EXPECT_EQ(uv.bytes8()[1], 204);
+    const Image depth = depthAsColor(directions({{2, 0, 0, 1}, {4, 0, 0, 1}, {3, 0, 0, 1}, {9, 0, 0, 0}}));
+    EXPECT_EQ(depth.bytes8()[0], 255);
+    EXPECT_EQ(depth.bytes8()[4], 40);
+    EXPECT_EQ(depth.bytes8()[8], 148); // 147.5 rounded
 }
 
 TEST(HeatMap, isBlackAtZeroWhiteAt45AndGreyWhereNothingWasCompared)

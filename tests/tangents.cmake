@@ -1,6 +1,14 @@
 cotan_test(tangents_test
   SOURCES tangents_test.cpp tangents_groups_test.cpp cotangents_test.cpp tangents_oracle_test.cpp
+          tangents_fans_test.cpp parallel_test.cpp
   LIBRARIES cotan_core)
 cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
   LIBRARIES cotan_asset)
+
+# Where size_t has 32 bits.
+add_test(NAME Core.isRightWhereSizesHave32Bits
+  COMMAND ${CMAKE_COMMAND} -DCXX=${CMAKE_CXX_COMPILER} "-DFLAGS=-m32 -idirafter /usr/include/${CMAKE_LIBRARY_ARCHITECTURE}"
+    -DSOURCE=${PROJECT_SOURCE_DIR} -DOUT=${CMAKE_CURRENT_BINARY_DIR}/core_32bit
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/core_32bit.cmake)
+set_tests_properties(Core.isRightWhereSizesHave32Bits PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:" TIMEOUT 300)

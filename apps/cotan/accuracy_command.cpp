@@ -84,7 +84,7 @@ std::vector<Measurement> measure(const Options& o, const std::vector<const Accur
 {
     std::vector<std::vector<Measurement>> results(tables.size());
     std::atomic<std::size_t> next = 0;
-    Progress progress(o.common, tables.size(), "tables");
+    Progress progress(o.common, tables.size(), "measuring tables");
     auto work = [&] {
         for (std::size_t i; (i = next++) < tables.size();) {
             results[i] = tables[i]->measure(selection);
@@ -212,6 +212,8 @@ Command addAccuracyCommand(CLI::App& app)
     command->add_option("--against", options->against,
                         "compare with figures that --csv wrote; exit code 5 if one is worse")->type_name("FILE");
     command->add_flag("--list", options->list, "name the tables and stop");
+    addExamples(*command, {"cotan accuracy --list",
+                           "cotan accuracy --tables flat --frames cotangent,orthonormal --csv flat.csv"});
     return {command, [options] { return run(*options); }};
 }
 

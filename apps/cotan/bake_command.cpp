@@ -70,6 +70,7 @@ Status checkOutputs(const BakeCommandOptions& o)
     if (!o.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", o.verify, bakePictures()))
             files.push_back(picture);
+    warnIfLossy(o.common, o.common.output);
     return planOutputs(o.common, files);
 }
 
@@ -78,7 +79,10 @@ Status run(const BakeCommandOptions& o)
     if (Status ok = checkOutputs(o); !ok)
         return ok;
     Stopwatch watch;
-    const auto job = prepareBake(o);
+    const auto job = [&] {
+        const Progress loading(o.common, 0, "loading the meshes");
+        return prepareBake(o);
+    }();
     if (!job)
         return job.error();
     for (const std::string& line : job->lowScene.warnings)
@@ -88,7 +92,7 @@ Status run(const BakeCommandOptions& o)
     const double loadSeconds = watch.lap();
     Result<Baked> baked = Baked{};
     {
-        Progress progress(o.common, std::size_t(job->options.height), "rows");
+        Progress progress(o.common, std::size_t(job->options.height), "baking");
         baked = bake(job->low, job->high.front(), job->options, [&] { progress.step(); });
     }
     if (!baked)
@@ -155,13 +159,18 @@ Command addBakeCommand(CLI::App& app)
     c->add_option("--high-convention", o->highConvention, "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for --high-map")->type_name("NAME");
     c->add_option("--bits", o->bits, "8, 16 or 32 (float; .exr or .tif)")->check(CLI::IsMember({8, 16, 32}))->type_name("N")->capture_default_str();
     c->add_flag("--dither", o->dither, "8 bit: round by a fixed pattern");
-    c->add_option("--convention", o->convention, "how the map is stored: opengl (green up, flat is 128, as nearly all glTF files have it), gltf (to the letter of its text, 2c - 1), directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();
+    c->add_option("--convention", o->convention, "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")->type_name("NAME")->capture_default_str();
+    c->add_option("--unsigned", o->expansion, "which code is zero: exact (128; 32768 of 16 bits), biased (none: 2c - 1)")
+        ->check(CLI::IsMember({"exact", "biased"}))->type_name("NAME")->capture_default_str();
     c->add_option("--padding", o->padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none")
         ->check(CLI::Range(-1, 65536))->type_name("N")->capture_default_str();
     c->add_option("--ao-rays", o->occlusionRays, "rays a sample for ao")->check(CLI::Range(1, 65536))->type_name("N")->capture_default_str();
     c->add_option("--mask", o->mask, "picture of what became of each texel")->type_name("FILE");
+    addMemoryOption(*c, o->memory);
     c->add_option("--verify", o->verify, "folder: draw the low mesh with the map and compare with the high one")->type_name("DIR");
     c->add_option("--device", o->device, "draws for --verify: auto, reference, or a part of a Vulkan device's name")->type_name("DEVICE")->capture_default_str();
+    addExamples(*c, {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
+                     "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"});
     return {c, [o] { return run(*o); }};
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "parse.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 Status applyMapOptions(const BakeCommandOptions& o, std::vector<Scene>& scenes)
 {
     for (std::size_t i = 0; i < scenes.size() && !o.highMaps.empty(); ++i) {
-        auto image = readImage(o.highMaps[std::min(i, o.highMaps.size() - 1)]);
+        auto image = readImageWithin(o.memory, o.highMaps[std::min(i, o.highMaps.size() - 1)]);
         if (!image)
             return image.error();
         for (Material& material : scenes[i].materials)
@@ -64,7 +63,7 @@ Status prepareHigh(const BakeCommandOptions& o, BakeJob& job)
 {
     std::vector<Scene> scenes;
     for (const std::string& file : o.high) {
-        auto scene = loadScene(file);
+        auto scene = loadSceneWithin(o.memory, file, o.highNormals == "map" ? Pixels::all : Pixels::none);
         if (!scene)
             return scene.error();
         scenes.push_back(std::move(*scene));

@@ -6,6 +6,7 @@
 
 #include "common.hpp"
 #include "cotan/bake/bake.hpp"
+#include "memory_limit.hpp"
 
 namespace cotan::app {
 
@@ -13,11 +14,12 @@ struct BakeCommandOptions {
     CommonOptions common;
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", tangents = "stored";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact", tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
+    int memory = kDefaultMemory;
     float maxDistance = 0;
     bool dither = false, matchByName = false;
 };

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/load.hpp"
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "map_options.hpp"
@@ -54,7 +53,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 // The cage's corner positions, brought to the vertices of the low surface.
 Result<std::vector<glm::vec3>> cagePositions(const std::string& file, const LowSurface& low)
 {
-    const auto cage = loadScene(file);
+    const auto cage = loadSceneWithin(kDefaultMemory, file, Pixels::none);
     if (!cage)
         return cage.error();
     std::vector<glm::vec3> corners;
@@ -79,6 +78,7 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
+    as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
     if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
         return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
@@ -132,7 +132,7 @@ Result<BakeJob> prepareBake(const BakeCommandOptions& o)
     job.options.occlusionRays = o.occlusionRays;
     job.options.threads = o.common.threads;
 
-    auto lowScene = loadScene(o.low);
+    auto lowScene = loadSceneWithin(o.memory, o.low);
     if (!lowScene)
         return lowScene.error();
     job.lowScene = std::move(*lowScene);

@@ -11,6 +11,7 @@
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "painter.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -64,6 +65,8 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
     if (Status loaded = (*painter)->load(scene); !loaded)
         return loaded.error();
     auto views = nlohmann::ordered_json::array();
+    Progress progress(o.common, kViews, "drawing and comparing");
+    (*painter)->progress = progress.within();
     std::vector<float> all;
     for (int i = 0; i < kViews; ++i) {
         View view;
@@ -74,8 +77,10 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
         const auto drawn = (*painter)->draw(view);
         if (!drawn)
             return drawn.error();
-        const Image expected = expectedNormals(job.low, job.high.front(), job.options, view);
-        auto degrees = anglesBetween(*drawn, expected);
+        const auto expected = expectedNormals(job.low, job.high.front(), job.options, view);
+        if (!expected)
+            return expected.error();
+        auto degrees = anglesBetween(*drawn, *expected);
         keepInterior(degrees, kSide, kSide);
         const AngleStatistics s = angleStatistics(degrees);
         views.push_back(toJson(s));
@@ -85,7 +90,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
                 all.push_back(d);
         const std::pair<const char*, Image> pictures[] = {{"error", heatMap(degrees, kSide, kSide)},
                                                           {"low", directionsAsColor(*drawn)},
-                                                          {"high", directionsAsColor(expected)}};
+                                                          {"high", directionsAsColor(*expected)}};
         for (const auto& [name, picture] : pictures)
             if (Status w = writeImage(o.verify / pictureName(name, i), picture); !w)
                 return w.error();

@@ -7,12 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "cotan/asset/extension.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
 namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 usage, 2 bad input, 3 not available here, 4 cannot write, 5 over a limit.";
 
 int printErrno = 0; // of the first print that failed
 
@@ -33,8 +38,8 @@ void addCommonOptions(CLI::App& command, CommonOptions& options, const std::stri
 {
     CLI::Option* output = command.add_option("-o,--output", options.output, outputHelp)->type_name("PATH");
     if (outputHelp.empty())
-        output->group("")->check([&command](const std::string&) {
-            return command.get_name() + " writes no files but --json FILE; leave out -o";
+        output->group("")->each([&command](const std::string&) {
+            throw CLI::ValidationError(command.get_name() + " writes no files but --json FILE; leave out -o");
         });
     command.add_option("--json", options.json, "machine-readable report; - is standard output")
         ->type_name("FILE");
@@ -43,6 +48,19 @@ void addCommonOptions(CLI::App& command, CommonOptions& options, const std::stri
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command.add_flag("--overwrite", options.overwrite, "replace files that are read, too");
+}
+
+void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value)
+{
+    command.add_option(older, value)->group("")->excludes(command.get_option(name));
+}
+
+void addExamples(CLI::App& command, const std::vector<std::string>& lines)
+{
+    std::string text = "Examples:\n";
+    for (const std::string& line : lines)
+        text += "  " + line + "\n";
+    command.footer(text + "\n" + kExitCodes);
 }
 
 std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
@@ -60,15 +78,18 @@ Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput
     std::vector<PlannedOutput> all = files;
     if (options.json != "-")
         all.push_back({"--json", options.json});
-    std::set<std::filesystem::path> folders;
-    for (const PlannedOutput& output : all) {
-        if (output.file.empty())
-            continue;
-        if (Status writable = checkWritable(output.file, output.makesFolder); !writable)
-            return writable;
+    std::erase_if(all, [](const PlannedOutput& output) { return output.file.empty(); });
+    for (const PlannedOutput& output : all)
         if (Status planned = planOutput(output.option, output.file); !planned)
             return planned;
-        folders.insert(output.file.has_parent_path() ? output.file.parent_path() : ".");
+    std::set<std::filesystem::path> folders, made;
+    for (const PlannedOutput& output : all) {
+        const std::filesystem::path folder = (output.file.has_parent_path() ? output.file.parent_path() : ".").lexically_normal();
+        folders.insert(folder);
+        if (output.makesFolder)
+            made.insert(folder);
+        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
+            return writable;
     }
     for (const std::filesystem::path& folder : folders)
         warnOfParts(options, folder);
@@ -107,13 +128,26 @@ Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& r
 void say(const CommonOptions& options, const std::string& line)
 {
     if (!options.quiet && options.json != "-")
+    {
+        wipeProgress();
         print(line + "\n");
+    }
 }
 
 void warn(const CommonOptions& options, const std::string& line)
 {
     if (!options.quiet)
+    {
+        wipeProgress();
         std::fputs(fmt::format("cotan: warning: {}\n", line).c_str(), stderr);
+    }
+}
+
+void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
+{
+    const std::string extension = lowerExtension(map);
+    if (extension == ".jpg" || extension == ".jpeg")
+        warn(options, "JPEG loses degrees on normal maps; PNG or TIFF keep them");
 }
 
 std::string counted(std::size_t number, const std::string& noun)

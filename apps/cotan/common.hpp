@@ -26,6 +26,12 @@ struct CommonOptions {
 // nothing but its report; -o is not listed, and refused.
 void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp);
 
+// Another name for an option of that name, which goes on working and is not listed.
+void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value);
+
+// Ends a command's help with commands that work, and the exit codes.
+void addExamples(CLI::App& command, const std::vector<std::string>& lines);
+
 // A command of the table in main.cpp: adds itself to the application; `run` is called after parsing
 // when its name was given.
 struct Command {
@@ -79,6 +85,9 @@ void say(const CommonOptions& options, const std::string& line);
 
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);
+
+// Warns where a map goes into a format that does not keep it.
+void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map);
 
 // "1 primitive", "2 primitives".
 std::string counted(std::size_t number, const std::string& noun);

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "cotan/report/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -56,6 +58,8 @@ Result<Drawn> drawAll(Painter& painter, View view, Frame frame)
 // What tells an inverted or turned tangent from a small difference.
 std::string tangentVerdict(double tOpposed, double bOpposed)
 {
+    if (std::isnan(tOpposed) || std::isnan(bOpposed))
+        return "no pixel has tangents of both frames: nothing was compared";
     if (tOpposed < 0.02 && bOpposed < 0.02)
         return "tangents and bitangents point the same way";
     if (tOpposed < 0.02 && bOpposed > 0.98)
@@ -88,6 +92,8 @@ Status run(const Options& o)
         return painter.error();
     Stopwatch watch;
     std::array<Drawn, 2> drawn;
+    Progress progress(o.common, 8, "drawing"); // four pictures each
+    (*painter)->progress = progress.within();
     for (std::size_t k = 0; k < 2; ++k) {
         auto d = drawAll(**painter, picture->view, (*pair)[k]);
         if (!d)
@@ -96,7 +102,10 @@ Status run(const Options& o)
     }
     const double drawSeconds = watch.lap();
 
-    const auto degrees = anglesBetween(drawn[0].normal, drawn[1].normal);
+    auto degrees = anglesBetween(drawn[0].normal, drawn[1].normal);
+    const bool mapped = drawsNormalMaps(picture->scene) && picture->view.normalMaps;
+    if (!mapped)
+        degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
     const AngleStatistics s = angleStatistics(degrees);
     const double tOpposed = shareOpposed(anglesBetween(drawn[0].tangent, drawn[1].tangent));
     const double bOpposed = shareOpposed(anglesBetween(drawn[0].bitangent, drawn[1].bitangent));
@@ -120,7 +129,8 @@ Status run(const Options& o)
     report["bitangents_opposed"] = bOpposed;
     report["verdict"] = verdict;
     report["seconds"] = {{"load", picture->loadSeconds}, {"draw", drawSeconds}, {"write", watch.lap()}};
-    say(o.common, fmt::format("{} against {}, {} pixels: {}", a, b, s.count, toText(s)));
+    const std::string normals = mapped ? toText(s) : "nothing was compared: no normal map is drawn";
+    say(o.common, fmt::format("{} against {}, {} pixels: {}", a, b, s.count, normals));
     say(o.common, verdict);
     say(o.common, fmt::format("pictures in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
                               "green 2, yellow 5, red 15, white 45 degrees)", o.common.output.string(), a, b));
@@ -137,6 +147,8 @@ Command addCompareCommand(CLI::App& app)
     addPictureOptions(*command, options->picture);
     command->add_option("--frames", options->frames, "the two frames, from: " + frameNames())
         ->type_name("A,B")->capture_default_str();
+    addExamples(*command, {"cotan compare model.glb --frames cotangent,mikktspace -o difference",
+                           "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"});
     return {command, [options] { return run(*options); }};
 }
 

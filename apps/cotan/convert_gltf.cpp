@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/asset/image_file.hpp"
 #include "cotan/tangents.hpp"
 #include "gltf_placed.hpp"
 
@@ -50,11 +51,29 @@ const Json* normalTextureOf(const Json& root, std::size_t material)
     return m.contains("normalTexture") ? &m["normalTexture"] : nullptr;
 }
 
-// Whether a material's normal map is in a format that is not read here.
-bool isForeign(const Json& root, std::size_t material)
+// By material: whether its normal map is in a format that is not read here, named by an extension or, against the
+// specification, by the texture itself.
+std::vector<bool> foreignMaps(const GltfDocument& document)
 {
-    const Json* info = normalTextureOf(root, material);
-    return info && !root["textures"][(*info)["index"].get<std::size_t>()].contains("source");
+    const Json& root = document.root;
+    std::map<std::size_t, bool> images;
+    std::vector<bool> foreign(countOf(root, "materials"), false);
+    for (std::size_t m = 0; m < foreign.size(); ++m) {
+        const Json* info = normalTextureOf(root, m);
+        if (!info)
+            continue;
+        const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
+        foreign[m] = !texture.contains("source");
+        if (foreign[m])
+            continue;
+        const std::size_t image = texture["source"].get<std::size_t>();
+        if (!images.contains(image)) {
+            const auto bytes = gltfImageBytes(document, image);
+            images[image] = bytes && !foreignFormat(*bytes).empty();
+        }
+        foreign[m] = images[image];
+    }
+    return foreign;
 }
 
 Wrap wrapOf(const Json& root, const Json& texture, const char* axis)
@@ -127,13 +146,14 @@ namespace {
 // One primitive with one of its materials, added to the job of that material's normal map.
 // document: with the material in the primitive's place, for its uv.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material,
-              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs, std::vector<std::string>& notes)
+              bool foreign, const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
+              std::vector<std::string>& notes)
 {
     const Json& root = document.root;
     const Json* info = normalTextureOf(root, material);
     if (!info)
         return Done{};
-    if (isForeign(root, material)) {
+    if (foreign) {
         notes.push_back(fieldOf(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
         return Done{};
     }
@@ -172,12 +192,13 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 {
     const Json& root = document.root;
     const auto placed = placings(root);
+    const std::vector<bool> foreign = foreignMaps(document);
     std::map<std::size_t, MapJob> jobs;
     GltfDocument seen = document; // each primitive with the material it is seen with
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
             seen.root["meshes"][m]["primitives"][p]["material"] = material;
-            if (Status added = addUse(seen, m, p, material, placed[m], jobs, notes); !added)
+            if (Status added = addUse(seen, m, p, material, foreign[material], placed[m], jobs, notes); !added)
                 return added;
         }
         return Done{};
@@ -216,9 +237,9 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
 namespace {
 
 // What of a material reads tangents and is not converted; empty if nothing.
-std::string whyTangentsStay(const Json& root, std::size_t material)
+std::string whyTangentsStay(const Json& root, std::size_t material, bool foreign)
 {
-    if (isForeign(root, material))
+    if (foreign)
         return "its normal map, neither PNG nor JPEG,";
     const Json& extensions = root["materials"][material].value("extensions", Json::object());
     if (extensions.contains("KHR_materials_anisotropy"))
@@ -234,13 +255,14 @@ Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::strin
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, told;
+    const std::vector<bool> foreign = foreignMaps(document);
     const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = document.root;
         const Json& primitive = root["meshes"][m]["primitives"][p];
         if (!primitive["attributes"].contains("TANGENT"))
             return Done{};
         for (const std::size_t material : materialsOf(root, primitive)) {
-            const std::string reason = whyTangentsStay(root, material);
+            const std::string reason = whyTangentsStay(root, material, foreign[material]);
             if (reason.empty())
                 continue;
             if (told.insert(material).second)

@@ -8,6 +8,7 @@
 #include <sys/utsname.h>
 
 #include "cost_tables.hpp"
+#include "progress.hpp"
 #include "cotan/files/output.hpp"
 
 namespace cotan::app {
@@ -81,6 +82,10 @@ Status writeTables(const std::filesystem::path& file, const std::string& tables)
 Status measure(const Options& o, CostReport& report)
 {
     Status usable = Done{};
+    const std::vector<std::string> families = !o.families.empty() ? o.families
+        : o.devices.empty()                                      ? cost::usualFamilies()
+                                                                 : std::vector<std::string>();
+    Progress progress(o.common, families.size() + 2, "pricing"); // devices, families, times
     if (o.families.empty() || !o.devices.empty()) {
         auto code = cost::machineCodeOfDevices(report.rows, o.devices);
         if (code)
@@ -91,9 +96,11 @@ Status measure(const Options& o, CostReport& report)
             return unavailableError(fmt::format("no Vulkan device has '{}' in its name",
                                                 fmt::join(o.devices, "' or '")));
     }
-    if (o.devices.empty() || !o.families.empty())
-        for (const std::string& family : o.families.empty() ? cost::usualFamilies() : o.families)
-            report.code.push_back(cost::machineCodeOfFamily(report.rows, family));
+    progress.step();
+    for (const std::string& family : families) {
+        report.code.push_back(cost::machineCodeOfFamily(report.rows, family));
+        progress.step();
+    }
     if (o.noTiming) {
         report.timingSilence = "--no-timing was given";
         return usable;
@@ -175,6 +182,8 @@ Command addCostCommand(CLI::App& app)
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--csv", options->csv, "every number, one a line")->type_name("FILE");
+    addExamples(*command, {"cotan cost --frames cotangent --no-timing",
+                           "cotan cost --family NAVI21 --csv cost.csv"});
     return {command, [options] { return run(*options); }};
 }
 

@@ -13,6 +13,7 @@
 #include "figures/stage.hpp"
 #include "figures/studio.hpp"
 #include "parse.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -157,6 +158,7 @@ Status run(const Options& o)
                                      {"size", {size->first, size->second}},
                                      {"figures", nlohmann::ordered_json::array()}};
     std::vector<Figure> made;
+    Progress progress(o.common, figures->size(), "drawing figures");
     for (const FigureInfo& info : *figures) {
         made.push_back(info.make(studio));
         if (studio.error())
@@ -166,6 +168,7 @@ Status run(const Options& o)
             return onPage.error();
         page.figures.push_back(std::move(*onPage));
         report["figures"].push_back(reportOf(info.name, made.back()));
+        progress.step();
         say(o.common, fmt::format("{}: {}", info.name, made.back().title));
     }
     std::vector<const Image*> overview;
@@ -204,6 +207,8 @@ Command addFiguresCommand(CLI::App& app)
     command->add_option("--only", options->only, "figures to make, separated by commas: " + figureNames())->type_name("NAMES");
     command->add_option("--device", options->device, "auto, reference, or a part of a Vulkan device's name")
         ->type_name("DEVICE")->capture_default_str();
+    addExamples(*command, {"cotan figures --only mirrored -o figures",
+                           "cotan figures --only 2.6.4,decode --size 240x180 -o figures"});
     return {command, [options] { return run(*options); }};
 }
 

@@ -4,6 +4,7 @@
 
 #include "cotan/asset/extension.hpp"
 #include "cotan/asset/load.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -27,12 +28,15 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)
 {
-    auto scene = loadGltf(model);
+    const Progress loading(common, 0, "loading " + model);
+    LoadLimits limits;
+    limits.pixels = Pixels::none;
+    auto scene = loadGltf(model, limits);
     if (!scene)
         return scene.error();
     for (const std::string& line : scene->warnings)
         warn(common, line);
-    auto document = openGltfDocument(model);
+    auto document = openGltfDocument(model, limits);
     if (!document)
         return document.error();
     return OpenedGltf{std::move(*document), std::move(scene->warnings)};

@@ -21,8 +21,8 @@ struct OpenedGltf {
     std::vector<std::string> warnings; // of loading; the user has been told
 };
 
-// Opens a model to change it. Everything in the file is looked at, images too: what cannot be shown is
-// not rewritten. Errors: ErrorKind::input.
+// Opens a model to change it. Everything in the file is looked at but the pixels of its images: what cannot be
+// shown is not rewritten. Errors: ErrorKind::input.
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common);
 
 } // namespace cotan::app

@@ -1,19 +1,20 @@
 // The command line: a table of commands, and exit codes.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "command_words.hpp"
 #include "commands.hpp"
+#include "cotan/asset/sandbox.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
 
 namespace {
-
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 usage, 2 bad input, 3 not available here, 4 cannot write, 5 over a limit.";
 
 // Not fmt::print, which throws where standard error cannot be written.
 int fail(const cotan::Error& error)
@@ -39,7 +40,7 @@ int runCommandLine(int argc, char** argv)
     CLI::App app("Normal mapping without precomputed tangents.", "cotan");
     app.set_version_flag("--version", std::string("cotan ") + COTAN_VERSION);
     app.require_subcommand(1);
-    app.footer(kFooter);
+    addExamples(app, {"cotan render model.glb -o picture.png", "cotan render --help"});
     std::vector<Command> commands;
     constexpr Command (*kCommands[])(CLI::App&) = {
         addRenderCommand,
@@ -56,10 +57,10 @@ int runCommandLine(int argc, char** argv)
         addCostCommand,
 #endif
     };
-    for (auto add : kCommands) {
+    for (auto add : kCommands)
         commands.push_back(add(app));
-        commands.back().app->footer(kFooter);
-    }
+    if (cotan::Status known = checkCommandWords(app, std::span(argv, std::size_t(argc)).subspan(std::min(argc, 1))); !known)
+        return fail(known.error());
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -84,6 +85,9 @@ int runCommandLine(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    if (cotan::isReaderProcess(argc, argv))
+        return cotan::runReaderProcess();
+    cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
         return runCommandLine(argc, argv);

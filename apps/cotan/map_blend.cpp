@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string base, detail, from = "gltf,exact", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
+    std::string base, detail, from = "gltf", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
     double strength = 1;
     bool dither = false;
 };
@@ -135,6 +135,8 @@ Command addMapBlend(CLI::App& map)
     command->add_option("--to", options->to, "how to store the blend; as the base if not given")->type_name("WORDS");
     command->add_option("--bits", options->bits, "auto (as the base), 8, 16, half (.exr) or float")->capture_default_str();
     command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
+    addExamples(*command, {"cotan map blend rocks.png grain.png -o out.png",
+                           "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

@@ -22,6 +22,7 @@ Command addMapCommand(CLI::App& app)
 {
     CLI::App* map = app.add_subcommand("map", "normal-map files: what they are, and from one form to another");
     map->require_subcommand(1);
+    addExamples(*map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
     auto commands = std::make_shared<std::vector<Command>>();
     for (auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
                      addMapBlend, addMapMips})

@@ -10,6 +10,7 @@
 #include "map_object.hpp"
 #include "map_options.hpp"
 #include "map_stream.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -42,6 +43,7 @@ Result<maps::RecodeCounts> byMesh(const Options& o, const maps::RecodeSettings& 
         return map.error();
     maps::RecodeCounts counts;
     std::size_t shown = 0;
+    const Progress turning(o.map.common, 0, "turning texels by the mesh");
     const auto out = throughMesh(*map, settings, o.mesh, counts, shown);
     if (!out)
         return out.error();
@@ -115,14 +117,11 @@ Status run(const Options& o)
     if (!converted)
         return converted.error();
     const maps::RecodeCounts counts = *converted;
-    const std::string extension = o.map.common.output.extension().string();
     if (counts.invalid > 0)
         warn(o.map.common, fmt::format("{}: {} texels are no direction; written as flat", o.file, counts.invalid));
     if (counts.clamped > 0)
         warn(o.map.common, fmt::format("{}: {} texels are steeper than {} can hold; clamped", o.file, counts.clamped,
                                        describe(*to)));
-    if (extension == ".jpg" || extension == ".jpeg")
-        warn(o.map.common, "JPEG loses degrees on normal maps; PNG or TIFF keep them");
     say(o.map.common, fmt::format("{}: {} x {}, {}: {}", o.map.common.output.string(), in.width, in.height,
                                   bitsName(*bits), describe(*to)));
     return writeReport(o.map.common, {{"command", "map convert"}, {"file", o.file},
@@ -156,6 +155,8 @@ Command addMapConvert(CLI::App& map)
         ->check(CLI::Range(-1, 1 << 20))->capture_default_str();
     command->add_option("--tangents", options->mesh.tangents, "with --mesh: stored, or generated")
         ->check(CLI::IsMember({"stored", "generated"}))->capture_default_str();
+    addExamples(*command, {"cotan map convert rocks.png --from directx --to gltf -o out.png",
+                           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

@@ -16,7 +16,7 @@ namespace {
 
 struct DiffOptions {
     MapOptions map;
-    std::string a, b, conventionA = "gltf,exact", conventionB;
+    std::string a, b, conventionA = "gltf", conventionB;
 };
 
 Status run(const DiffOptions& o)
@@ -90,6 +90,8 @@ Command addMapDiff(CLI::App& map)
     command->add_option("--from", options->conventionA, "how A is stored: " + conventionWords())
         ->type_name("WORDS")->capture_default_str();
     command->add_option("--to", options->conventionB, "how B is stored; as A if not given")->type_name("WORDS");
+    addExamples(*command, {"cotan map diff rocks.png other.png",
+                           "cotan map diff rocks.png other.png --from gltf --to directx -o heat.png"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

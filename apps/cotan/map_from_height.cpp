@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel = "central", wrap = "repeat";
+    std::string file, convention = "gltf", bits = "auto", size, kernel = "central", wrap = "repeat";
     double range = 0, strength = 1;
     bool dither = false;
 };
@@ -34,7 +34,7 @@ std::optional<maps::Wrap> wrapFromName(const std::string& name)
 Result<std::pair<double, double>> scaleOf(const Options& o, int width, int height)
 {
     if (o.size.empty() != (o.range == 0))
-        return usageError("from-height: expected --size and --range together, both in metres; found one of them");
+        return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
     if (o.size.empty()) {
         const double texels = o.strength / 100 * width;
         return std::pair(texels, texels);
@@ -118,7 +118,8 @@ Command addMapFromHeight(CLI::App& map)
     command->add_option("FILE", options->file, "heights: grey, or the red channel")->required();
     command->add_option("--to", options->convention, "how to store it: " + conventionWords())
         ->type_name("WORDS")->capture_default_str();
-    command->add_option("--size", options->size, "metres that the picture covers; with --range")->type_name("W[xH]");
+    command->add_option("--metres", options->size, "metres that the picture covers; with --range")->type_name("W[xH]");
+    addOlderName(*command, "--size", "--metres", options->size);
     command->add_option("--range", options->range, "metres from black to white (floats: metres per unit); negative: white is low")->type_name("METRES");
     command->add_option("--strength", options->strength,
                         "without metres: white is this many hundredths of the picture's width above black")->capture_default_str();
@@ -126,6 +127,8 @@ Command addMapFromHeight(CLI::App& map)
     command->add_option("--wrap", options->wrap, "at the borders: repeat, clamp or mirror")->capture_default_str();
     command->add_option("--bits", options->bits, "auto (as the heights), 8, 16, half (.exr) or float")->capture_default_str();
     command->add_flag("--dither", options->dither, "noise of half a step before rounding, the same on every run");
+    addExamples(*command, {"cotan map from-height height.png --metres 2 --range 0.05 -o normal.png",
+                           "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

@@ -17,7 +17,7 @@ Result<std::pair<double, double>> parseMetres(const std::string& text, int texel
     if (end != last && *end == 'x')
         end = std::from_chars(end + 1, last, height).ptr;
     if (end != last || !(width > 0) || !(height > 0) || !std::isfinite(width * height))
-        return usageError(fmt::format("--size: expected metres as W or WxH, each over 0; found '{}'", text));
+        return usageError(fmt::format("--metres: expected metres as W or WxH, each over 0; found '{}'", text));
     return std::pair(width, height);
 }
 

@@ -74,8 +74,13 @@ template<class Take> Result<Surveyed> readThrough(const InspectOptions& o, Borde
 Result<Surveyed> survey(const InspectOptions& o)
 {
     maps::MapSurvey found;
-    if (auto first = readThrough(o, Border::none, [&](const Image& strip, int) { found.first(strip); }); !first)
+    auto first = readThrough(o, Border::none, [&](const Image& strip, int) { found.first(strip); });
+    if (!first)
         return first.error();
+    if (found.oneColour()) {
+        first->statistics = found.finish();
+        return first;
+    }
     auto second = readThrough(o, Border::none, [&](const Image& strip, int) { found.second(strip); });
     if (second)
         second->statistics = found.finish();
@@ -87,6 +92,9 @@ void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalS
     const auto line = [&](const std::string& text) { say(o.map.common, text); };
     line(fmt::format("{}: {} x {}, {}", o.file, image.width, image.height, bitsName(image.type)));
     line("contents: " + maps::describe(s.content));
+    if (s.background > 0)
+        line(fmt::format("background (alpha 0, black, white, or fields of a colour that is no normal): {:.2f} %; left out below",
+                         s.background * 100));
     if (s.swizzle != maps::Swizzle::rg)
         line(s.swizzle == maps::Swizzle::greyAlpha ? "channels: two (x as grey, y as alpha)"
                                                    : "channels: two (x in alpha, y in green)");
@@ -113,7 +121,7 @@ nlohmann::ordered_json toJson(const InspectOptions& o, const Surveyed& image, co
             {"bits", bitsName(image.type)}, {"contents", maps::describe(s.content)},
             {"channels", name(s.swizzle)}, {"centre", name(s.centre)}, {"transfer", name(s.transfer)},
             {"signed", s.signedStored}, {"mean_length", s.meanLength}, {"length_spread", s.lengthSpread},
-            {"shortened", s.shortened}, {"invalid", s.invalid}, {"below_horizon", s.belowHorizon},
+            {"shortened", s.shortened}, {"background", s.background}, {"invalid", s.invalid}, {"below_horizon", s.belowHorizon},
             {"outside_disc", s.outsideDisc}, {"mean", s.mean}, {"lowest", s.lowest}, {"highest", s.highest},
             {"mean_tilt_degrees", s.meanTilt}, {"tilt_by_10_degrees", s.tilt}};
 }
@@ -126,21 +134,6 @@ Status runInfo(const InspectOptions& o)
     const maps::NormalStatistics& s = image->statistics;
     sayInfo(o, *image, s);
     return writeReport(o.map.common, toJson(o, *image, s));
-}
-
-const char* name(maps::Green g)
-{
-    return g == maps::Green::up ? "up" : g == maps::Green::down ? "down" : "undecidable";
-}
-
-const char* name(maps::Swapped s)
-{
-    return s == maps::Swapped::no ? "no" : s == maps::Swapped::yes ? "yes" : "undecidable";
-}
-
-const char* name(maps::Confidence c)
-{
-    return c == maps::Confidence::certain ? "certain" : c == maps::Confidence::likely ? "likely" : "none";
 }
 
 std::string verdictText(const maps::GreenVerdict& v)
@@ -159,15 +152,18 @@ std::string verdictText(const maps::GreenVerdict& v)
 
 Status runDetect(const InspectOptions& o)
 {
-    const auto image = survey(o);
-    if (!image)
-        return image.error();
-    const maps::NormalStatistics& s = image->statistics;
-    maps::GreenSurvey green(image->width, image->height, image->type, s);
-    if (auto read = readThrough(o, Border::below, [&](const Image& strip, int row) { green.add(strip, row); }); !read)
+    const auto reader = openMapRows(o.file, o.map);
+    if (!reader)
+        return reader.error();
+    RowReader& in = **reader;
+    maps::PatchSampler sampler(in.width, in.height, in.type);
+    if (Status read = inOrder(o.map.common, in, Border::none, [&](const Image& strip, int row) { sampler.add(strip, row); }); !read)
         return read.error();
-    const maps::GreenVerdict v = green.verdict();
+    const maps::GreenVerdict v = maps::greenOf(sampler);
     say(o.map.common, verdictText(v));
+    if (v.sampled < 1)
+        say(o.map.common, fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
+                                      sampler.patches().size(), 100 * v.sampled));
     if (v.used > 0)
         say(o.map.common, fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
                                       "leaves {:.3g} times as much unexplained; {:.0f} % of the picture votes so",
@@ -177,9 +173,9 @@ Status runDetect(const InspectOptions& o)
     return writeReport(o.map.common,
                        {{"command", "map detect"}, {"file", o.file}, {"green", name(v.green)},
                         {"confidence", name(v.confidence)}, {"exchanged", name(v.swapped)}, {"reason", v.reason},
-                        {"contents", maps::describe(s.content)}, {"agreement", v.agreement},
+                        {"contents", maps::describe(v.statistics.content)}, {"background", v.statistics.background}, {"agreement", v.agreement},
                         {"agreement_exchanged", v.exchanged}, {"deviations", v.deviations},
-                        {"residual_ratio", v.residualRatio}, {"votes", v.votes}, {"used", v.used},
+                        {"residual_ratio", v.residualRatio}, {"votes", v.votes}, {"used", v.used}, {"sampled", v.sampled},
                         {"bump_or_dent", "cannot be told"}});
 }
 
@@ -200,6 +196,7 @@ Command addMapInfo(CLI::App& map)
     CLI::App* command = map.add_subcommand("info", "what a map is: lengths, tilt, centre, channels, what is wrong");
     addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
+    addExamples(*command, {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"});
     return inspect(command, options, runInfo);
 }
 
@@ -209,6 +206,7 @@ Command addMapDetect(CLI::App& map)
     CLI::App* command = map.add_subcommand("detect", "which way green points, and how sure that is");
     addMapOptions(*command, options->map, "");
     command->add_option("FILE", options->file, "the map")->required();
+    addExamples(*command, {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"});
     return inspect(command, options, runDetect);
 }
 

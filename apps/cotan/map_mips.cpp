@@ -12,6 +12,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/maps/mips.hpp"
 #include "map_options.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -19,7 +20,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, from = "gltf,exact", to, model = "lean", bits = "auto";
+    std::string file, from = "gltf", to, model = "lean", bits = "auto";
     double roughness = 0.3;
     bool keepLengths = false;
 };
@@ -123,6 +124,7 @@ Status run(const Options& o)
     if (work > 4 * (std::size_t(o.map.memory) << 20))
         return inputError(fmt::format("{}: the chain takes {} MiB, the limit is four times {} (--memory raises it)",
                                       o.file, work >> 20, o.map.memory));
+    const Progress filtering(o.map.common, 0, "filtering levels");
     const auto chain = maps::mipChain(*image, {.from = *from, .to = *to, .keepLengths = o.keepLengths, .model = *model,
                                                .roughness = o.roughness, .type = type->type});
     if (Status written = writeChain(o, chain, *type); !written)
@@ -156,6 +158,8 @@ Command addMapMips(CLI::App& map)
     command->add_option("--model", options->model, "toksvig, vmf or lean")->capture_default_str();
     command->add_flag("--keep-lengths", options->keepLengths, "three channels: store the shortened mean vectors");
     command->add_option("--bits", options->bits, "auto (as the map), 8, 16, half (.exr) or float")->capture_default_str();
+    addExamples(*command, {"cotan map mips rocks.png -o rocks.dds",
+                           "cotan map mips rocks.png --roughness 0.4 -o level.png"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

@@ -5,11 +5,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/load.hpp"
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/low_surface.hpp"
 #include "cotan/bake/uv_raster.hpp"
 #include "cotan/maps/texels.hpp"
+#include "memory_limit.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -37,7 +37,7 @@ Image stored(const Baked& values, const maps::RecodeSettings& s, std::size_t& cl
         for (std::size_t x = 0; x < row.size(); ++x) {
             const glm::vec3 n = values.values[std::size_t(y) * row.size() + x];
             clamped += tangent && n.z < 0 && s.to.channels != Channels::xyz;
-            row[x] = maps::encodeTexel(n, s.to);
+            row[x] = maps::encodeTexel(n, s.to, s.type);
             if (s.dither)
                 row[x] = maps::dithered(row[x], steps, int(x), y);
         }
@@ -54,7 +54,7 @@ Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const
     const auto frame = parseFrame(mesh.frame);
     if (!frame)
         return frame.error();
-    const auto scene = loadScene(mesh.file);
+    const auto scene = loadSceneWithin(kDefaultMemory, mesh.file, Pixels::none);
     if (!scene)
         return scene.error();
     const auto surface = makeLowSurface(*scene, mesh.material, *frame,

@@ -48,27 +48,12 @@ bool applyWord(const std::string& text, Convention& convention)
     return true;
 }
 
-LoadLimits limitsOf(const MapOptions& options)
-{
-    LoadLimits limits;
-    limits.imageBytes = std::size_t(options.memory) << 20;
-    limits.imageSide = 1 << 20; // the memory limit decides
-    return limits;
-}
-
-Error withHint(const Error& error)
-{
-    const bool limit = error.message.find("the limit is") != std::string::npos;
-    return {error.kind, error.message + (limit ? " (--memory raises it)" : "")};
-}
-
 } // namespace
 
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp)
 {
     addCommonOptions(command, options.common, outputHelp);
-    command.add_option("--memory", options.memory, "MiB that one picture may take where it has to be held whole")
-        ->check(CLI::Range(1, 1 << 16))->capture_default_str();
+    addMemoryOption(command, options.memory);
 }
 
 std::string conventionWords()
@@ -110,14 +95,13 @@ NormalMapFormat formatInScene(const Convention& convention)
 
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options)
 {
-    auto image = readImage(file, limitsOf(options));
-    return image ? image : Result<Image>(withHint(image.error()));
+    return readImageWithin(options.memory, file);
 }
 
 Result<std::unique_ptr<RowReader>> openMapRows(const std::filesystem::path& file, const MapOptions& options)
 {
-    auto reader = openRows(file, limitsOf(options));
-    return reader ? std::move(reader) : Result<std::unique_ptr<RowReader>>(withHint(reader.error()));
+    auto reader = openRows(file, limitsFor(options.memory));
+    return reader ? std::move(reader) : Result<std::unique_ptr<RowReader>>(withMemoryHint(reader.error()));
 }
 
 Result<maps::Swizzle> swizzleOfFile(const std::filesystem::path& file, const MapOptions& options,
@@ -207,6 +191,7 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 {
     if (options.common.output.empty())
         return usageError(fmt::format("map {}: expected -o FILE; found none", command));
+    warnIfLossy(options.common, options.common.output);
     return planOutputs(options.common, {{"-o", file.empty() ? options.common.output : file}});
 }
 

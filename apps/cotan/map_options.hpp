@@ -11,12 +11,13 @@
 #include "cotan/convention.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/scene/scene.hpp"
+#include "memory_limit.hpp"
 
 namespace cotan::app {
 
 struct MapOptions {
     CommonOptions common;
-    int memory = 640; // MiB, of one picture that is decoded whole
+    int memory = kDefaultMemory; // of one picture that is decoded whole
 };
 
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp);

@@ -116,7 +116,7 @@ Status streamStrips(const CommonOptions& options, std::span<RowReader* const> re
     std::vector<Cutter> cutters;
     for (RowReader* reader : readers)
         cutters.emplace_back(*reader, plan);
-    Progress progress(options, std::size_t((height + rows - 1) / rows), "strips");
+    Progress progress(options, std::size_t((height + rows - 1) / rows), readers[0]->name);
     Status readState = Done{}, takeState = Done{}; // each touched by one stage only
     std::atomic<bool> stop = false;
     int next = 0;

@@ -7,6 +7,7 @@
 
 #include "map_height.hpp"
 #include "map_options.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -14,7 +15,7 @@ namespace {
 
 struct Options {
     MapOptions map;
-    std::string file, convention = "gltf,exact", bits = "auto", size, kernel = "spectral";
+    std::string file, convention = "gltf", bits = "auto", size, kernel = "spectral";
     bool free = false;
 };
 
@@ -76,14 +77,19 @@ Status run(const Options& o)
         unit = metres->first / image->width;
         aspect = metres->second / image->height / unit;
     }
+    const Progress solving(o.map.common, 0, "solving for the height");
     const maps::Heights h = maps::heightFromNormals(
         *image, {.from = *from, .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
                  .kernel = *kernel, .aspect = aspect});
     if (Status written = writeMap(o.map.common.output, picture(h, *image, checked->type, unit), *checked); !written)
         return written;
     const double range = h.highest - h.lowest, share = h.slope > 0 ? h.residual / h.slope : 0;
-    const std::string again = o.size.empty() ? fmt::format("--strength {:.9g}", 100 * range / image->width)
-                                             : fmt::format("--size {} --range {:.9g}", o.size, range * unit);
+    std::string again = o.size.empty() ? fmt::format("--strength {:.9g}", 100 * range / image->width)
+                                       : fmt::format("--metres {} --range {:.9g}", o.size, range * unit);
+    if (*kernel != maps::Kernel::spectral)
+        again += " --kernel " + o.kernel;
+    if (o.free)
+        again += " --wrap clamp";
     if (h.invalid > 0)
         warn(o.map.common, fmt::format("{}: {} texels are no direction; taken as flat", o.file, h.invalid));
     if (!o.free && h.meanTilt > 1)
@@ -114,11 +120,14 @@ Command addMapToHeight(CLI::App& map)
     command->add_option("FILE", options->file, "the map")->required();
     command->add_option("--from", options->convention, "how it is stored: " + conventionWords())
         ->type_name("WORDS")->capture_default_str();
-    command->add_option("--size", options->size, "metres that the picture covers: heights come in metres, otherwise in texels")->type_name("W[xH]");
+    command->add_option("--metres", options->size, "metres that the picture covers: heights come in metres, otherwise in texels")->type_name("W[xH]");
+    addOlderName(*command, "--size", "--metres", options->size);
     command->add_option("--kernel", options->kernel,
                         "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr")->capture_default_str();
     command->add_flag("--free", options->free, "the map does not repeat: free borders");
     command->add_option("--bits", options->bits, "auto (16 where the file can hold it), 8, 16, half (.exr) or float")->capture_default_str();
+    addExamples(*command, {"cotan map to-height rocks.png -o height.png",
+                           "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"});
     return {command, [options] {
                 return withThreads(options->map.common.threads, [&] { return run(*options); });
             }};

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "map_options.hpp"
@@ -37,7 +36,7 @@ void addNormalMapOption(CLI::App& command, NormalMapOption& o)
         ->check(CLI::Range(-1, 100000))->type_name("N")->capture_default_str();
 }
 
-Status applyNormalMap(const NormalMapOption& o, Scene& scene)
+Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)
 {
     if (o.file.empty()) {
         if (o.convention != kDefaults.convention || o.material != kDefaults.material)
@@ -54,7 +53,7 @@ Status applyNormalMap(const NormalMapOption& o, Scene& scene)
         return usageError(fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, o.material));
     if (!anyMeshShows(scene, o.material))
         return inputError(fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, o.file));
-    auto image = readImage(o.file);
+    auto image = readImageWithin(memory, o.file);
     if (!image)
         return image.error();
     if (convention->channels != Channels::xyz)

@@ -20,13 +20,11 @@ public:
         scene_ = &scene;
         return Done{};
     }
-    Result<Image> draw(const View& view) override
-    {
-        return renderReference(*scene_, view, threads_);
-    }
     std::string device() const override { return "reference"; }
 
 private:
+    Result<Image> drawView(const View& view) override { return renderReference(*scene_, view, threads_, progress); }
+
     const Scene* scene_ = nullptr;
     int threads_;
 };
@@ -37,11 +35,12 @@ public:
     explicit VulkanPainter(Renderer renderer) : renderer_(std::move(renderer)) {}
 
     Status load(const Scene& scene) override { return renderer_.load(scene); }
-    Result<Image> draw(const View& view) override { return renderer_.render(view); }
     std::string device() const override { return renderer_.deviceName(); }
     double uploadSeconds() const override { return renderer_.timings().upload; }
 
 private:
+    Result<Image> drawView(const View& view) override { return renderer_.render(view); }
+
     Renderer renderer_;
 };
 

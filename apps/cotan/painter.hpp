@@ -1,6 +1,7 @@
 // Something that draws: a Vulkan device or the reference renderer.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,9 +14,19 @@ class Painter {
 public:
     virtual ~Painter() = default;
     virtual Status load(const Scene& scene) = 0; // the scene must outlive the painter
-    virtual Result<Image> draw(const View& view) = 0;
+    Result<Image> draw(const View& view)
+    {
+        if (progress)
+            progress(0);
+        return drawView(view);
+    }
     virtual std::string device() const = 0;
     virtual double uploadSeconds() const { return 0; }
+
+    std::function<void(double)> progress; // gets 0 before each picture, and its share as far as that is known
+
+private:
+    virtual Result<Image> drawView(const View& view) = 0;
 };
 
 // `device`: "reference", a part of a Vulkan device's name, or "auto": the best Vulkan device, and

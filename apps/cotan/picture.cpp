@@ -1,13 +1,14 @@
 #include "picture.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "cotan/asset/geometry.hpp"
-#include "cotan/asset/load.hpp"
 #include "cotan/asset/shapes.hpp"
 #include "parse.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -57,6 +58,7 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
 void addPictureOptions(CLI::App& command, PictureOptions& o)
 {
     command.add_option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
+    addMemoryOption(command, o.memory);
     addNormalMapOption(command, o.normalMap);
     command.add_option("--size", o.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--camera", o.camera,
@@ -96,14 +98,15 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {
-        auto scene = loadScene(options.model);
+        const Progress loading(common, 0, "loading " + options.model);
+        auto scene = loadSceneWithin(options.memory, options.model);
         if (!scene)
             return scene.error();
         picture.scene = std::move(*scene);
     }
     if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
         return ok.error();
-    if (Status applied = applyNormalMap(options.normalMap, picture.scene); !applied)
+    if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
         deriveVertexFrames(picture.scene, frame, options.tangents == "generated");
@@ -138,6 +141,15 @@ Status checkLighting(const PictureOptions& options, Frame frame)
         return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                                       "mikktspace; found '{}'", name(frame)));
     return Done{};
+}
+
+bool drawsNormalMaps(const Scene& scene)
+{
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+        const Mesh& mesh = scene.meshes[std::size_t(i.mesh)];
+        const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
+        return map.present() && mesh.triangleCount() > 0 && !mesh.texcoords[map.texcoord == 1 ? 1 : 0].empty();
+    });
 }
 
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)

@@ -6,6 +6,7 @@
 #include "common.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
+#include "memory_limit.hpp"
 #include "normal_map_option.hpp"
 #include "painter.hpp"
 
@@ -22,6 +23,7 @@ struct PictureOptions {
     std::string tangents = "stored";
     std::string rows = "down";
     std::string derivatives = "fine";
+    int memory = kDefaultMemory;
     int samples = 4;
     float exposure = 1;
     bool noShadows = false;
@@ -51,6 +53,10 @@ Status checkLighting(const PictureOptions& options, Frame frame);
 // The picture must outlive it.
 Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
                                              const CommonOptions& common, const Picture& picture);
+
+// Whether anything that is drawn reads a normal map: else normals cannot differ between frames, and a comparison of
+// them says nothing.
+bool drawsNormalMaps(const Scene& scene);
 
 // Sizes and counts for a report.
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture);

@@ -9,6 +9,7 @@
 #include "cotan/report/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -44,7 +45,7 @@ Image asColor(const std::string& show, const Image& image)
 }
 
 // Angles between the normals of this frame and those of exact per-triangle gradients.
-Result<Image> drawError(Painter& painter, View view, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawError(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
 {
     auto normals = painter.draw(view);
     if (!normals)
@@ -53,17 +54,19 @@ Result<Image> drawError(Painter& painter, View view, const Options& o, nlohmann:
     auto exact = painter.draw(view);
     if (!exact)
         return exact;
-    const auto degrees = anglesBetween(*normals, *exact);
+    auto degrees = anglesBetween(*normals, *exact);
+    if (!mapped)
+        degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
     const AngleStatistics s = angleStatistics(degrees);
     report["error_against_exact"] = toJson(s);
     say(o.common, fmt::format("{} against exact: {}", o.frame, toText(s)));
     return heatMap(degrees, view.width, view.height);
 }
 
-Result<Image> drawPicture(Painter& painter, View view, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawPicture(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
 {
     if (o.show == "error")
-        return drawError(painter, view, o, report);
+        return drawError(painter, view, mapped, o, report);
     view.linearOutput = o.show == "shaded" && keepsFloats(o.common.output);
     auto image = painter.draw(view);
     if (image && o.show != "shaded" && !keepsFloats(o.common.output))
@@ -95,9 +98,12 @@ Status run(const Options& o)
         return painter.error();
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     nlohmann::ordered_json report = {{"command", "render"}};
-    auto image = drawPicture(**painter, picture->view, o, report);
+    auto progress = std::make_unique<Progress>(o.common, o.show == "error" ? 2 : 1, "drawing");
+    (*painter)->progress = progress->within();
+    auto image = drawPicture(**painter, picture->view, drawsNormalMaps(picture->scene) && picture->view.normalMaps, o, report);
     if (!image)
         return image.error();
+    progress.reset();
     const double drawSeconds = watch.lap();
     if (Status written = writeImage(o.common.output, *image); !written)
         return written;
@@ -132,6 +138,8 @@ Command addRenderCommand(CLI::App& app)
                         "shaded, normal, tangent, bitangent, uv, depth, or error: degrees from the frame exact")
         ->check(CLI::IsMember({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"}))
         ->type_name("NAME")->capture_default_str();
+    addExamples(*command, {"cotan render model.glb -o picture.png --frame cotangent --view normal",
+                           "cotan render --size 640x360 -o scene.png"});
     return {command, [options] { return run(*options); }};
 }
 

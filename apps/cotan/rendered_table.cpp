@@ -95,7 +95,7 @@ Result<std::vector<Measurement>> measureRendered(const std::string& device, cons
     const std::string arithmetic = (*painter)->device() == "reference" ? "reference" : "vulkan";
     std::vector<Measurement> rows;
     const std::vector<Subject> list = subjects(selection);
-    Progress progress(options, list.size(), "surfaces drawn");
+    Progress progress(options, list.size(), "drawing surfaces");
     for (const Subject& subject : list) {
         for (int segments : subject.segments) {
             const PaintedScene painted = paintedScene(subject.surface, segments);

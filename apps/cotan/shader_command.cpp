@@ -63,6 +63,7 @@ Result<Convention> conventionOf(const Options& o)
     if (!o.expansion.empty()) {
         const Result<Expansion> expansion = valueOf<Expansion>("--unsigned", o.expansion,
                                                                {{"exact", Expansion::exact},
+                                                                {"exact16", Expansion::exact16},
                                                                 {"biased", Expansion::biased},
                                                                 {"signed", Expansion::signedValues}});
         if (!expansion)
@@ -175,7 +176,7 @@ Command addShaderCommand(CLI::App& app)
     command->add_option("--green", o->green, "along-v or against-v: where green points")->type_name("WAY");
     command
         ->add_option("--unsigned", o->expansion,
-                     "exact, (255c - 128)/127; biased, 2c - 1; signed, as sampled")
+                     "exact, (255c - 128)/127; exact16, the same for maps of 16 bits; biased, 2c - 1; signed, as sampled")
         ->type_name("NAME");
     command->add_option("--uv-sets", o->uvSets, "normal maps over uv sets of their own, 1 to 4, added as gradients")
         ->type_name("N")
@@ -190,6 +191,8 @@ Command addShaderCommand(CLI::App& app)
                      "ray tracing, vertex stages)")
         ->type_name("WHO")
         ->capture_default_str();
+    addExamples(*command, {"cotan shader --lang wgsl -o normal.wgsl",
+                           "cotan shader --lang glsl --preset unity --set blend,light"});
     return {command, [o] { return run(*o); }};
 }
 

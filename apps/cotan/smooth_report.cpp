@@ -22,11 +22,11 @@ std::vector<T> gathered(std::span<const T> values, const std::vector<std::uint32
     return out;
 }
 
-// The value at rank floor(q * (count - 1)); 0 for an empty list.
+// The value at rank floor(q * (count - 1)).
 double percentile(std::vector<float>& values, double q)
 {
     if (values.empty())
-        return 0;
+        return kOfNothing;
     const auto at = values.begin() + std::ptrdiff_t(q * double(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return double(*at);
@@ -59,10 +59,10 @@ std::string reportSmooth(const MeshView& mesh, nlohmann::ordered_json& row)
     row["shear"] = toJson(s);
     row["shear"].erase("pixels");
     row["stretch"] = {{"median", median}, {"max", most}};
-    return fmt::format("{} vertices ({} added where mirrored charts meet), {} without a frame; "
-                       "shear {}; stretch median {:.3g}, max {:.3g}",
-                       c.u.size(), split.sources.size() - mesh.positions.size(), without, toText(s),
-                       median, most);
+    const std::string figures = shear.empty() ? "no shear or stretch to measure"
+                                              : fmt::format("shear {}; stretch median {:.3g}, max {:.3g}", toText(s), median, most);
+    return fmt::format("{} vertices ({} added where mirrored charts meet), {} without a frame; {}", c.u.size(),
+                       split.sources.size() - mesh.positions.size(), without, figures);
 }
 
 } // namespace cotan::app

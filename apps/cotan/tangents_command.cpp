@@ -90,7 +90,7 @@ void compare(const Options& o, const std::vector<Entry>& entries, nlohmann::orde
 {
     TangentDifference all;
     std::size_t without = 0;
-    Progress progress(o.common, entries.size(), "primitives");
+    Progress progress(o.common, entries.size(), "comparing");
     for (const Entry& entry : entries) {
         auto row = describe(entry);
         const std::string label = fmt::format("{} ({} triangles)", entry.name,
@@ -129,7 +129,7 @@ Status write(const Options& o, GltfDocument& document, const std::vector<Entry>&
     std::vector<GltfCornerTangents> tangents;
     std::size_t kept = 0, skipped = 0;
     {
-        Progress progress(o.common, entries.size(), "primitives");
+        Progress progress(o.common, entries.size(), "generating");
         for (const Entry& entry : entries) {
             auto row = describe(entry);
             const bool keep = !entry.geometry.tangents.empty() && !o.replace;
@@ -238,6 +238,8 @@ Command addTangentsCommand(CLI::App& app)
         ->capture_default_str();
     command->add_flag("--replace", options->replace,
                       "generate also where the file has TANGENT; else only where it is missing");
+    addExamples(*command, {"cotan tangents model.glb",
+                           "cotan tangents model.glb --replace -o with-tangents.glb"});
     return {command, [options] { return run(*options); }};
 }
 

@@ -9,9 +9,10 @@
 
 #include "cotan/asset/geometry.hpp"
 #include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
 #include "cotan/report/angles.hpp"
 #include "painter.hpp"
+#include "picture.hpp"
+#include "progress.hpp"
 #include "vertex_frames.hpp"
 
 namespace cotan::app {
@@ -46,11 +47,12 @@ struct Side {
 
 Result<std::vector<Image>> drawNormals(const Side& side, const std::array<Camera, kViews>* cameras,
                                        std::array<Camera, kViews>& used, const VerifyOptions& o, const CommonOptions& common,
-                                       std::string& device)
+                                       std::string& device, bool& mapped)
 {
-    auto scene = loadScene(side.file);
+    auto scene = loadSceneWithin(o.memory, side.file);
     if (!scene)
         return scene.error();
+    mapped = mapped || drawsNormalMaps(*scene);
     used = cameras ? *cameras : camerasAround(*scene);
     deriveVertexFrames(*scene, side.frame, side.regenerate);
     std::string note;
@@ -62,6 +64,8 @@ Result<std::vector<Image>> drawNormals(const Side& side, const std::array<Camera
     if (Status loaded = (*painter)->load(*scene); !loaded)
         return loaded.error();
     device = (*painter)->device();
+    Progress progress(common, kViews, fmt::format("drawing {}", side.file.string()));
+    (*painter)->progress = progress.within();
     std::vector<Image> images;
     for (const Camera& camera : used) {
         View view;
@@ -96,10 +100,11 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
         return made.error();
     std::array<Camera, kViews> cameras;
     std::string device;
-    const auto before = drawNormals({o.before, o.from, o.fromGenerated}, nullptr, cameras, o, common, device);
+    bool mapped = false;
+    const auto before = drawNormals({o.before, o.from, o.fromGenerated}, nullptr, cameras, o, common, device, mapped);
     if (!before)
         return before.error();
-    const auto after = drawNormals({o.after, o.to, false}, &cameras, cameras, o, common, device);
+    const auto after = drawNormals({o.after, o.to, false}, &cameras, cameras, o, common, device, mapped);
     if (!after)
         return after.error();
     nlohmann::ordered_json views = nlohmann::ordered_json::array();
@@ -107,6 +112,8 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
     for (std::size_t k = 0; k < kViews; ++k) {
         auto degrees = anglesBetween((*before)[k], (*after)[k]);
         keepInterior(degrees, kSide, kSide);
+        if (!mapped)
+            degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
         views.push_back(toJson(angleStatistics(degrees)));
         const std::pair<std::string, Image> files[] = {{"before", directionsAsColor((*before)[k])},
                                                        {"after", directionsAsColor((*after)[k])},
@@ -119,6 +126,9 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
     const AngleStatistics s = angleStatistics(all);
     say(common, fmt::format("drawn from {} sides on {}, {} without stored tangents against {} before: {}", kViews, device,
                             name(o.to), name(o.from), toText(s)));
+    if (s.count == 0)
+        warn(common, mapped ? "--verify compared nothing: no pixel shows the inside of a surface in both"
+                            : "--verify compared nothing: no normal map is drawn");
     say(common, fmt::format("pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
                             "yellow 5, red 15, white 45 degrees)", o.folder.string()));
     return nlohmann::ordered_json{{"device", device}, {"degrees", toJson(s)}, {"views", views}};

@@ -7,6 +7,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
+#include "memory_limit.hpp"
 
 namespace cotan::app {
 
@@ -16,6 +17,7 @@ struct VerifyOptions {
     bool fromGenerated = false;          // tangents of the original: generated instead of stored
     std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
     std::string device = "auto";
+    int memory = kDefaultMemory;
 };
 
 // The names of the pictures that verifyConversion writes.

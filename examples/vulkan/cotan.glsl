@@ -17,8 +17,9 @@
 // Limits:
 //   No NaN for constant uv, zero differences, footprints without area or empty texels: the
 //   result is then the interpolated normal, or as the function says. Undefined for
-//   non-finite input and normals shorter than 0.01. (Longest position difference) * (longest
-//   uv difference) within 1e-12 .. 1e5, each within 1e-9 .. 1e6.
+//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest
+//   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within
+//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
 //   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
@@ -64,10 +65,10 @@ vec3 cotan_perturb_cotangent(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvd
     vec3 t = dpdy_perp * duvdx.x + dpdx_perp * duvdy.x;
     vec3 b = dpdy_perp * duvdx.y + dpdx_perp * duvdy.y;
     float n2 = dot(n, n);
-    float longest2 = max(max(dot(t, t), dot(b, b)), 1e-30);
+    float longest2 = max(max(dot(t, t), dot(b, b)), 1e-33);
     float scale = n2 * inversesqrt(n2 * longest2);
     scale = cotan_copy_sign(scale, dot(dpdx, dpdy_perp));
-    vec3 v = t * (m.x * scale) + b * (m.y * scale) + n * (m.z + 1e-16);
+    vec3 v = t * (m.x * scale) + b * (m.y * scale) + n * (m.z + 1e-12);
     return v * inversesqrt(dot(v, v));
 }
 

@@ -11,9 +11,10 @@
 namespace cotan {
 
 enum class Expansion {
-    exact,        // (255c - 128)/127: 128 is zero
+    exact,        // zero is the middle code: (255c - 128)/127, and what its bits ask for elsewhere (expansionFor)
     biased,       // 2c - 1
     signedValues, // stored signed (snorm, float)
+    exact16,      // (65535c - 32768)/32767: exact of 16 bits, where nobody says how many there are
 };
 
 enum class Channels {
@@ -60,12 +61,21 @@ std::optional<Convention> conventionFromName(std::string_view name);
 // One line for reports, such as "tangent space, xyz, green up, v down, exact expansion".
 std::string describe(const Convention& convention);
 
-// What the portable text needs. strength: factor on the slopes.
+// The form of an expansion for components of so many bits, as codes of shaders/cotan/normal.h. Exact has its
+// zero at the middle code, 128 or 32768; floats (32 bits) hold 0.5 as it is, so theirs is 2c - 1.
+constexpr int expansionFor(int expansion, int bits)
+{
+    if (expansion != COTAN_EXPAND_EXACT)
+        return expansion;
+    return bits == 8 ? COTAN_EXPAND_EXACT : bits == 16 ? COTAN_EXPAND_EXACT16 : COTAN_EXPAND_BIASED;
+}
+
+// What the portable text needs. strength: factor on the slopes. bits: 8, 16 or 32 (floats) a component.
 template<class Format>
-Format toFormat(const Convention& c, double strength = 1)
+Format toFormat(const Convention& c, double strength = 1, int bits = 8)
 {
     Format f;
-    f.expansion = static_cast<int>(c.expansion);
+    f.expansion = expansionFor(static_cast<int>(c.expansion), bits);
     f.channels = static_cast<int>(c.channels);
     f.green = greenAlongV(c) ? 1 : -1;
     f.strength = static_cast<decltype(f.strength)>(strength);

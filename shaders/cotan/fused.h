@@ -9,12 +9,17 @@
 //
 // All carry the sign of n . (dpdx x dpdy) and need no front-face flag. None of them gives a NaN for
 // constant uv, zero differences, a footprint without area or an empty texel (m = 0). They are not
-// total like the frames they stand for; not covered are
-// - non-finite input, and n shorter than 0.01: the result is then undefined (it may be NaN);
-// - extreme scales: (longest position difference) * (longest uv difference) must lie between 1e-12
-//   and 1e5, and each between 1e-9 and 1e6; below, the bumps fade or leave, above, sums overflow.
-//   With metres and a map repeated every millimetre to every kilometre, footprints of a
-//   micrometre to a hundred metres are inside.
+// total like the frames they stand for. In float they give what the frames give in double, to 0.01
+// degrees, where
+// - the input is finite and n between 0.01 and 100 long;
+// - the longest position difference and the longest uv difference lie between 1e-9 and 1e6, and
+//   their product between 1e-12 and 1e5. With metres and a map repeated every millimetre to every
+//   kilometre, footprints of a micrometre to a hundred metres are inside;
+// - the footprint is no sliver: its area is at least a tenth of its longest difference squared, in
+//   positions and in uv, and n leans by 80 degrees at most. Down to a fiftieth the product must
+//   be 1e-11 at least; thinner ones lose digits as they do in the frames, and more of the range.
+// Outside, bumps fade or leave for small input, sums overflow for large. Non-finite input and n
+// shorter than 0.01 have no defined result (it may be NaN).
 // Where a frame has no t and b (constant uv), the result is n. Where uv vary along one line only, or
 // the footprint has no area, each function says what it gives.
 
@@ -22,7 +27,7 @@
 #define COTAN_FUSED_H
 
 // Added to m.z: too small to change a normal, and it leaves n where everything else has vanished.
-#define COTAN_FUSED_REST cotan_real(1e-16)
+#define COTAN_FUSED_REST cotan_real(1e-12)
 
 // `cotangent`, fused. uv along one line, or a footprint without area: as the frame (t parallel to
 // b), but for the sign, which is then rounding.
@@ -36,7 +41,7 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent(
     cotan_vec3 t = dpdy_perp * duvdx.x + dpdx_perp * duvdy.x;
     cotan_vec3 b = dpdy_perp * duvdx.y + dpdx_perp * duvdy.y;
     cotan_real n2 = dot(n, n);
-    cotan_real longest2 = max(max(dot(t, t), dot(b, b)), cotan_real(1e-30));
+    cotan_real longest2 = max(max(dot(t, t), dot(b, b)), cotan_real(1e-33));
     cotan_real scale = n2 * cotan_inversesqrt(n2 * longest2);
     scale = cotan_copy_sign(scale, dot(dpdx, dpdy_perp));
     cotan_vec3 v = t * (m.x * scale) + b * (m.y * scale) + n * (m.z + COTAN_FUSED_REST);
@@ -53,7 +58,8 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent(
 // times as steep); sheared by an angle s, k = 1/cos(s) (45 degrees: 1.41). Like `cotangent` it does
 // not depend on the size of the object or of the pixel. A map must be made for the scale it is read
 // with. Where uv vary along one line only, or the footprint has no area, k grows without bound: the
-// result then tends towards a normal in the surface.
+// result then tends towards a normal in the surface. Besides the limits above: the product of the
+// differences times |n| at most 1e5.
 COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
 {
@@ -65,7 +71,7 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
     cotan_real uv_area = duvdx.x * duvdy.y - duvdx.y * duvdy.x;
     // t' x b' = n * determinant * uv_area, for t' and b' from the n as it is.
     cotan_real area = abs(determinant * uv_area) * cotan_inversesqrt(dot(n, n));
-    cotan_real scale = cotan_inversesqrt(max(area, cotan_real(1e-26)));
+    cotan_real scale = cotan_inversesqrt(max(area, cotan_real(1e-27)));
     scale = cotan_copy_sign(scale, determinant);
     cotan_vec3 v = dpdy_perp * (m_x * scale) + dpdx_perp * (m_y * scale)
         + n * (m.z + COTAN_FUSED_REST);
@@ -74,8 +80,8 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
 
 // `gradient`, fused; the division by the determinant is left to the final normalisation. A footprint
 // without area: a normal in the surface, the limit of its slope, where the frame gives n.
-// Besides the limits above: the footprint's area |dpdx x dpdy| at least 1e-10, with the units of
-// length that the positions are in; below it, bumps fade.
+// Besides the limits above: the footprint's area |dpdx x dpdy| times |n| times m.z at least 1e-10, in
+// the units of length that the positions are in; below it, bumps fade.
 COTAN_FUNCTION cotan_vec3 cotan_perturb_gradient(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
 {
@@ -86,7 +92,7 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_gradient(
     cotan_real m_x = duvdx.x * m.x + duvdx.y * m.y;
     cotan_real m_y = duvdy.x * m.x + duvdy.y * m.y;
     cotan_vec3 v = dpdy_perp * (m_x * scale) + dpdx_perp * (m_y * scale)
-        + n * (m.z * abs(determinant) + COTAN_FUSED_REST);
+        + n * (m.z * abs(determinant) + cotan_real(1e-15)); // as COTAN_FUSED_REST, for smaller sums
     return v * cotan_inversesqrt(dot(v, v));
 }
 
@@ -100,7 +106,7 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_orthonormal(
     cotan_vec3 t = cross(b, n);
     cotan_real uv_area = duvdx.x * duvdy.y - duvdx.y * duvdy.x;
     cotan_real side = dot(n, cross(dpdx, dpdy));
-    cotan_real scale = cotan_inversesqrt(max(dot(b, b), cotan_real(1e-30)));
+    cotan_real scale = cotan_inversesqrt(max(dot(b, b), cotan_real(1e-36)));
     scale = abs(uv_area) > cotan_real(0.0) ? scale : cotan_real(0.0);
     cotan_real m_x = m.x * cotan_copy_sign(scale, uv_area);
     cotan_real m_y = m.y * sqrt(dot(n, n)) * cotan_copy_sign(scale, side);

@@ -7,9 +7,12 @@
 #define COTAN_NORMAL_H
 
 // How a stored component c becomes a signed number.
-#define COTAN_EXPAND_EXACT 0  // (255c - 128)/127: 0 -> -1 (clamped), 128/255 -> 0, 1 -> 1
-#define COTAN_EXPAND_BIASED 1 // 2c - 1: no 8-bit value is zero; a flat texel leans 0.32 degrees
-#define COTAN_EXPAND_SIGNED 2 // c is signed already; -128/127 is clamped to -1
+// Zero is the middle code: 128 of 8 bits, 32768 of 16. A sampled float does not tell its bits, so
+// there are two exact forms; with the wrong one a flat texel leans 0.32 degrees.
+#define COTAN_EXPAND_EXACT 0   // 8 bits, (255c - 128)/127: 0 -> -1 (clamped), 128/255 -> 0, 1 -> 1
+#define COTAN_EXPAND_BIASED 1  // 2c - 1: no 8-bit value is zero; a flat texel leans 0.32 degrees
+#define COTAN_EXPAND_SIGNED 2  // c is signed already; -128/127 is clamped to -1
+#define COTAN_EXPAND_EXACT16 3 // 16 bits, (65535c - 32768)/32767: 32768/65535 -> 0, 1 -> 1
 
 // What the channels hold.
 #define COTAN_CHANNELS_XYZ 0           // three components of the normal
@@ -30,9 +33,11 @@ struct cotan_normal_format {
 COTAN_FUNCTION cotan_real cotan_expand(cotan_real c, int expansion)
 {
     cotan_real exact = c * cotan_real(255.0 / 127.0) - cotan_real(128.0 / 127.0);
+    cotan_real exact16 = c * cotan_real(65535.0 / 32767.0) - cotan_real(32768.0 / 32767.0);
     cotan_real biased = c * cotan_real(2.0) - cotan_real(1.0);
-    cotan_real x = expansion == COTAN_EXPAND_EXACT ? exact
-                                                   : (expansion == COTAN_EXPAND_BIASED ? biased : c);
+    cotan_real x = expansion == COTAN_EXPAND_EXACT
+        ? exact
+        : (expansion == COTAN_EXPAND_EXACT16 ? exact16 : (expansion == COTAN_EXPAND_BIASED ? biased : c));
     return max(x, cotan_real(-1.0));
 }
 
@@ -41,9 +46,11 @@ COTAN_FUNCTION cotan_real cotan_compress(cotan_real x, int expansion)
 {
     x = min(max(x, cotan_real(-1.0)), cotan_real(1.0));
     cotan_real exact = x * cotan_real(127.0 / 255.0) + cotan_real(128.0 / 255.0);
+    cotan_real exact16 = x * cotan_real(32767.0 / 65535.0) + cotan_real(32768.0 / 65535.0);
     cotan_real biased = x * cotan_real(0.5) + cotan_real(0.5);
-    return expansion == COTAN_EXPAND_EXACT ? exact
-                                           : (expansion == COTAN_EXPAND_BIASED ? biased : x);
+    return expansion == COTAN_EXPAND_EXACT
+        ? exact
+        : (expansion == COTAN_EXPAND_EXACT16 ? exact16 : (expansion == COTAN_EXPAND_BIASED ? biased : x));
 }
 
 // z of a unit vector from x and y; 0 where x^2 + y^2 > 1 (6.9 % of 8-bit texels tilted by 60 to

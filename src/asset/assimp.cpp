@@ -20,9 +20,9 @@
 #include "collada_check.hpp"
 #include "cotan/asset/extension.hpp"
 #include "file_bytes.hpp"
-#include "model_folder.hpp"
-#include "obj_check.hpp"
+#include "source_material.hpp"
 #include "ply_check.hpp"
+#include "scene_check.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.
@@ -51,7 +51,6 @@ struct Job {
     std::string extension; // lower case, with the dot
     const LoadLimits& limits;
     std::vector<std::byte> bytes;
-    ObjFacts obj; // of an OBJ
     FileRequests requests;
     Scene scene;
 
@@ -75,6 +74,15 @@ Status openModel(Job& job)
     return Done{};
 }
 
+// Bytes that converting takes, in round figures: an array of each kind, twice.
+std::size_t bytesToConvert(const aiScene& source)
+{
+    std::size_t bytes = 0;
+    for (unsigned m = 0; m < source.mNumMeshes; ++m)
+        bytes += 64 * std::size_t(source.mMeshes[m]->mNumVertices) + 128 * std::size_t(source.mMeshes[m]->mNumFaces);
+    return bytes;
+}
+
 // What can be checked in the bytes before Assimp trusts them.
 Status checkBytes(Job& job)
 {
@@ -82,16 +90,6 @@ Status checkBytes(Job& job)
         return checkPly(job.bytes, job.name(), job.limits);
     if (job.extension == ".dae")
         return checkCollada(job.bytes, job.name());
-    if (job.extension != ".obj")
-        return Done{};
-    std::string text(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
-    job.bytes = {};
-    auto facts = checkObj(text, job.name(), job.limits);
-    if (!facts)
-        return facts.error();
-    job.obj = *std::move(facts);
-    const auto bytes = std::as_bytes(std::span(text));
-    job.bytes.assign(bytes.begin(), bytes.end());
     return Done{};
 }
 
@@ -122,13 +120,19 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
     return importer.ReadFile(job.canonical.string(), 0);
 }
 
-// Assimp's own steps trust the indices.
+// Assimp's own steps trust the indices, and that what is counted is there.
 Status checkIndices(const aiScene& source, const Job& job)
 {
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
         const aiMesh& mesh = *source.mMeshes[m];
+        if ((mesh.mNumVertices > 0 && !mesh.mVertices) || (mesh.mNumFaces > 0 && !mesh.mFaces))
+            return inputError(fmt::format("{}: mesh {}: expected {} vertices and {} faces, found none", job.name(),
+                                          mesh.mName.C_Str(), mesh.mNumVertices, mesh.mNumFaces));
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices > 0 && !face.mIndices)
+                return inputError(fmt::format("{}: mesh {}: face {}: expected {} indices, found none", job.name(),
+                                              mesh.mName.C_Str(), f, face.mNumIndices));
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
                     return inputError(fmt::format(
@@ -158,7 +162,7 @@ Status checkCounts(const aiScene& source, const Job& job)
 
 void convertMaterials(const aiScene& source, Job& job)
 {
-    TextureReader textures(job.scene, source, job.folder, job.limits);
+    TextureReader textures(job.scene, &source, job.folder, job.limits);
     for (unsigned i = 0; i < source.mNumMaterials; ++i)
         job.scene.materials.push_back(convertMaterial(*source.mMaterials[i], textures, job.scene));
 }
@@ -177,23 +181,6 @@ int defaultMaterial(Scene& scene, int& cached)
         scene.materials.push_back(material);
     }
     return cached;
-}
-
-void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
-{
-    const Material& material = scene.materials[std::size_t(mesh.material)];
-    const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap,
-                                  &material.normalMap, &material.occlusionMap,
-                                  &material.emissiveMap};
-    for (const Texture* texture : all) {
-        if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
-            scene.warnings.push_back(fmt::format(
-                "mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
-                "normal map cannot show",
-                mesh.name, texture->texcoord, material.name));
-            return;
-        }
-    }
 }
 
 Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
@@ -218,37 +205,14 @@ Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
     return indexOf;
 }
 
-// An OBJ says which libraries it wants; Assimp asks for them under made-up names, too.
-void warnAboutLibraries(Job& job)
-{
-    for (const std::string& library : job.obj.libraries) {
-        bool outside = false;
-        if (!findInFolder(job.folder, library, outside))
-            job.scene.warnings.push_back(fmt::format(
-                "material library {} {}", library,
-                outside ? "is outside the model's folder; not opened" : "was not found"));
-    }
-}
-
 void warnAboutSource(const aiScene& source, Job& job)
 {
     auto& warnings = job.scene.warnings;
-    warnAboutLibraries(job);
-    if (job.extension != ".obj")
-        for (const std::string& file : job.requests.outside)
-            warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
+    for (const std::string& file : job.requests.outside)
+        warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
     for (const std::string& file : job.requests.tooLarge)
         warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file,
                                        job.limits.fileBytes));
-    if (job.obj.texcoords > 0 && job.obj.polygonsWithoutUv > 0)
-        warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; theirs are 0",
-                                       job.obj.polygonsWithoutUv, job.obj.polygons));
-    std::size_t triangles = 0;
-    for (unsigned i = 0; i < source.mNumMeshes; ++i)
-        triangles += source.mMeshes[i]->mNumFaces;
-    if (job.extension == ".obj" && triangles != job.obj.triangles)
-        warnings.push_back(fmt::format("the faces make {} triangles, {} could be cut from them",
-                                       job.obj.triangles, triangles));
     if (source.mNumLights > 0)
         warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit",
                                        source.mNumLights));
@@ -276,6 +240,8 @@ Result<Scene> load(Job& job)
         return inputError(fmt::format("{}: {}", job.name(), oneLine(importer.GetErrorString())));
     if (Status ok = checkIndices(*source, job); !ok)
         return ok.error();
+    if (job.limits.expect)
+        job.limits.expect(bytesToConvert(*source));
     source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     if (!source || source->mNumMeshes == 0)
         return inputError(fmt::format("{}: expected triangles, found none", job.name()));
@@ -291,6 +257,8 @@ Result<Scene> load(Job& job)
         return ok.error();
     if (job.scene.instances.empty())
         return inputError(fmt::format("{}: expected triangles, found none", job.name()));
+    if (Status sound = checkScene(job.scene, job.name()); !sound)
+        return sound.error();
     return std::move(job.scene);
 }
 
@@ -298,7 +266,7 @@ Result<Scene> load(Job& job)
 
 Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
 {
-    Job job{file, {}, {}, {}, limits, {}, {}, {}, {}};
+    Job job{file, {}, {}, {}, limits, {}, {}, {}};
     try {
         return load(job);
     } catch (const std::bad_alloc&) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "assimp_textures.hpp"
+#include "model_textures.hpp"
 #include "cotan/asset/load.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "cotan/convention.hpp"
 #include "cotan/portable.hpp"
 
 namespace cotan {
@@ -47,6 +48,7 @@ Image normalMapFromHeight(const Image& height, float strength)
     Image out =
         makeImage(w, h, height.type == PixelType::unorm8 ? PixelType::unorm8 : PixelType::unorm16,
                   height.name + " (bump)");
+    const int expansion = expansionFor(COTAN_EXPAND_EXACT, bitsPerComponent(out.type));
     const auto at = [&](int x, int y) {
         return component(
             height, 4 * (std::size_t((y + h) % h) * std::size_t(w) + std::size_t((x + w) % w)));
@@ -60,7 +62,7 @@ Image normalMapFromHeight(const Image& height, float strength)
             const glm::vec3 n = glm::normalize(glm::vec3(-slopeU, slopeV, 1.0f));
             const std::size_t pixel = 4 * (std::size_t(y) * std::size_t(w) + std::size_t(x));
             for (int c = 0; c < 3; ++c)
-                store(out, pixel + std::size_t(c), f32::cotan_compress(n[c], COTAN_EXPAND_EXACT));
+                store(out, pixel + std::size_t(c), f32::cotan_compress(n[c], expansion));
             store(out, pixel + 3, 1.0f);
         }
     }

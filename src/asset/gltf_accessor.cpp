@@ -7,21 +7,11 @@
 #include <type_traits>
 
 #include "gltf_model.hpp"
+#include "gltf_runs.hpp"
 
 namespace cotan {
 
 namespace {
-
-std::size_t componentSize(int type)
-{
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-    default: return 4;
-    }
-}
 
 const char* componentName(int type)
 {
@@ -48,95 +38,28 @@ const char* elementName(int type)
     }
 }
 
-std::size_t componentCount(const tinygltf::Accessor& a)
-{
-    return static_cast<std::size_t>(
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)));
-}
-
-// Columns of matrices of bytes and shorts are padded to four bytes.
-std::size_t elementSize(const tinygltf::Accessor& a)
-{
-    const std::size_t size = componentSize(a.componentType);
-    if (a.type == TINYGLTF_TYPE_MAT2 && size == 1)
-        return 8;
-    if (a.type == TINYGLTF_TYPE_MAT3 && size < 4)
-        return size == 1 ? 12 : 24;
-    return size * componentCount(a);
-}
-
-// A run of equally spaced elements.
-struct Run {
-    const std::byte* first = nullptr; // null: all zero
-    std::size_t stride = 0;
-    std::size_t count = 0;
-};
-
-// Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
-// strides at most 252, so nothing here overflows 64 bits.
-Run runIn(const GltfModel& model, int view, std::size_t offset, std::size_t stride,
-          std::size_t size, std::size_t count, const std::string& field)
-{
-    const std::span<const std::byte> bytes = gltfView(model, view);
-    if (stride < size)
-        failGltf("{}: expected a stride of at least {} bytes, found {}", field, size, stride);
-    if (count > 0 && offset + stride * (count - 1) + size > bytes.size())
-        failGltf("{}: {} elements end at byte {} of bufferViews[{}], which has {}", field, count,
-                 offset + stride * (count - 1) + size, view, bytes.size());
-    return {bytes.data() + std::min(offset, bytes.size()), stride, count};
-}
-
-Run denseRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    if (a.bufferView < 0)
-        return {nullptr, 0, a.count};
-    const std::size_t stride =
-        model.tiny.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
-    const std::size_t size = elementSize(a);
-    return runIn(model, a.bufferView, a.byteOffset, stride > 0 ? stride : size, size, a.count,
-                 field);
-}
-
-Run sparseIndexRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    const std::size_t size = componentSize(a.sparse.indices.componentType);
-    return runIn(model, a.sparse.indices.bufferView,
-                 static_cast<std::size_t>(a.sparse.indices.byteOffset), size, size,
-                 static_cast<std::size_t>(a.sparse.count), field + ".sparse.indices");
-}
-
-Run sparseValueRun(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
-{
-    const std::size_t size = elementSize(a);
-    return runIn(model, a.sparse.values.bufferView,
-                 static_cast<std::size_t>(a.sparse.values.byteOffset), size, size,
-                 static_cast<std::size_t>(a.sparse.count), field + ".sparse.values");
-}
-
-std::uint32_t readIndex(const std::byte* at, int componentType)
-{
-    std::uint32_t value = 0;
-    std::memcpy(&value, at, componentSize(componentType)); // little-endian, as the file
-    return value;
-}
-
 void checkSparse(const GltfModel& model, const tinygltf::Accessor& a, const std::string& field)
 {
     if (static_cast<std::size_t>(a.sparse.count) > a.count)
         failGltf("{}.sparse.count: expected at most {}, the accessor's count, found {}", field,
                  a.count, a.sparse.count);
-    const Run run = sparseIndexRun(model, a, field);
+    const GltfRun run = sparseIndexRun(model, a, field);
     sparseValueRun(model, a, field);
+    std::uint32_t before = 0;
     for (std::size_t i = 0; i < run.count; ++i) {
         const std::uint32_t at =
             readIndex(run.first + i * run.stride, a.sparse.indices.componentType);
         if (at >= a.count)
             failGltf("{}.sparse.indices[{}]: expected an index below {}, found {}", field, i,
                      a.count, at);
+        if (i > 0 && at <= before)
+            failGltf("{}.sparse.indices[{}]: expected an index above {}, the one before, found {}",
+                     field, i, before, at);
+        before = at;
     }
 }
 
-void checkFinite(const Run& run, std::size_t components, const std::string& field)
+void checkFinite(const GltfRun& run, std::size_t components, const std::string& field)
 {
     if (!run.first)
         return;
@@ -178,60 +101,88 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
                         -1.0f);
 }
 
-// Converts one element after the other; `place` says where the i-th goes, null: nowhere.
-template<class Stored, class Out, class Place>
-void convertRun(const Run& run, std::size_t components, bool normalized, const Place& place)
+// An element of a run, and where its numbers go.
+struct Move {
+    std::size_t from = 0;
+    std::size_t to = 0; // in elements of the array
+};
+
+// Converts `count` elements; move(i): the i-th of them. room: numbers that an element of `out` has.
+template<class Stored, class Out, class MoveOf>
+void convertRun(const GltfRun& run, std::size_t components, bool normalized, std::size_t count,
+                const MoveOf& move, Out* out, std::size_t room)
 {
-    for (std::size_t i = 0; i < run.count; ++i) {
-        Out* const to = place(i);
-        if (!to)
-            continue;
-        const std::byte* const from = run.first + i * run.stride;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Move m = move(i);
+        const std::byte* const from = run.first + m.from * run.stride;
         for (std::size_t c = 0; c < components; ++c) {
             Stored stored;
             std::memcpy(&stored, from + c * sizeof stored, sizeof stored);
-            to[c] = convert<Out>(stored, normalized);
+            out[m.to * room + c] = convert<Out>(stored, normalized);
         }
     }
 }
 
-template<class Out, class Place>
-void convertAny(const Run& run, const tinygltf::Accessor& a, std::size_t components,
-                const Place& place)
+template<class Out, class MoveOf>
+void convertAny(const GltfRun& run, const tinygltf::Accessor& a, std::size_t count, const MoveOf& move,
+                Out* out, std::size_t room)
 {
+    const auto as = [&](auto stored) {
+        convertRun<decltype(stored), Out>(run, componentCount(a), a.normalized, count, move, out,
+                                          room);
+    };
     switch (a.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return convertRun<std::int8_t, Out>(run, components, a.normalized, place);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return convertRun<std::uint8_t, Out>(run, components, a.normalized, place);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return convertRun<std::int16_t, Out>(run, components, a.normalized, place);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return convertRun<std::uint16_t, Out>(run, components, a.normalized, place);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return convertRun<std::uint32_t, Out>(run, components, a.normalized, place);
-    default: return convertRun<float, Out>(run, components, a.normalized, place);
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return as(std::int8_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return as(std::uint8_t());
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return as(std::int16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return as(std::uint16_t());
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return as(std::uint32_t());
+    default: return as(float());
     }
 }
 
-// The accessor's first `count` elements into an array whose elements have room for `room` numbers.
+// Which sparse values go where, of those that are chosen. The indices rise: checkSparse.
+std::vector<Move> sparseMoves(const GltfRun& indices, int componentType, const GltfChoice& choice)
+{
+    const auto indexAt = [&](std::size_t i) {
+        return readIndex(indices.first + i * indices.stride, componentType);
+    };
+    std::vector<Move> moves;
+    if (choice.all) {
+        for (std::size_t i = 0; i < indices.count && indexAt(i) < choice.count; ++i)
+            moves.push_back({i, indexAt(i)});
+        return moves;
+    }
+    for (std::size_t i = 0, at = 0; i < choice.chosen.size() && at < indices.count; ++i) {
+        std::size_t end = indices.count;
+        while (at < end) { // the first that is not below
+            const std::size_t middle = at + (end - at) / 2;
+            if (indexAt(middle) < choice.chosen[i])
+                at = middle + 1;
+            else
+                end = middle;
+        }
+        if (at < indices.count && indexAt(at) == choice.chosen[i])
+            moves.push_back({at, i});
+    }
+    return moves;
+}
+
+// The chosen elements into an array whose elements have room for `room` numbers.
 template<class Out>
 void readElements(const GltfModel& model, const tinygltf::Accessor& a, std::size_t room, Out* out,
-                  std::size_t count, const std::string& field)
+                  const GltfChoice& choice, const std::string& field)
 {
-    const std::size_t components = componentCount(a);
-    Run run = denseRun(model, a, field);
-    run.count = std::min(run.count, count);
+    const GltfRun run = denseRun(model, a, field);
+    const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
     if (run.first)
-        convertAny<Out>(run, a, components, [&](std::size_t i) { return out + i * room; });
+        convertAny(run, a, choice.size(), dense, out, room);
     if (!a.sparse.isSparse)
         return;
-    const Run indices = sparseIndexRun(model, a, field);
-    convertAny<Out>(sparseValueRun(model, a, field), a, components, [&](std::size_t i) {
-        const std::uint32_t at =
-            readIndex(indices.first + i * indices.stride, a.sparse.indices.componentType);
-        return at < count ? out + at * room : nullptr;
-    });
+    const std::vector<Move> moves = sparseMoves(sparseIndexRun(model, a, field),
+                                                a.sparse.indices.componentType, choice);
+    convertAny(sparseValueRun(model, a, field), a, moves.size(),
+               [&](std::size_t i) { return moves[i]; }, out, room);
 }
 
 const tinygltf::Accessor& expectElements(const GltfModel& model, int accessor, int type,
@@ -247,22 +198,39 @@ const tinygltf::Accessor& expectElements(const GltfModel& model, int accessor, i
     return a;
 }
 
+template<class T>
+std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value,
+                         const std::string& field)
+{
+    takeGltfBytes(model, count * sizeof(T), field);
+    return std::vector<T>(count, value);
+}
+
 template<class Vector>
-std::vector<Vector> readVectors(const GltfModel& model, int accessor, int type, std::size_t count,
+std::vector<Vector> readVectors(GltfModel& model, int accessor, int type, const GltfChoice& choice,
                                 const std::string& field)
 {
-    const tinygltf::Accessor& a = expectElements(model, accessor, type, count, field);
+    const tinygltf::Accessor& a = expectElements(model, accessor, type, choice.count, field);
     if (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         failGltf("{}: expected floats, bytes or shorts in accessors[{}], found {}", field, accessor,
                  componentName(a.componentType));
-    std::vector<Vector> out(a.count, Vector(0));
-    if (a.count > 0)
-        readElements(model, a, static_cast<std::size_t>(Vector::length()), &out[0].x, a.count,
+    std::vector<Vector> out = makeArray(model, choice.size(), Vector(0), field);
+    if (!out.empty())
+        readElements(model, a, static_cast<std::size_t>(Vector::length()), &out[0].x, choice,
                      field);
     return out;
 }
 
 } // namespace
+
+void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field)
+{
+    const std::size_t most = gltfAllowance(model);
+    if (bytes > most - std::min(model.bytesTaken, most))
+        failGltf("{}: the geometry takes {} bytes with it, the limit is {} for a file of {}", field,
+                 model.bytesTaken + bytes, most, model.file.size);
+    model.bytesTaken += bytes;
+}
 
 std::span<const std::byte> gltfView(const GltfModel& model, int view)
 {
@@ -281,17 +249,19 @@ void checkGltfAccessors(const GltfModel& model)
                      v.byteOffset + v.byteLength, v.buffer, size);
     }
     const std::set<int> texcoords = texcoordAccessors(model.tiny);
-    // Many accessors may share one view: what they add up to bounds the time.
-    const std::size_t most = model.limits.vertices * 10;
+    // Accessors without a view are zeros that cost the file nothing, and many may share one view:
+    // what they add up to bounds memory and time. Counts are below 2^53 and elements at most 64
+    // bytes, so one of them overflows nothing.
+    const std::size_t most = gltfAllowance(model);
     std::size_t total = 0;
     for (std::size_t i = 0; i < model.tiny.accessors.size(); ++i) {
         const tinygltf::Accessor& a = model.tiny.accessors[i];
         const std::string field = fmt::format("accessors[{}]", i);
-        const Run run = denseRun(model, a, field);
-        total += a.bufferView < 0 ? 0 : a.count;
-        total += a.sparse.isSparse ? static_cast<std::size_t>(a.sparse.count) : 0;
+        const GltfRun run = denseRun(model, a, field);
+        total += a.count * elementSize(a);
         if (total > most)
-            failGltf("accessors: the limit is {} elements in all", most);
+            failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}",
+                     field, total, most, model.file.size);
         if (a.sparse.isSparse)
             checkSparse(model, a, field);
         if (a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT
@@ -303,52 +273,53 @@ void checkGltfAccessors(const GltfModel& model)
     }
 }
 
-std::vector<glm::vec2> readGltfVec2(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::vec2> readGltfVec2(GltfModel& model, int accessor, const GltfChoice& choice,
                                     const std::string& field)
 {
-    return readVectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2, count, field);
+    return readVectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2, choice, field);
 }
 
-std::vector<glm::vec3> readGltfVec3(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::vec3> readGltfVec3(GltfModel& model, int accessor, const GltfChoice& choice,
                                     const std::string& field)
 {
-    return readVectors<glm::vec3>(model, accessor, TINYGLTF_TYPE_VEC3, count, field);
+    return readVectors<glm::vec3>(model, accessor, TINYGLTF_TYPE_VEC3, choice, field);
 }
 
-std::vector<glm::vec4> readGltfVec4(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::vec4> readGltfVec4(GltfModel& model, int accessor, const GltfChoice& choice,
                                     const std::string& field)
 {
-    return readVectors<glm::vec4>(model, accessor, TINYGLTF_TYPE_VEC4, count, field);
+    return readVectors<glm::vec4>(model, accessor, TINYGLTF_TYPE_VEC4, choice, field);
 }
 
-std::vector<glm::vec4> readGltfColors(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const GltfChoice& choice,
                                       const std::string& field)
 {
     const int type = model.tiny.accessors[static_cast<std::size_t>(accessor)].type;
     if (type != TINYGLTF_TYPE_VEC3)
-        return readGltfVec4(model, accessor, count, field);
+        return readGltfVec4(model, accessor, choice, field);
     std::vector<glm::vec4> colors;
-    colors.reserve(count);
-    for (const glm::vec3& c : readGltfVec3(model, accessor, count, field))
+    colors.reserve(choice.size());
+    for (const glm::vec3& c : readGltfVec3(model, accessor, choice, field))
         colors.emplace_back(c, 1.0f);
     return colors;
 }
 
-std::vector<glm::uvec4> readGltfJoints(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const GltfChoice& choice,
                                        const std::string& field)
 {
-    const tinygltf::Accessor& a = expectElements(model, accessor, TINYGLTF_TYPE_VEC4, count, field);
+    const tinygltf::Accessor& a =
+        expectElements(model, accessor, TINYGLTF_TYPE_VEC4, choice.count, field);
     if (a.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
         && a.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
         failGltf("{}: expected bytes or shorts in accessors[{}], found {}", field, accessor,
                  componentName(a.componentType));
-    std::vector<glm::uvec4> joints(a.count, glm::uvec4(0));
-    if (a.count > 0)
-        readElements(model, a, 4, &joints[0].x, a.count, field);
+    std::vector<glm::uvec4> joints = makeArray(model, choice.size(), glm::uvec4(0), field);
+    if (!joints.empty())
+        readElements(model, a, 4, &joints[0].x, choice, field);
     return joints;
 }
 
-std::vector<glm::mat4> readGltfMatrices(const GltfModel& model, int accessor, std::size_t count,
+std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::size_t count,
                                         const std::string& field)
 {
     const tinygltf::Accessor& a = model.tiny.accessors[static_cast<std::size_t>(accessor)];
@@ -358,13 +329,13 @@ std::vector<glm::mat4> readGltfMatrices(const GltfModel& model, int accessor, st
     if (a.count < count)
         failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor,
                  a.count);
-    std::vector<glm::mat4> matrices(count, glm::mat4(0));
+    std::vector<glm::mat4> matrices = makeArray(model, count, glm::mat4(0), field);
     if (count > 0)
         readElements(model, a, 16, &matrices[0][0].x, count, field);
     return matrices;
 }
 
-std::vector<std::uint32_t> readGltfIndices(const GltfModel& model, int accessor,
+std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor,
                                            std::size_t vertexCount, const std::string& field)
 {
     const tinygltf::Accessor& a = model.tiny.accessors[static_cast<std::size_t>(accessor)];
@@ -378,7 +349,7 @@ std::vector<std::uint32_t> readGltfIndices(const GltfModel& model, int accessor,
     if (a.count > model.limits.triangles * 3)
         failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3,
                  a.count);
-    std::vector<std::uint32_t> indices(a.count, 0);
+    std::vector<std::uint32_t> indices = makeArray(model, a.count, std::uint32_t(0), field);
     readElements(model, a, 1, indices.data(), a.count, field);
     const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * size);
     for (std::size_t i = 0; i < indices.size(); ++i) {

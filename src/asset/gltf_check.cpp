@@ -177,6 +177,24 @@ private:
 
 // ---- version and extensions -----------------------------------------------------------------
 
+// Before anything about structure: in version 1 the collections are objects, and the asset may be
+// missing.
+void refuseVersion1(const json& root)
+{
+    const json none = json::object();
+    const json& asset = root.contains("asset") ? root["asset"] : none;
+    if (asset.is_object() && asset.contains("version")) {
+        const json& version = asset["version"];
+        const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+        if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
+            failGltfVersion1("asset.version");
+        return;
+    }
+    for (const char* const collection : {"meshes", "nodes", "scenes", "accessors", "bufferViews"})
+        if (root.contains(collection) && root[collection].is_object())
+            failGltfVersion1(collection);
+}
+
 void checkVersion(const json& asset)
 {
     const std::string version = asset["version"];
@@ -193,10 +211,18 @@ constexpr std::array kSupported{
     string_view("KHR_mesh_quantization"), string_view("EXT_mesh_gpu_instancing"),
 };
 
+// These put an image of another format in the place of a texture's; they matter to who needs the pixels.
+constexpr std::array kImageFormats{
+    string_view("KHR_texture_basisu"),
+    string_view("EXT_texture_webp"),
+    string_view("EXT_texture_avif"),
+    string_view("MSFT_texture_dds"),
+};
+
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
 // can be drawn without them, if that is said. Any other unknown extension may change what the
 // data mean.
-void checkExtensions(const json& root, GltfWarnings& warnings)
+void checkExtensions(const json& root, Pixels pixels, GltfWarnings& warnings)
 {
     std::vector<std::string> ignored;
     for (const char* const list : {"extensionsRequired", "extensionsUsed"}) {
@@ -204,7 +230,8 @@ void checkExtensions(const json& root, GltfWarnings& warnings)
             const auto& name = item.get_ref<const std::string&>();
             const bool known =
                 std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
-            const bool harmless = name.starts_with("KHR_materials_");
+            const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
+            const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));
             if (!known && std::find(ignored.begin(), ignored.end(), name) == ignored.end())
@@ -222,9 +249,10 @@ void checkGltfShape(const json& root, const LoadLimits& limits, GltfWarnings& wa
     const Place top;
     if (!root.is_object())
         failGltf("JSON: expected an object, found {}", found(root));
+    refuseVersion1(root);
     Checker(root).fields(root, kRoot, top);
     checkVersion(root["asset"]);
-    checkExtensions(root, warnings);
+    checkExtensions(root, limits.pixels, warnings);
     if (root.contains("nodes") && root["nodes"].size() > limits.nodes)
         failGltf("nodes: the limit is {}, found {}", limits.nodes, root["nodes"].size());
 }

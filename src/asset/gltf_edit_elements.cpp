@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "gltf_edit_state.hpp"
+#include "gltf_vertices.hpp"
 
 namespace cotan {
 
@@ -79,23 +80,76 @@ float component(const std::byte* at, int type, bool normalized)
     }
 }
 
-// The attribute as vectors; empty where the primitive lacks it.
+// Elements of an accessor where they lie. first: null where there is no view.
+struct Elements {
+    const std::byte* first = nullptr;
+    std::size_t stride = 0;
+
+    const std::byte* at(std::size_t i) const { return first + i * stride; }
+};
+
+// part: an accessor, or the indices or values of a sparse one, which are always packed.
+Elements elementsAt(const GltfDocument& document, const OrderedJson& part, std::size_t size, bool packed)
+{
+    if (!part.contains("bufferView"))
+        return {};
+    const auto view = part["bufferView"].get<std::size_t>();
+    const std::size_t stride = packed ? 0 : sizeOr(document.root["bufferViews"][view], "byteStride", 0);
+    return {viewBytes(document, view).data() + sizeOr(part, "byteOffset", 0), stride > 0 ? stride : size};
+}
+
+// The sparse values of an accessor; the reader has checked that their indices rise.
+struct SparseValues {
+    std::size_t count = 0, indexSize = 0;
+    Elements indices, values;
+
+    SparseValues(const GltfDocument& document, const OrderedJson& accessor)
+    {
+        if (!accessor.contains("sparse"))
+            return;
+        const OrderedJson& sparse = accessor["sparse"];
+        count = sparse["count"].get<std::size_t>();
+        indexSize = componentSize(sparse["indices"]["componentType"].get<int>());
+        indices = elementsAt(document, sparse["indices"], indexSize, /*packed*/ true);
+        values = elementsAt(document, sparse["values"], elementSize(accessor), /*packed*/ true);
+    }
+
+    // The value that replaces an element; null if none does.
+    const std::byte* find(std::uint32_t element) const
+    {
+        std::size_t low = 0, high = count;
+        while (low < high) {
+            const std::size_t middle = low + (high - low) / 2;
+            if (indexAt(indices.at(middle), indexSize) < element)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low < count && indexAt(indices.at(low), indexSize) == element ? values.at(low) : nullptr;
+    }
+};
+
+// The attribute of these vertices; empty where the primitive lacks it.
 template<class Vector>
 std::vector<Vector> readVectors(const GltfDocument& document, const OrderedJson& primitive,
-                                const std::string& attribute)
+                                const std::string& attribute, std::span<const std::uint32_t> vertices)
 {
     const OrderedJson& attributes = primitive["attributes"];
     if (!attributes.contains(attribute))
         return {};
     const OrderedJson& a = document.root["accessors"][attributes[attribute].get<std::size_t>()];
-    const std::vector<std::byte> bytes = allElements(document, a);
     const int type = a["componentType"];
     const bool normalized = a.value("normalized", false);
-    const std::size_t size = elementSize(a), step = componentSize(type);
-    std::vector<Vector> out(a["count"].get<std::size_t>());
-    for (std::size_t i = 0; i < out.size(); ++i)
-        for (int c = 0; c < Vector::length(); ++c)
-            out[i][c] = component(bytes.data() + i * size + std::size_t(c) * step, type, normalized);
+    const std::size_t step = componentSize(type);
+    const Elements base = elementsAt(document, a, elementSize(a), /*packed*/ false);
+    const SparseValues sparse(document, a);
+    std::vector<Vector> out(vertices.size(), Vector(0));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::byte* const replaced = sparse.find(vertices[i]);
+        const std::byte* const from = replaced || !base.first ? replaced : base.at(vertices[i]);
+        for (int c = 0; from && c < Vector::length(); ++c)
+            out[i][c] = component(from + std::size_t(c) * step, type, normalized);
+    }
     return out;
 }
 
@@ -127,7 +181,8 @@ const OrderedJson* find(const OrderedJson& object, std::initializer_list<const c
 }
 
 // The uv as the material's normal map reads them; uv set 0 where there is no normal map.
-void readTexcoords(const GltfDocument& document, const OrderedJson& primitive, GltfGeometry& out)
+void readTexcoords(const GltfDocument& document, const OrderedJson& primitive,
+                   std::span<const std::uint32_t> vertices, GltfGeometry& out)
 {
     const OrderedJson* map = nullptr;
     if (primitive.contains("material"))
@@ -139,7 +194,7 @@ void readTexcoords(const GltfDocument& document, const OrderedJson& primitive, G
     if (transform)
         out.texcoordSet = transform->value("texCoord", out.texcoordSet);
     out.texcoords = readVectors<glm::vec2>(document, primitive,
-                                           fmt::format("TEXCOORD_{}", out.texcoordSet));
+                                           fmt::format("TEXCOORD_{}", out.texcoordSet), vertices);
     for (glm::vec2& uv : out.texcoords)
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
             uv = glm::vec2(0);
@@ -280,11 +335,16 @@ Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh
         return inputError(document.source->path.string() + ": " + problem.message);
     }
     GltfGeometry out;
-    out.positions = readVectors<glm::vec3>(document, p, "POSITION");
-    out.normals = readVectors<glm::vec3>(document, p, "NORMAL");
-    out.tangents = readVectors<glm::vec4>(document, p, "TANGENT");
-    readTexcoords(document, p, out);
+    if (!p["attributes"].contains("POSITION")) // what it may hold else has not been checked
+        return out;
     out.indices = readTriangles(document, p);
+    const auto accessor = p["attributes"]["POSITION"].get<std::size_t>();
+    const std::vector<std::uint32_t> vertices = takeUsedVertices(
+        out.indices, document.root["accessors"][accessor]["count"].get<std::size_t>());
+    out.positions = readVectors<glm::vec3>(document, p, "POSITION", vertices);
+    out.normals = readVectors<glm::vec3>(document, p, "NORMAL", vertices);
+    out.tangents = readVectors<glm::vec4>(document, p, "TANGENT", vertices);
+    readTexcoords(document, p, vertices, out);
     return out;
 }
 

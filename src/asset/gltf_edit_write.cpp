@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <ranges>
 #include <system_error>
 
 #include "cotan/files/output.hpp"
@@ -77,7 +76,8 @@ std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits
     return std::move(*bytes);
 }
 
-std::string mimeTypeOf(std::span<const std::byte> bytes, const std::string& field)
+// Empty: no picture that glTF knows.
+std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
     const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
     if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
@@ -88,29 +88,30 @@ std::string mimeTypeOf(std::span<const std::byte> bytes, const std::string& fiel
         return "image/webp";
     if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
         return "image/ktx2";
-    failGltf("{}: expected PNG or JPEG data", field);
+    return {};
 }
 
+// An image file used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
-    std::map<fs::path, std::size_t> views; // an image file used twice is embedded once
+    std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
     for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
-        OrderedJson& image = document.root["images"][i];
-        if (!views.contains(file)) {
+        if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(file, limits);
-            image["mimeType"] = mimeTypeOf(bytes, fmt::format("images[{}]", i));
-            views[file] = addView(document, std::move(bytes));
-        } else if (!image.contains("mimeType")) {
-            image["mimeType"] = mimeTypeOf(viewBytes(document, views[file]),
-                                           fmt::format("images[{}]", i));
+            const std::string type = mimeTypeOf(bytes);
+            embedded[file] = nullptr;
+            if (!type.empty())
+                embedded[file] = {{"mimeType", type}, {"bufferView", addView(document, std::move(bytes))}};
         }
+        if (embedded[file].is_null())
+            continue;
         document.root["images"][i].erase("uri");
-        document.root["images"][i]["bufferView"] = views[file];
+        document.root["images"][i].update(embedded[file]);
     }
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
         if (isExternal(document.root["images"][i]))
             document.notes.push_back(fmt::format(
-                "images[{}]: \"{}\" is missing and stays a reference", i,
+                "images[{}]: \"{}\" is missing or no picture and stays a reference", i,
                 oneLine(document.root["images"][i]["uri"].get<std::string>())));
 }
 
@@ -183,6 +184,76 @@ fs::path binaryBeside(const GltfSource& source, const fs::path& file)
     return binary;
 }
 
+// ---- images that are new --------------------------------------------------------------------
+
+std::string plainName(const std::string& name)
+{
+    constexpr std::size_t kMost = 64;
+    std::string plain;
+    for (const char c : name.substr(0, kMost))
+        plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    return plain;
+}
+
+// What an image is called: by its name, or by the file that it was in.
+std::string nameOfImage(const GltfSource& source, const OrderedJson& root, std::size_t i)
+{
+    std::string name = root["images"][i].value("name", std::string());
+    if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
+        name = fs::path(source.root["images"][i]["uri"].get<std::string>()).stem().string();
+    return name.empty() ? fmt::format("image{}", i) : plainName(name);
+}
+
+// The image files that a model of that name, about to be replaced, calls its own.
+std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limits)
+{
+    std::vector<std::string> uris;
+    std::error_code error;
+    const auto bytes = fs::exists(file, error) ? readFileBytes(file, limits.fileBytes) : inputError("");
+    if (!bytes)
+        return uris;
+    const auto* const text = reinterpret_cast<const char*>(bytes->data());
+    const OrderedJson root = OrderedJson::parse(text, text + bytes->size(), nullptr, false);
+    if (root.is_object() && root.contains("images") && root["images"].is_array())
+        for (const OrderedJson& image : root["images"])
+            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+                uris.push_back(image["uri"].get<std::string>());
+    return uris;
+}
+
+// Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
+// already is taken only if that file belongs to the model that is replaced; else it gets a number.
+void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits, std::vector<Output>& outputs)
+{
+    const GltfSource& source = *document.source;
+    const std::size_t old = countOf(source.root, "bufferViews");
+    const std::vector<std::string> own = ownImages(file, limits);
+    std::vector<fs::path> read;
+    for (const auto& [i, path] : imageFiles(source, source.root))
+        read.push_back(path);
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i) {
+        OrderedJson& image = document.root["images"][i];
+        if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
+            continue;
+        const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
+        const std::string ending = image.value("mimeType", std::string()) == "image/jpeg" ? ".jpg" : ".png";
+        const auto taken = [&](const fs::path& target) {
+            std::error_code error;
+            const bool here = std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
+            const bool input = std::find(read.begin(), read.end(), fs::weakly_canonical(target, error)) != read.end();
+            const bool ours = std::find(own.begin(), own.end(), encodePercent(target.filename().string())) != own.end();
+            return here || input || (fs::exists(target, error) && !ours);
+        };
+        fs::path target = folderOf(file) / (stem + ending);
+        for (int n = 2; taken(target); ++n)
+            target = folderOf(file) / fmt::format("{}-{}{}", stem, n, ending);
+        const auto bytes = viewBytes(document, image["bufferView"].get<std::size_t>());
+        outputs.push_back({target, {bytes.begin(), bytes.end()}});
+        image.erase("bufferView");
+        image["uri"] = encodePercent(target.filename().string());
+    }
+}
+
 // Image files go to the same place relative to the new folder; what is there already has to be the
 // same.
 void copyImages(const GltfSource& source, const OrderedJson& root, const fs::path& folder,
@@ -214,7 +285,8 @@ void copyImages(const GltfSource& source, const OrderedJson& root, const fs::pat
 Status writeTogether(std::span<const Output> outputs)
 {
     std::vector<OutputFile> files;
-    for (const Output& output : outputs | std::views::reverse) {
+    for (std::size_t i = outputs.size(); i-- > 0;) {
+        const Output& output = outputs[i];
         std::error_code error;
         fs::create_directories(folderOf(output.file), error);
         auto file = OutputFile::begin(output.file);
@@ -236,11 +308,13 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
                                       folderOf(file).string()));
     GltfWritten written;
     written.bytesBefore = sizeBefore(*document.source);
-    if (binary)
-        embedImages(document, limits);
-    Layout layout = layOut(document);
     std::vector<Output> outputs(1);
     outputs[0].file = file;
+    if (binary)
+        embedImages(document, limits);
+    else
+        putImagesBeside(document, file, limits, outputs);
+    Layout layout = layOut(document);
     if (binary) {
         outputs[0].bytes = makeGlb(layout);
     } else {
@@ -261,7 +335,8 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw done.error();
     std::vector<fs::path> images;
     for (const auto& [image, path] : imageFiles(*document.source, layout.root))
-        images.push_back(path);
+        if (std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
+            images.push_back(path);
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)
         written.files.push_back(output.file);

@@ -29,6 +29,8 @@ std::uint32_t readWord(std::span<const std::byte> bytes, std::size_t at)
 
 void checkHeader(std::span<const std::byte> bytes)
 {
+    if (bytes.size() >= 8 && readWord(bytes, 4) == 1)
+        failGltfVersion1("GLB header");
     if (bytes.size() < 20)
         failGltf("GLB header: expected at least 20 bytes, found {}", bytes.size());
     if (readWord(bytes, 4) != 2)
@@ -190,6 +192,7 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
         Result<std::vector<std::byte>> bytes = readFileBytes(path, limits.fileBytes);
         if (!bytes)
             failGltf("{}: {}", field, bytes.error().message);
+        file.size += bytes->size();
         known = file.bufferFiles.emplace(path, std::move(*bytes)).first;
     }
     return known->second;
@@ -205,6 +208,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     if (!bytes)
         throw GltfProblem{bytes.error().message};
     file.bytes = std::move(*bytes);
+    file.size = file.bytes.size();
     file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
     if (!file.isBinary && path.extension() == ".glb")

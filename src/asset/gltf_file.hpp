@@ -28,6 +28,7 @@ struct GltfFile {
     std::span<const std::byte> text;   // its JSON, until that is parsed
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
+    std::size_t size = 0;              // bytes of the model and, once they are loaded, of its buffer files
     nlohmann::json json;
     nlohmann::ordered_json ordered; // the same in the order of the file, where it was asked for
     std::vector<std::span<const std::byte>> buffers; // one for each buffer, exactly byteLength long

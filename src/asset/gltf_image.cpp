@@ -70,13 +70,20 @@ std::vector<std::byte> readImageFile(const fs::path& file, const LoadLimits& lim
 }
 
 // glTF allows PNG and JPEG alone; the many other formats that the image library can read are kept
-// away from data that come with a model.
-Image decode(ImageSource source, const LoadLimits& limits)
+// away from data that come with a model. foreign: set to the format of an image that stays without pixels.
+Image decode(ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
     std::vector<std::byte> held;
     if (!source.resource.file.empty()) {
         held = readImageFile(source.resource.file, limits);
         source.bytes = held;
+    }
+    if (limits.pixels == Pixels::whereReadable)
+        foreign = foreignFormat(source.bytes);
+    if (!foreign.empty()) {
+        Image image;
+        image.name = fmt::format("{} ({})", source.name, foreign);
+        return image;
     }
     if (!isPng(source.bytes) && !isJpeg(source.bytes))
         failGltf("expected PNG or JPEG data in {}", source.name);
@@ -120,13 +127,15 @@ private:
 
 void GltfMaterials::decodeImages()
 {
+    if (model_.limits.pixels == Pixels::none)
+        return;
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
-    std::vector<std::string> problems(jobs.size());
+    std::vector<std::string> problems(jobs.size()), foreign(jobs.size());
     Budget budget(model_.limits);
     tbb::parallel_for(std::size_t(0), jobs.size(), [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {
-            Image decoded = decode(findImage(model_, image), budget.next());
+            Image decoded = decode(findImage(model_, image), budget.next(), foreign[i]);
             budget.take(decoded.data.size());
             scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
@@ -136,30 +145,49 @@ void GltfMaterials::decodeImages()
     for (const std::string& problem : problems) // the first in the file, whichever came first
         if (!problem.empty())
             throw GltfProblem{problem};
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+        if (!foreign[i].empty())
+            model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
 }
 
-void GltfMaterials::checkUnusedImages() const
+namespace {
+
+// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
+void lookAt(const GltfModel& model, int image)
 {
     // Signature, length and type, IHDR's 13 bytes, checksum.
     constexpr std::size_t kPngHeader = 33;
+    ImageSource source = findImage(model, image, /*mayMiss*/ true);
+    std::vector<std::byte> held;
+    if (!source.resource.file.empty()) {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(source.resource.file, error);
+        if (error || size == 0 || size >= kPngHeader)
+            return;
+        held = readImageFile(source.resource.file, model.limits);
+        source.bytes = held;
+    }
+    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
+        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+}
+
+} // namespace
+
+void GltfMaterials::checkUnusedImages() const
+{
     const json none = json::array();
     const json& file = model_.file.json;
     const json& images = file.contains("images") ? file["images"] : none;
     for (int i = 0; i < static_cast<int>(images.size()); ++i) {
-        if (slots_.contains(i))
+        if (slots_.contains(i) && model_.limits.pixels != Pixels::none)
             continue;
-        ImageSource source = findImage(model_, i, /*mayMiss*/ true);
-        std::vector<std::byte> held;
-        if (!source.resource.file.empty()) {
-            std::error_code error;
-            const std::uintmax_t size = fs::file_size(source.resource.file, error);
-            if (error || size == 0 || size >= kPngHeader)
-                continue;
-            held = readImageFile(source.resource.file, model_.limits);
-            source.bytes = held;
+        try {
+            lookAt(model_, i);
+        } catch (const GltfProblem& problem) {
+            if (scene_.instances.empty()) // then the images are all that there is
+                throw;
+            model_.warnings.add(problem.message, "nothing uses this image, it is left out");
         }
-        if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
-            failGltf("{}: the PNG {} ends in its header", imageField(i), source.name);
     }
 }
 

@@ -141,6 +141,21 @@ int gltfNormalMapSet(const GltfModel& model, int material)
     return info.index < 0 ? -1 : uvSet(info.texCoord, info.extensions);
 }
 
+// The image of a texture, or the one that an extension gives it in another format; -1 if there is none.
+int GltfMaterials::imageOf(const tinygltf::Texture& texture) const
+{
+    if (texture.source >= 0)
+        return texture.source;
+    const nlohmann::json& file = model_.file.json;
+    const std::size_t images = file.contains("images") ? file["images"].size() : 0;
+    for (const auto& [name, extension] : texture.extensions)
+        if (extension.IsObject() && extension.Has("source") && extension.Get("source").IsInt())
+            if (const int image = extension.Get("source").GetNumberAsInt();
+                image >= 0 && static_cast<std::size_t>(image) < images)
+                return image;
+    return -1;
+}
+
 int GltfMaterials::imageSlot(int image)
 {
     const auto [slot, isNew] = slots_.emplace(image, static_cast<int>(scene_.images.size()));
@@ -156,7 +171,8 @@ Texture GltfMaterials::texture(int index, int texcoord, const tinygltf::Extensio
     if (index < 0)
         return texture;
     const tinygltf::Texture& source = model_.tiny.textures[static_cast<std::size_t>(index)];
-    if (source.source < 0) {
+    const int image = model_.limits.pixels == Pixels::all ? source.source : imageOf(source);
+    if (image < 0) {
         model_.warnings.add(fmt::format("textures[{}]", index),
                             "no PNG or JPEG image, the texture is left out");
         return texture;
@@ -175,7 +191,7 @@ Texture GltfMaterials::texture(int index, int texcoord, const tinygltf::Extensio
             makeSampler(model_.tiny.samplers[static_cast<std::size_t>(source.sampler)]);
     if (const tinygltf::Value* const transform = findTransform(extensions))
         applyTransform(*transform, texture);
-    texture.image = imageSlot(source.source);
+    texture.image = imageSlot(image);
     return texture;
 }
 

@@ -24,14 +24,16 @@ public:
     // be read, by its number in the file.
     void decodeImages();
 
-    // Looks at the images that `use` has not met, without decoding them: they have to be inside
-    // the model's folder, and a PNG has to have a header.
+    // Looks at the images that `use` has not met, without decoding them: those that are not inside
+    // the model's folder, or are a PNG without its header, are named in a warning. Where nothing is
+    // drawn, throws GltfProblem for the first.
     void checkUnusedImages() const;
 
 private:
     Texture texture(int index, int texcoord, const tinygltf::ExtensionMap& extensions,
                     const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
+    int imageOf(const tinygltf::Texture& texture) const;
     int imageSlot(int image);
 
     GltfModel& model_;

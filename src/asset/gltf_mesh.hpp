@@ -10,7 +10,8 @@
 
 namespace cotan {
 
-// A primitive as it stands in the file, triangulated. Arrays are empty or have one entry a vertex.
+// A primitive as it stands in the file, triangulated, with the vertices that its triangles use, in
+// the order of the file. Arrays are empty or have one entry a vertex.
 struct GltfPrimitive {
     std::string name;  // of the mesh, with the primitive's number where there are several
     std::string field; // meshes[i].primitives[j]

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "gltf_mesh.hpp"
+#include "gltf_vertices.hpp"
 
 namespace cotan {
 
@@ -55,7 +56,8 @@ void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field
         warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
 }
 
-void readTexcoords(GltfModel& model, const tinygltf::Primitive& source, GltfPrimitive& out)
+void readTexcoords(GltfModel& model, const tinygltf::Primitive& source, const GltfChoice& choice,
+                   GltfPrimitive& out)
 {
     for (const auto& [name, accessor] : source.attributes) {
         if (!name.starts_with("TEXCOORD_"))
@@ -66,12 +68,13 @@ void readTexcoords(GltfModel& model, const tinygltf::Primitive& source, GltfPrim
             continue;
         }
         std::vector<glm::vec2>& set = out.texcoords[name == "TEXCOORD_0" ? 0 : 1];
-        set = readGltfVec2(model, accessor, out.positions.size(), field);
+        set = readGltfVec2(model, accessor, choice, field);
         replaceUnusable(set, field, model.warnings);
     }
 }
 
-void readJoints(GltfModel& model, const tinygltf::Primitive& source, GltfPrimitive& out)
+void readJoints(GltfModel& model, const tinygltf::Primitive& source, const GltfChoice& choice,
+                GltfPrimitive& out)
 {
     for (int set = 0;; ++set) {
         const int joints = find(source.attributes, fmt::format("JOINTS_{}", set));
@@ -80,28 +83,27 @@ void readJoints(GltfModel& model, const tinygltf::Primitive& source, GltfPrimiti
             return;
         if (joints < 0 || weights < 0)
             failGltf("{}: expected JOINTS_{} and WEIGHTS_{} together", out.field, set, set);
-        const std::size_t count = out.positions.size();
         if (set > 0)
-            takeVertices(model, count, out.field);
+            takeVertices(model, choice.size(), out.field);
         out.joints.push_back(
-            readGltfJoints(model, joints, count, fmt::format("{}.JOINTS_{}", out.field, set)));
+            readGltfJoints(model, joints, choice, fmt::format("{}.JOINTS_{}", out.field, set)));
         out.weights.push_back(
-            readGltfVec4(model, weights, count, fmt::format("{}.WEIGHTS_{}", out.field, set)));
+            readGltfVec4(model, weights, choice, fmt::format("{}.WEIGHTS_{}", out.field, set)));
     }
 }
 
-void readAttributes(GltfModel& model, const tinygltf::Primitive& source, GltfPrimitive& out)
+void readAttributes(GltfModel& model, const tinygltf::Primitive& source, const GltfChoice& choice,
+                    GltfPrimitive& out)
 {
-    const std::size_t count = out.positions.size();
     if (const int a = find(source.attributes, "NORMAL"); a >= 0)
-        out.normals = readGltfVec3(model, a, count, out.field + ".NORMAL");
+        out.normals = readGltfVec3(model, a, choice, out.field + ".NORMAL");
     if (const int a = find(source.attributes, "TANGENT"); a >= 0)
-        out.tangents = readGltfVec4(model, a, count, out.field + ".TANGENT");
+        out.tangents = readGltfVec4(model, a, choice, out.field + ".TANGENT");
     if (const int a = find(source.attributes, "COLOR_0"); a >= 0)
-        out.colors = readGltfColors(model, a, count, out.field + ".COLOR_0");
-    readTexcoords(model, source, out);
-    readJoints(model, source, out);
-    if (!out.tangents.empty() && out.normals.empty()) {
+        out.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
+    readTexcoords(model, source, choice, out);
+    readJoints(model, source, choice, out);
+    if (find(source.attributes, "TANGENT") >= 0 && find(source.attributes, "NORMAL") < 0) {
         out.tangents.clear();
         model.warnings.add(out.field, "TANGENT without NORMAL, ignored");
     }
@@ -123,19 +125,20 @@ void addScaled(std::vector<Vector>& to, const std::vector<glm::vec3>& delta, flo
 
 // Targets of weight zero are read all the same, so that damage in them is found.
 void morph(GltfModel& model, const tinygltf::Primitive& source, const std::vector<double>& weights,
-           GltfPrimitive& out)
+           const GltfChoice& choice, GltfPrimitive& out)
 {
-    const std::size_t count = out.positions.size();
+    const std::size_t kept = model.bytesTaken;
     for (std::size_t t = 0; t < source.targets.size(); ++t) {
         const std::string field = fmt::format("{}.targets[{}]", out.field, t);
-        takeVertices(model, count, field);
+        takeVertices(model, choice.size(), field);
         const float weight = t < weights.size() ? static_cast<float>(weights[t]) : 0.0f;
         if (const int a = find(source.targets[t], "POSITION"); a >= 0)
-            addScaled(out.positions, readGltfVec3(model, a, count, field + ".POSITION"), weight);
+            addScaled(out.positions, readGltfVec3(model, a, choice, field + ".POSITION"), weight);
         if (const int a = find(source.targets[t], "NORMAL"); a >= 0)
-            addScaled(out.normals, readGltfVec3(model, a, count, field + ".NORMAL"), weight);
+            addScaled(out.normals, readGltfVec3(model, a, choice, field + ".NORMAL"), weight);
         if (const int a = find(source.targets[t], "TANGENT"); a >= 0)
-            addScaled(out.tangents, readGltfVec3(model, a, count, field + ".TANGENT"), weight);
+            addScaled(out.tangents, readGltfVec3(model, a, choice, field + ".TANGENT"), weight);
+        model.bytesTaken = kept; // the differences are not held
     }
 }
 
@@ -163,14 +166,21 @@ std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& or
     return triangles;
 }
 
+// What a corner of a mesh with flat normals holds at most.
+struct Corner {
+    glm::vec3 position, normal;
+    glm::vec2 texcoords[2];
+    glm::vec4 color;
+};
+
 std::vector<std::uint32_t> readTriangles(GltfModel& model, const tinygltf::Primitive& source,
-                                         const GltfPrimitive& out)
+                                         std::size_t vertices, const GltfPrimitive& out)
 {
-    const std::size_t vertices = out.positions.size();
     std::vector<std::uint32_t> order;
     if (source.indices >= 0) {
         order = readGltfIndices(model, source.indices, vertices, out.field + ".indices");
     } else {
+        takeGltfBytes(model, vertices * sizeof order[0], out.field);
         order.resize(vertices);
         std::iota(order.begin(), order.end(), 0u);
     }
@@ -184,6 +194,7 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const tinygltf::Primi
                || source.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
         takeTriangles(model, order.size(), out.field); // before the array grows by three
         model.trianglesTaken -= order.size();
+        takeGltfBytes(model, 3 * order.size() * sizeof order[0], out.field);
         order = unroll(source.mode, order);
     } else {
         model.warnings.add(out.field, "points and lines are not drawn");
@@ -213,15 +224,19 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
         return std::nullopt;
     }
     const std::size_t count = accessorCount(model, positions);
-    takeVertices(model, count, out.field);
-    out.positions = readGltfVec3(model, positions, count, out.field + ".POSITION");
-    readAttributes(model, source, out);
-    morph(model, source, morphWeights, out);
-    out.triangles = readTriangles(model, source, out);
+    out.triangles = readTriangles(model, source, count, out);
+    const std::vector<std::uint32_t> used = takeUsedVertices(out.triangles, count);
+    const GltfChoice choice(count, used);
+    takeVertices(model, choice.size(), out.field);
+    out.positions = readGltfVec3(model, positions, choice, out.field + ".POSITION");
+    readAttributes(model, source, choice, out);
+    morph(model, source, morphWeights, choice, out);
     if (out.triangles.empty())
         return std::nullopt;
-    if (out.normals.empty())
-        takeVertices(model, out.triangles.size(), out.field); // flat normals need a vertex a corner
+    if (out.normals.empty()) { // flat normals need a vertex a corner
+        takeVertices(model, out.triangles.size(), out.field);
+        takeGltfBytes(model, out.triangles.size() * sizeof(Corner), out.field);
+    }
     return out;
 }
 

@@ -4,6 +4,13 @@
 
 namespace cotan {
 
+void failGltfVersion1(const std::string& field)
+{
+    failGltf("{}: glTF version 1 is not supported, expected 2.0; gltf-pipeline (npm) converts it: "
+             "npx gltf-pipeline -i OLD.gltf -o NEW.glb",
+             field);
+}
+
 void GltfWarnings::add(const std::string& where, const std::string& what, std::size_t count,
                        const std::string& unit)
 {

@@ -21,6 +21,9 @@ template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> t
     throw GltfProblem{fmt::format(text, std::forward<Args>(args)...)};
 }
 
+// For files of glTF 1.0, whose structure is another one. field: where that shows.
+[[noreturn]] void failGltfVersion1(const std::string& field);
+
 // Collects what was odd but usable. The same complaint about many places becomes one line that
 // names the first place and counts the rest: a model of 44 parts should not print 44 lines.
 class GltfWarnings {

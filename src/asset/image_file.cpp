@@ -1,6 +1,8 @@
 #include "cotan/asset/image_file.hpp"
 
+#include <algorithm>
 #include <new>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "image_formats.hpp"
 #include "image_jpeg.hpp"
 #include "image_png.hpp"
+#include "sandboxed.hpp"
 
 namespace cotan {
 
@@ -28,6 +31,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return inputError(fmt::format(
             "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data",
             name));
+    if (!limits.sandbox.program.empty())
+        return decodeSandboxed(bytes, name, limits);
     const auto formats = imageFormats();
     if (!formats)
         return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
@@ -35,6 +40,18 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
 }
 
 } // namespace
+
+std::string foreignFormat(std::span<const std::byte> bytes)
+{
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
+    if (head.starts_with("RIFF") && head.ends_with("WEBP"))
+        return "WebP";
+    if (head.starts_with("\xabKTX 20\xbb"))
+        return "KTX2";
+    if (head.starts_with("DDS "))
+        return "DDS";
+    return head.size() == 12 && head.substr(4) == "ftypavif" ? "AVIF" : "";
+}
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
                           const LoadLimits& limits)

@@ -16,14 +16,15 @@ namespace cotan {
 namespace {
 
 // A progressive file may repeat the whole picture in any number of scans; real ones have about ten.
-constexpr int kMostScans = 100;
+// Each costs about a nanosecond a pixel, even if it is empty.
+constexpr std::size_t kMostScans = 100;
+constexpr std::size_t kMostScannedPixels = 4'000'000'000;
 
 // libjpeg reports errors by calling back and must be left by longjmp, so the functions that call
 // it hold nothing with a destructor.
 struct Decoder {
     jpeg_decompress_struct jpeg{};
     jpeg_error_mgr errors{};
-    jpeg_progress_mgr progress{};
     std::jmp_buf escape{};
     char message[JMSG_LENGTH_MAX] = "";
 
@@ -51,15 +52,6 @@ void onMessage(j_common_ptr common, int level)
 
 void onOutput(j_common_ptr) {}
 
-void onProgress(j_common_ptr common)
-{
-    auto* decoder = static_cast<Decoder*>(common->client_data);
-    if (decoder->jpeg.input_scan_number <= kMostScans)
-        return;
-    std::snprintf(decoder->message, sizeof decoder->message, "more than %d scans", kMostScans);
-    std::longjmp(decoder->escape, 1);
-}
-
 bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
 {
     jpeg_decompress_struct& jpeg = decoder.jpeg;
@@ -71,8 +63,6 @@ bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
     if (setjmp(decoder.escape))
         return false;
     jpeg_create_decompress(&jpeg); // keeps err and client_data
-    decoder.progress.progress_monitor = onProgress;
-    jpeg.progress = &decoder.progress;
     jpeg_mem_src(&jpeg, data, size);
     jpeg_read_header(&jpeg, TRUE);
     return true;
@@ -93,6 +83,48 @@ bool readPixels(Decoder& decoder, unsigned char* pixels, std::size_t rowBytes)
     return true;
 }
 
+// The scans that the markers of a file begin: of data between them an 0xff is followed by 0 or is a
+// restart marker.
+std::size_t countScans(std::span<const std::byte> bytes)
+{
+    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+    std::size_t scans = 0;
+    for (std::size_t at = 0; at + 1 < bytes.size();) {
+        const void* const found = std::memchr(data + at, 0xff, bytes.size() - 1 - at);
+        if (!found)
+            break;
+        at = std::size_t(static_cast<const unsigned char*>(found) - data) + 1;
+        const unsigned char marker = data[at];
+        if (marker == 0xda)
+            ++scans;
+        const bool bare = marker == 0 || marker == 0xff || marker == 1 || (marker >= 0xd0 && marker <= 0xd9);
+        if (!bare && at + 2 < bytes.size()) // its length counts itself
+            at += 1 + (std::size_t(data[at + 1]) << 8 | data[at + 2]);
+    }
+    return scans;
+}
+
+// What a file asks for beyond its pixels: time for every scan, and, of a progressive one, all its
+// coefficients, of two bytes each. jpeg: after its header.
+std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<const std::byte> bytes,
+                                const std::string& name, const LoadLimits& limits)
+{
+    const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
+    const std::size_t scans = countScans(bytes);
+    if (scans > kMostScans || scans * pixels > kMostScannedPixels)
+        return inputError(fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels", name,
+                                      kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
+    std::size_t coefficients = 0;
+    for (int c = 0; c < jpeg.num_components; ++c)
+        coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
+    const bool buffered = jpeg.progressive_mode || scans > 1;
+    if (buffered && coefficients * sizeof(JCOEF) > limits.imageBytes)
+        return inputError(fmt::format("{}: its {} scans of {} x {} pixels take {} bytes, the limit is {}", name, scans,
+                                      jpeg.image_width, jpeg.image_height, coefficients * sizeof(JCOEF),
+                                      limits.imageBytes));
+    return std::nullopt;
+}
+
 } // namespace
 
 bool isJpeg(std::span<const std::byte> bytes)
@@ -109,6 +141,8 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
     };
     if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
         return broken();
+    if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
+        return *error;
     const J_COLOR_SPACE stored = decoder.jpeg.jpeg_color_space;
     if (stored != JCS_GRAYSCALE && stored != JCS_YCbCr && stored != JCS_RGB)
         return std::nullopt;

@@ -26,6 +26,8 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
     if (bytes > limits.imageBytes)
         return inputError(fmt::format("{}: {} x {} pixels take {} bytes, the limit is {}", name,
                                       width, height, bytes, limits.imageBytes));
+    if (limits.expect)
+        limits.expect(bytes);
     return std::nullopt;
 }
 

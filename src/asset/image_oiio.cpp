@@ -9,7 +9,6 @@
 #include <exception>
 #include <string_view>
 
-#include <OpenImageIO/filesystem.h>
 #include <fmt/format.h>
 
 #include "cotan/asset/extension.hpp"
@@ -159,23 +158,6 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
     return std::nullopt;
 }
 
-// OpenImageIO fills up DDS files that end too early. Bytes that the first level takes after the 128 of the
-// header (Microsoft's DDS_HEADER); 0 where the format is not one of the old ones.
-std::size_t ddsBytes(std::span<const std::byte> file)
-{
-    std::array<std::uint32_t, 32> header{};
-    if (file.size() < sizeof header)
-        return std::size_t(-1);
-    std::memcpy(header.data(), file.data(), sizeof header);
-    const std::size_t height = header[3], width = header[4], blocks = ((width + 3) / 4) * ((height + 3) / 4);
-    if (!(header[20] & 0x4)) // no four letters
-        return width * height * (header[22] / 8);
-    const std::string_view name(reinterpret_cast<const char*>(&header[21]), 4);
-    if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
-        return blocks * 8;
-    return name.starts_with("DXT") || name == "ATI2" || name == "BC5U" || name == "BC5S" ? blocks * 16 : 0;
-}
-
 // Two channels of a DDS (BC5) are red and green, not grey and alpha. They are 8 bits.
 void spreadTwo(Image& image)
 {
@@ -192,6 +174,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    if (const auto problem = checkFileLayout(memory, format))
+        return broken(*problem);
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
         return broken(OIIO::geterror());
@@ -202,8 +186,6 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return broken(input->geterror());
     if (auto error = checkSpec(spec, name, limits))
         return *error;
-    if (format == "dds" && bytes.size() - std::min<std::size_t>(bytes.size(), 128) < ddsBytes(bytes))
-        return broken("the file ends too early");
 
     Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
     const int channels = std::min(spec.nchannels, 4);

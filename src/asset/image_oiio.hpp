@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "cotan/asset/image_rows.hpp"
@@ -28,6 +29,11 @@ OIIO::TypeDesc typeDesc(PixelType type);
 
 // Spreads the first `channels` components of every pixel over red, green, blue and alpha.
 void completeChannels(Image& image, int channels);
+
+// Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
+// strip, tile, attribute and level that will be read. Their readers take memory by those numbers,
+// or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
+std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format);
 
 // What a header may claim beside its size.
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name);

@@ -133,6 +133,8 @@ std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& n
     if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
         return inputError(fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes",
                                       name, spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
+    if (limits.expect)
+        limits.expect(std::size_t(stored));
     return std::nullopt;
 }
 
@@ -146,6 +148,9 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
     try {
+        OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
+        if (const auto problem = checkFileLayout(layout, format))
+            return broken(*problem);
         Input input = OIIO::ImageInput::create(format);
         if (!input)
             return broken(OIIO::geterror());

@@ -15,6 +15,7 @@
 #include "image_formats.hpp"
 #include "image_png.hpp"
 #include "png_session.hpp"
+#include "sandboxed.hpp"
 
 namespace cotan {
 
@@ -214,6 +215,8 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
         if (auto rows = openPng(file, std::move(stream), limits))
             return *std::move(rows);
     } else if (rowFormat(head)) {
+        if (!limits.sandbox.program.empty())
+            return openRowsSandboxed(file, limits);
         const auto formats = imageFormats();
         if (!formats)
             return Error{formats.error().kind, fmt::format("{}: {}", file.string(), formats.error().message)};

@@ -10,6 +10,7 @@
 #include "cotan/asset/extension.hpp"
 #include "cotan/files/account.hpp"
 #include "file_bytes.hpp"
+#include "sandboxed.hpp"
 
 namespace cotan {
 
@@ -17,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kAssimpExtensions = {".obj", ".ply", ".stl",
-                                                               ".dae", ".fbx", ".3ds"};
+constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx",
+                                                               ".3ds"};
 
 } // namespace
 
@@ -31,8 +32,12 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
-    if (std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end())
-        return loadWithAssimp(file, limits);
+    const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
+    if (assimp || extension == ".obj") {
+        if (!limits.sandbox.program.empty())
+            return loadSandboxed(file, limits);
+        return assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
+    }
     return inputError(fmt::format(
         "{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
         file.string(), file.extension().string()));

@@ -59,35 +59,36 @@ std::vector<std::string_view> split(std::string_view line)
     }
 }
 
+struct Property {
+    std::string_view countType; // empty: not a list
+    std::string_view type;
+};
+
+struct Element {
+    std::uint64_t count = 0;
+    std::vector<Property> properties;
+};
+
 // The header as far as it has been read.
 struct Header {
     bool ascii = false;
+    bool bigEndian = false;
     bool hasFormat = false;
     bool ended = false;
-    std::uint64_t leastBytes = 0; // of the elements so far, but the last
-    std::uint64_t count = 0;      // of the last element
-    std::uint64_t rowBytes = 0;   // of one of it, at least
-    bool hasElement = false;
+    std::vector<Element> elements;
 };
-
-// Counts are at most the size of the file and rows short, so nothing here overflows 64 bits.
-void closeElement(Header& header)
-{
-    header.leastBytes += header.count * header.rowBytes;
-    header.count = header.rowBytes = 0;
-}
 
 Problem checkElement(Header& header, std::string_view word, std::size_t fileBytes,
                      const LoadLimits& limits)
 {
-    closeElement(header);
-    header.hasElement = true;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), header.count);
+    std::uint64_t count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc{} || end != word.data() + word.size())
         return "expected a count at the end";
-    if (header.count > fileBytes || header.count > limits.vertices)
+    if (count > fileBytes || count > limits.vertices)
         return fmt::format("it counts {} elements, more than the file can hold or the limit allows",
-                           header.count);
+                           count);
+    header.elements.push_back({count, {}});
     return std::nullopt;
 }
 
@@ -96,10 +97,11 @@ Problem checkProperty(Header& header, const std::vector<std::string_view>& words
     const bool list = words.size() == 5 && words[1] == "list";
     const bool known = list ? typeSize(words[2]) > 0 && typeSize(words[3]) > 0
                             : words.size() == 3 && typeSize(words[1]) > 0;
-    if (!known || !header.hasElement)
+    if (!known || header.elements.empty())
         return "expected a type and a name, behind an element";
-    // In text a value takes a digit and a space or line end.
-    header.rowBytes += header.ascii ? 2 : typeSize(words[list ? 2 : 1]);
+    if (list && (words[2].starts_with("float") || words[2].starts_with("double")))
+        return "expected a whole number as the count of a list";
+    header.elements.back().properties.push_back(list ? Property{words[2], words[3]} : Property{{}, words[1]});
     return std::nullopt;
 }
 
@@ -117,7 +119,8 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
             && (words[1] == "ascii" || words[1] == "binary_little_endian"
                 || words[1] == "binary_big_endian");
         header.ascii = header.hasFormat && words[1] == "ascii";
-        if (!header.hasFormat || header.hasElement)
+        header.bigEndian = header.hasFormat && words[1] == "binary_big_endian";
+        if (!header.hasFormat || !header.elements.empty())
             return "expected ascii, binary_little_endian or binary_big_endian and a version";
         return std::nullopt;
     }
@@ -129,12 +132,76 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
         return checkProperty(header, words);
     if (line == "end_header") {
         header.ended = true;
-        closeElement(header);
         return std::nullopt;
     }
     // Old exporters forget the word "comment" in front of their name.
-    if (header.hasElement || keyword.starts_with("e"))
+    if (!header.elements.empty() || keyword.starts_with("e"))
         return "expected element, property, comment or end_header";
+    return std::nullopt;
+}
+
+// ---- behind the header ----------------------------------------------------------------------
+
+// The whole number of a list's count. A negative one comes out as more than any file holds.
+std::uint64_t readCount(std::string_view bytes, std::string_view type, bool bigEndian)
+{
+    const std::size_t size = typeSize(type);
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i)
+        value = value << 8 | static_cast<unsigned char>(bytes[bigEndian ? i : size - 1 - i]);
+    const bool isSigned = !type.starts_with('u');
+    return isSigned && value >> (8 * size - 1) ? ~std::uint64_t(0) : value;
+}
+
+// Walks over an element's rows; `rest` is what is left of the file.
+Problem walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
+{
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+        for (const Property& property : element.properties) {
+            std::uint64_t values = 1;
+            if (!property.countType.empty()) {
+                const std::size_t size = typeSize(property.countType);
+                if (size > rest.size())
+                    return "the file ends in the middle of its elements";
+                values = readCount(rest, property.countType, bigEndian);
+                rest.remove_prefix(size);
+            }
+            const std::size_t size = typeSize(property.type);
+            if (values > rest.size() / size)
+                return fmt::format("{} values are promised, the file has {} bytes left", values, rest.size());
+            rest.remove_prefix(values * size);
+        }
+        if (element.properties.empty())
+            break;
+    }
+    return std::nullopt;
+}
+
+// In text every row has a line.
+Problem walkText(const Element& element, std::string_view& rest)
+{
+    for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
+        std::vector<std::string_view> words;
+        while (words.empty()) {
+            if (rest.empty())
+                return "the file ends in the middle of its elements";
+            const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+            words = split(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+        std::size_t at = 0;
+        for (const Property& property : element.properties) {
+            std::uint64_t values = 1;
+            if (!property.countType.empty() && at < words.size()) {
+                const std::string_view word = words[at++];
+                if (std::from_chars(word.data(), word.data() + word.size(), values).ec != std::errc{})
+                    return fmt::format("expected the count of a list, found \"{}\"", word.substr(0, 40));
+            }
+            if (values > words.size() - at)
+                return fmt::format("{} values are promised, their line has {}", values, words.size() - at);
+            at += values;
+        }
+    }
     return std::nullopt;
 }
 
@@ -162,11 +229,11 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
         if (Problem problem = checkLine(header, line, bytes.size(), limits))
             return inputError(fmt::format("{}: header line {}: {}", name, number, *problem));
     }
-    // The last line of a text need not end.
-    if (text.size() - at + 1 < header.leastBytes)
-        return inputError(
-            fmt::format("{}: the header's counts take at least {} bytes, the file has {} after it",
-                        name, header.leastBytes, text.size() - at));
+    std::string_view rest = text.substr(at);
+    for (std::size_t e = 0; e < header.elements.size(); ++e)
+        if (Problem problem = header.ascii ? walkText(header.elements[e], rest)
+                                           : walkBinary(header.elements[e], header.bigEndian, rest))
+            return inputError(fmt::format("{}: element {}: {}", name, e, *problem));
     return Done{};
 }
 

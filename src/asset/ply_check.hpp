@@ -10,8 +10,8 @@
 
 namespace cotan {
 
-// Checks the header of a PLY file line by line, and that the rest of the file is long enough for
-// what the header counts, as memory is taken by those counts.
+// Checks the header of a PLY file line by line, and walks over what it counts: every row of every
+// element, and every value of every list, has to be there, as memory is taken by those counts.
 // Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
 Status checkPly(std::span<const std::byte> bytes, const std::string& name,
                 const LoadLimits& limits);

@@ -257,7 +257,7 @@ glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
 
 } // namespace
 
-Image expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view)
+Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view)
 {
     Image image = makeImage(view.width, view.height, PixelType::float32, "expected normals");
     Scene scene;
@@ -269,7 +269,7 @@ Image expectedNormals(const LowSurface& low, const HighSurface& high, const Bake
     scene.instances.push_back({});
     const auto traced = HighSurface::make({scene}, options.threads);
     if (!traced)
-        return image;
+        return traced.error();
     const Baker baker(low, high, options);
     tbb::parallel_for(0, view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x) {

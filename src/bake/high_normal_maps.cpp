@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
 
 namespace cotan {
@@ -71,8 +72,7 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
             part.surface = std::move(*surface);
             part.image = &picture;
             part.sampler = map.sampler;
-            part.format = {material.normalFormat.expansion, material.normalFormat.channels,
-                           material.normalFormat.greenAlongV ? 1.0 : -1.0, double(material.normalScale)};
+            part.format = toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
             ++maps.mapped_;
         }
     }

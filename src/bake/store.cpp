@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/bake.hpp"
+#include "cotan/scene/normal_format.hpp"
 
 namespace cotan {
 
@@ -45,11 +46,6 @@ struct Writer {
     }
 };
 
-f32::cotan_normal_format portable(const NormalMapFormat& f)
-{
-    return {f.expansion, f.channels, f.greenAlongV ? 1.0f : -1.0f, 1.0f};
-}
-
 } // namespace
 
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
@@ -72,9 +68,9 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
         format.channels = COTAN_CHANNELS_XYZ;
         format.greenAlongV = true;
     }
-    const f32::cotan_normal_format portableFormat = portable(format);
+    const f32::cotan_normal_format portableFormat = toFormat<f32::cotan_normal_format>(format, as.type);
     const glm::vec3 empty = !direction               ? glm::vec3(0)
-        : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, format.expansion))
+        : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, portableFormat.expansion))
                                          : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);
     const auto stored = [&](glm::vec3 v) {
         if (direction)

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
 #include "padding.hpp"
@@ -28,7 +29,7 @@ glm::dmat3 matrixOf(const f64::cotan_frame& f, const f64::cotan_normal_format& f
 
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
-    convert::Tally moved, unconverted, disagreement, error;
+    convert::Tally moved, disagreement;
 };
 
 class Reencoder {
@@ -40,6 +41,9 @@ public:
         plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
         plain_.strength = 1;
         plain_.green = 1;
+        written_ = plain_;
+        plain_.expansion = expansionFor(plain_.expansion, bitsPerComponent(map.type));
+        written_.expansion = expansionFor(written_.expansion, bits);
         for (const MapUse& use : uses)
             rasters_.emplace_back(use, map.width, map.height);
         result_.image =
@@ -62,9 +66,7 @@ public:
         RowCounts all;
         for (const RowCounts& r : rows_) { // in order: sums are the same however many threads there are
             all.moved.add(r.moved);
-            all.unconverted.add(r.unconverted);
             all.disagreement.add(r.disagreement);
-            all.error.add(r.error);
             result_.covered += r.covered;
             result_.padded += r.padded;
             result_.several += r.several;
@@ -72,9 +74,12 @@ public:
             result_.belowHorizon += r.belowHorizon;
         }
         result_.moved = all.moved.spread();
-        result_.unconverted = all.unconverted.spread();
         result_.disagreement = all.disagreement.spread();
-        result_.error = all.error.spread();
+        std::vector<const MapUse*> shown;
+        for (const MapUse& use : uses_)
+            shown.push_back(&use);
+        result_.unconverted = mapError(map_, map_, shown, frames_);
+        result_.error = mapError(map_, result_.image, shown, frames_);
         return std::move(result_);
     }
 
@@ -83,7 +88,7 @@ private:
     {
         std::vector<std::vector<Place>> texels(std::size_t(map_.width));
         for (std::size_t i = 0; i < rasters_.size(); ++i)
-            if (std::abs(uses_[i].format.strength) > 1e-6) // a flattened map shows nothing
+            if (std::abs(uses_[i].format.strength) > kFlattened)
                 rasters_[i].addRow(y, std::uint32_t(i), texels);
         for (std::vector<Place>& places : texels) {
             const bool covered = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.covers; });
@@ -114,7 +119,7 @@ private:
 
     void write(int x, int y, glm::dvec3 texel)
     {
-        const glm::dvec3 stored = f64::cotan_encode_texel(texel, plain_);
+        const glm::dvec3 stored = f64::cotan_encode_texel(texel, written_);
         const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
         for (int k = 0; k < 3; ++k)
             set(at + std::size_t(k), stored[k]);
@@ -139,14 +144,14 @@ private:
 
     void keep(int x, int y)
     {
-        const glm::dvec3 stored = storedTexel(map_, x, y);
+        glm::dvec3 stored = storedTexel(map_, x, y);
+        for (int k = 0; k < 3 && plain_.expansion != written_.expansion; ++k)
+            stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], plain_.expansion), written_.expansion);
         const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
         for (int k = 0; k < 3; ++k)
             set(at + std::size_t(k), stored[k]);
         copyAlpha(at);
     }
-
-    glm::dvec3 newTexel(int x, int y) const { return f64::cotan_decode(storedTexel(result_.image, x, y), plain_); }
 
     void solveRow(int y)
     {
@@ -171,7 +176,7 @@ private:
             owner_[std::size_t(y) * std::size_t(map_.width) + std::size_t(x)] =
                 std::uint32_t(std::size_t(y) * std::size_t(map_.width) + std::size_t(x));
             if (places.front().covers)
-                count(counts, demands, old, texel, newTexel(x, y));
+                count(counts, demands, old, texel);
             else
                 ++counts.padded;
         }
@@ -185,7 +190,7 @@ private:
         return degrees;
     }
 
-    static void count(RowCounts& c, const std::vector<Demand>& demands, glm::dvec3 old, glm::dvec3 texel, glm::dvec3 stored)
+    static void count(RowCounts& c, const std::vector<Demand>& demands, glm::dvec3 old, glm::dvec3 texel)
     {
         ++c.covered;
         c.several += demands.size() > 1;
@@ -194,10 +199,7 @@ private:
         if (conflict > kDisagree) {
             ++c.disagreeing;
             c.disagreement.add(conflict);
-        } else {
-            c.error.add(worst(demands, stored));
         }
-        c.unconverted.add(worst(demands, old));
         c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
     }
 
@@ -251,7 +253,7 @@ private:
     const Image& map_;
     std::span<const MapUse> uses_;
     FramePair frames_;
-    f64::cotan_normal_format plain_{}; // of the map, without what differs between its uses
+    f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
     std::vector<UseRaster> rasters_;
     std::vector<RowCounts> rows_;
     std::vector<std::uint32_t> owner_;

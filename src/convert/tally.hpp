@@ -42,6 +42,7 @@ public:
         Spread s;
         if (count_ == 0)
             return s;
+        s.count = std::size_t(count_);
         s.mean = sum_ / double(count_);
         s.maximum = maximum_;
         std::uint64_t reached = 0;

@@ -8,31 +8,32 @@ namespace {
 
 using enum MapKind;
 
-constexpr Convention tangent(Expansion e, Channels c, bool greenUp, VDirection v)
+// Zero is the middle code in all of them: where every baker puts a flat texel, whatever engines expand with.
+constexpr Convention tangent(Channels c, bool greenUp, VDirection v)
 {
-    return {tangentSpace, e, c, greenUp, v};
+    return {tangentSpace, Expansion::exact, c, greenUp, v};
 }
 
 constexpr std::array kPresets = {
-    ConventionPreset{"gltf", tangent(Expansion::biased, Channels::xyz, true, VDirection::down),
-                     "glTF 2.0: green up, v down; the specification expands with 2c-1"},
-    ConventionPreset{"opengl", tangent(Expansion::exact, Channels::xyz, true, VDirection::up),
+    ConventionPreset{"gltf", tangent(Channels::xyz, true, VDirection::down),
+                     "glTF 2.0: green up, v down"},
+    ConventionPreset{"opengl", tangent(Channels::xyz, true, VDirection::up),
                      "green up, v up"},
-    ConventionPreset{"directx", tangent(Expansion::exact, Channels::xyz, false, VDirection::down),
+    ConventionPreset{"directx", tangent(Channels::xyz, false, VDirection::down),
                      "green down, v down"},
-    ConventionPreset{"unity", tangent(Expansion::biased, Channels::orthographic, true, VDirection::up),
+    ConventionPreset{"unity", tangent(Channels::orthographic, true, VDirection::up),
                      "green up, v up; two channels after import"},
-    ConventionPreset{"unreal", tangent(Expansion::biased, Channels::orthographic, false, VDirection::down),
+    ConventionPreset{"unreal", tangent(Channels::orthographic, false, VDirection::down),
                      "green down, v down; two channels (BC5) after import"},
-    ConventionPreset{"blender", tangent(Expansion::biased, Channels::xyz, true, VDirection::up),
+    ConventionPreset{"blender", tangent(Channels::xyz, true, VDirection::up),
                      "green up, v up"},
-    ConventionPreset{"godot", tangent(Expansion::biased, Channels::orthographic, true, VDirection::down),
+    ConventionPreset{"godot", tangent(Channels::orthographic, true, VDirection::down),
                      "green up, v down; two channels after import"},
-    ConventionPreset{"maya", tangent(Expansion::biased, Channels::xyz, true, VDirection::up),
+    ConventionPreset{"maya", tangent(Channels::xyz, true, VDirection::up),
                      "green up, v up"},
-    ConventionPreset{"3dsmax", tangent(Expansion::biased, Channels::xyz, false, VDirection::up),
+    ConventionPreset{"3dsmax", tangent(Channels::xyz, false, VDirection::up),
                      "green down, v up"},
-    ConventionPreset{"source", tangent(Expansion::biased, Channels::xyz, false, VDirection::down),
+    ConventionPreset{"source", tangent(Channels::xyz, false, VDirection::down),
                      "green down, v down"},
 };
 
@@ -40,6 +41,7 @@ std::string_view word(Expansion e)
 {
     switch (e) {
     case Expansion::exact: return "exact expansion";
+    case Expansion::exact16: return "exact expansion of 16 bits";
     case Expansion::biased: return "biased expansion";
     case Expansion::signedValues: break;
     }

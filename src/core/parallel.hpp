@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -52,13 +53,19 @@ template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const 
         std::rethrow_exception(problem);
 }
 
+// Where part i of [0, count) begins; i = parts: its end. The product needs 64 bits everywhere.
+inline std::size_t partBegin(std::size_t count, std::size_t i, std::size_t parts)
+{
+    return static_cast<std::size_t>(std::uint64_t(count) * i / parts);
+}
+
 // Calls run(begin, end) for consecutive parts of [0, count).
 template<class Run> void runParts(std::size_t count, std::size_t threads, const Run& run)
 {
     // Some parts a thread, so that one that is held up does not keep the others waiting.
     const std::size_t parts = threads == 1 ? 1 : std::min(count, threads * 8);
     runTasks(parts, threads,
-             [&](std::size_t i) { run(count * i / parts, count * (i + 1) / parts); });
+             [&](std::size_t i) { run(partBegin(count, i, parts), partBegin(count, i + 1, parts)); });
 }
 
 } // namespace cotan

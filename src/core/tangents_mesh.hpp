@@ -49,7 +49,7 @@ std::vector<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key,
     });
     std::vector<std::uint32_t> first(count);
     runTasks(threads, threads, [&](std::size_t part) {
-        const auto mine = [&](std::uint32_t i) { return hashes[i] * threads >> 32 == part; };
+        const auto mine = [&](std::uint32_t i) { return std::uint64_t(hashes[i]) * threads >> 32 == part; };
         std::size_t size = 0;
         for (std::uint32_t i = 0; i < count; ++i)
             size += mine(i);

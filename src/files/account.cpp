@@ -53,6 +53,7 @@ struct Output {
     Identity identity;
     std::string option, name;
     State state = State::planned;
+    bool refused = false; // a reader was told so, and may have gone on without what he could not read
 };
 
 struct Account {
@@ -61,6 +62,7 @@ struct Account {
     std::vector<Input> inputs;
     std::vector<Output> outputs;
     std::optional<Error> refusal;
+    std::function<void(const fs::path&)> watcher;
 
     Error refuse(std::string message)
     {
@@ -120,17 +122,22 @@ Status planOutput(const std::string& option, const fs::path& file)
     return identity ? add(all, {*identity, option, file.string()}) : Status(Done{});
 }
 
+void watchInputs(std::function<void(const fs::path&)> watcher) { account().watcher = std::move(watcher); }
+
 Status noteInput(const fs::path& file)
 {
     Account& all = account();
+    if (all.watcher)
+        all.watcher(file);
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)
         return Done{};
-    for (const Output& output : all.outputs)
+    for (Output& output : all.outputs)
         if (output.identity == *identity) {
             if (output.state == State::done)
                 return Done{};
+            output.refused = true;
             return replaces(all, output, file.string());
         }
     for (const Input& input : all.inputs)
@@ -147,10 +154,10 @@ Status beginOutput(const fs::path& file)
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity)
         return Done{};
-    if (all.refusal) // and somebody went on without what he could not read
-        return *all.refusal;
     for (Output& output : all.outputs)
         if (output.identity.place == identity->place && output.state == State::planned) {
+            if (output.refused)
+                return *all.refusal;
             output.state = State::begun;
             return Done{};
         }

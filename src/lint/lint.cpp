@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "parts.hpp"
@@ -58,6 +60,15 @@ void addPrecision(PrimitiveLint& p, double distance)
     p.closest = error / kHalfDegree;
 }
 
+std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
+{
+    if (p.unread)
+        return map.name.empty() ? "its pixels were not read" : map.name + " was not read";
+    if (!p.hasUv)
+        return "no uv";
+    return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
+}
+
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -76,26 +87,28 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
         p.image = image;
         if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
             p.readings = lint::readings(surface, material, scene.images[std::size_t(image)]);
+        p.unread = !hasPixels(scene.images[std::size_t(image)]);
+        p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
     return p;
 }
 
 // Primitives that read the same normal map share its texels; one without a map stands alone. A mesh that
 // is placed several times counts once.
-void addOverlaps(LintReport& report, const std::vector<MappedSurface>& surfaces)
+void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
 {
     std::map<int, std::pair<std::vector<const MappedSurface*>, std::vector<UvQuality*>>> groups;
     auto& primitives = report.primitives;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t i = 0; i < uses.size(); ++i) {
         if (primitives[i].placing > 0)
             continue;
         const int key = primitives[i].image >= 0 ? primitives[i].image : -1 - int(i);
-        groups[key].first.push_back(&surfaces[i]);
+        groups[key].first.push_back(&uses[i].surface);
         groups[key].second.push_back(&primitives[i].uv);
     }
     for (const auto& [key, group] : groups)
         lint::countOverlaps(group.first, group.second);
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t i = 0; i < uses.size(); ++i)
         if (primitives[i].placing > 0) {
             primitives[i].uv.overlapping = primitives[i - 1].uv.overlapping;
             primitives[i].uv.overlappingMirrored = primitives[i - 1].uv.overlappingMirrored;
@@ -111,8 +124,32 @@ void addMaps(LintReport& report, const Scene& scene)
             || std::find(done.begin(), done.end(), image) != done.end())
             continue;
         done.push_back(image);
-        report.maps.push_back(lint::greenEvidence(scene.images[std::size_t(image)], m));
-        report.maps.back().image = image;
+        const Image& map = scene.images[std::size_t(image)];
+        GreenEvidence e{image, map.name, !m.normalFormat.greenAlongV, {}}; // v runs down the picture
+        if (hasPixels(map))
+            e.verdict = maps::greenOf(map);
+        report.maps.push_back(std::move(e));
+    }
+}
+
+// How each map would do as it is with the frames that may be advised.
+void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses)
+{
+    std::map<int, std::vector<const MapUse*>> readers;
+    for (std::size_t i = 0; i < uses.size(); ++i)
+        if (report.primitives[i].image >= 0)
+            readers[report.primitives[i].image].push_back(&uses[i]);
+    const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
+    for (const auto& [image, users] : readers) {
+        const Image& map = scene.images[std::size_t(image)];
+        MapFit fit{image, map.name, {}, {}, {}};
+        std::vector<const MapUse*> shown;
+        std::copy_if(users.begin(), users.end(), std::back_inserter(shown), [](const MapUse* u) { return !u->surface.uv.empty(); });
+        if (hasPixels(map))
+            for (auto [frame, spread] : {std::pair(Frame::orthonormal, &fit.orthonormal), {Frame::cotangent, &fit.cotangent},
+                                         {Frame::smooth, &fit.smooth}})
+                *spread = mapError(map, map, shown, {Frame::mikktspace, frame, from, TangentOrigin::generated});
+        report.fits.push_back(std::move(fit));
     }
 }
 
@@ -122,21 +159,29 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
 {
     LintReport report;
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
-    std::vector<MappedSurface> surfaces;
+    std::vector<MapUse> uses;
     const auto placed = placings(scene);
+    std::size_t all = 0, done = 0; // triangles
+    for (const Mesh& mesh : scene.meshes)
+        all += mesh.triangleCount();
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
-        const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        const Sampler& sampler = material.normalMap.sampler;
         for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
-            surfaces.push_back(makeSurface(mesh, map, placed[i][k]));
-            PrimitiveLint p = lintPrimitive(scene, mesh, surfaces.back(), report.distance);
+            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), formatOf(material, PixelType::unorm8), sampler.wrapU, sampler.wrapV});
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance);
             p.placing = k;
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
         }
+        done += mesh.triangleCount();
+        if (options.progress)
+            options.progress(double(done) / double(std::max<std::size_t>(all, 1)));
     }
-    addOverlaps(report, surfaces);
+    addOverlaps(report, uses);
     addMaps(report, scene);
+    addFits(report, scene, uses);
     lint::recommend(report);
     return report;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <glm/common.hpp>
@@ -70,7 +71,7 @@ void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, 
         several += perTexel * double(triangles[i].shared);
         both += perTexel * double(triangles[i].turned);
     }
-    const double whole = q.area > 0 ? q.area : 1;
+    const double whole = q.area > 0 ? q.area : std::numeric_limits<double>::quiet_NaN();
     q.overlapping = several / whole;
     q.overlappingMirrored = both / whole;
 }
@@ -80,6 +81,8 @@ void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, 
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side)
 {
+    if (std::ranges::all_of(surfaces, [](const MappedSurface* s) { return s->uv.empty(); }))
+        return;
     double copies = 0;
     for (const MappedSurface* s : surfaces)
         copies += copiesUnder(*s);

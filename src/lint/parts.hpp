@@ -22,9 +22,10 @@ StoredTangents storedTangents(const MappedSurface& surface);
 // with generated tangents.
 std::vector<Reading> readings(const MappedSurface& surface, const Material& material, const Image& map);
 
-GreenEvidence greenEvidence(const Image& map, const Material& material);
+// Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.
+bool distrustStored(const LintReport& report);
 
-// Sets advice, distrustStored and recommendation from all the rest.
+// Sets everything from `advice` on from primitives, maps and fits.
 void recommend(LintReport& report);
 
 double degreesBetween(glm::dvec3 a, glm::dvec3 b); // of unit vectors; stays exact near zero

@@ -1,6 +1,4 @@
-#include <algorithm>
-#include <cmath>
-
+#include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "parts.hpp"
 
@@ -9,37 +7,6 @@ namespace cotan::lint {
 namespace {
 
 constexpr std::size_t kSamples = 4096;
-
-struct Point {
-    std::size_t triangle;
-    glm::dvec3 barycentric;
-};
-
-// Points at equal steps of area, in the triangles by the sequence of the plastic number (R2).
-std::vector<Point> pointsOver(const MappedSurface& s)
-{
-    std::vector<double> upTo;
-    double total = 0;
-    for (std::size_t i = 0; i < s.triangleCount(); ++i)
-        upTo.push_back(total += orientationOf(s, i) != 0 ? areaOf(s, i) : 0);
-    std::vector<Point> points;
-    if (!(total > 0))
-        return points;
-    std::size_t triangle = 0;
-    for (std::size_t k = 0; k < kSamples; ++k) {
-        const double at = (double(k) + 0.5) / double(kSamples) * total;
-        while (triangle + 1 < upTo.size() && upTo[triangle] <= at)
-            ++triangle;
-        double a = std::fmod(0.5 + 0.7548776662466927 * double(k), 1.0);
-        double b = std::fmod(0.5 + 0.5698402909980532 * double(k), 1.0);
-        if (a + b > 1) {
-            a = 1 - a;
-            b = 1 - b;
-        }
-        points.push_back({triangle, glm::dvec3(1 - a - b, a, b)});
-    }
-    return points;
-}
 
 } // namespace
 
@@ -57,8 +24,8 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
     if (!s.stored.empty())
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
-    const f64::cotan_normal_format format = formatOf(material);
-    for (const Point& p : pointsOver(s)) {
+    const f64::cotan_normal_format format = formatOf(material, map.type);
+    for (const SurfacePoint& p : pointsOver(s, kSamples)) {
         const glm::dvec3 m =
             decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
         const glm::dvec3 truth = f64::cotan_apply(

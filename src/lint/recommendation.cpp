@@ -1,46 +1,77 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "cotan/lint/map_fit.hpp"
 #include "parts.hpp"
 
-namespace cotan::lint {
+namespace cotan {
+
+Frame frameOf(Advice advice)
+{
+    return advice == Advice::convertToCotangent ? Frame::cotangent : advice == Advice::convertToSmooth ? Frame::smooth : Frame::orthonormal;
+}
+
+namespace lint {
 
 namespace {
 
 // Below this nobody sees a difference, above it moving highlights show one.
 constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
+// From this mean on the light seems to come from elsewhere, without anything moving.
+constexpr double kWrongMean = 5;
 // Steps at edges over this, and a map for `cotangent` shows creases there.
 constexpr double kCreases95 = 2;
+constexpr std::size_t kMostNames = 3; // in one sentence
 
-// Over all primitives with a map, weighted by area; of the 95 % too it is the mean.
+// Over all primitives that were judged, weighted by area; of the 95 % too it is the mean.
 struct Whole {
     double area = 0, mean = 0, percentile95 = 0;
     void add(double a, const Spread& s)
     {
+        if (s.count == 0)
+            return;
         area += a;
         mean += a * s.mean;
         percentile95 += a * s.percentile95;
     }
     void finish()
     {
-        if (area > 0) {
-            mean /= area;
-            percentile95 /= area;
-        }
+        mean /= area; // of nothing: NaN, which is below no limit
+        percentile95 /= area;
     }
+    bool unseen() const { return mean < kUnseenMean && percentile95 < kUnseen95; }
 };
+
+const Reading* readingOf(const PrimitiveLint& p, const std::string& name)
+{
+    const auto found = std::find_if(p.readings.begin(), p.readings.end(), [&](const Reading& r) { return r.name == name; });
+    return found != p.readings.end() && found->error.count > 0 ? &*found : nullptr;
+}
+
+bool judged(const PrimitiveLint& p) { return readingOf(p, "orthonormal") != nullptr; }
 
 Whole wholeReading(const LintReport& report, const std::string& name)
 {
     Whole w;
     for (const PrimitiveLint& p : report.primitives)
-        for (const Reading& r : p.readings)
-            if (r.name == name)
-                w.add(p.uv.area, r.error);
+        if (const Reading* r = readingOf(p, name))
+            w.add(p.uv.area, r->error);
     w.finish();
     return w;
 }
 
-// Shares of the area with a map and stored tangents.
+Whole wholeSteps(const LintReport& report)
+{
+    Whole w;
+    for (const PrimitiveLint& p : report.primitives)
+        if (judged(p))
+            w.add(p.uv.area, p.steps.cotangent);
+    w.finish();
+    return w;
+}
+
+// Shares of the area with a map and stored tangents; 0 where there are none.
 struct Stored {
     double reversedW = 0, turned = 0;
 };
@@ -50,7 +81,7 @@ Stored storedShares(const LintReport& report)
     Stored s;
     double area = 0;
     for (const PrimitiveLint& p : report.primitives)
-        if (p.stored.present && !p.readings.empty()) {
+        if (p.stored.present && p.stored.angle.count > 0 && p.image >= 0) {
             area += p.uv.area;
             s.reversedW += p.uv.area * p.stored.reversedW;
             s.turned += p.uv.area * p.stored.turned;
@@ -62,48 +93,75 @@ Stored storedShares(const LintReport& report)
     return s;
 }
 
+// "a, b, c and 4 more".
+std::string listed(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+        text += (i > 0 ? ", " : "") + names[i];
+    return names.size() > kMostNames ? text + fmt::format(" and {} more", names.size() - kMostNames) : text;
+}
+
+void addOnce(std::vector<std::string>& names, const std::string& name)
+{
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+}
+
 // The maps whose green points the other way than declared, by name; empty if there are none.
 std::string otherGreen(const LintReport& report)
 {
-    std::string names;
+    std::vector<std::string> names;
     for (const GreenEvidence& g : report.maps)
-        if (g.decided && !g.asDeclared)
-            names += (names.empty() ? "" : ", ") + (g.name.empty() ? fmt::format("image {}", g.image) : g.name);
-    return names;
+        if (!g.asDeclared())
+            names.push_back(g.name.empty() ? fmt::format("image {}", g.image) : g.name);
+    return listed(names);
 }
 
-// What is wrong with the model as it is; sets LintReport::distrustStored.
-std::string defects(LintReport& report)
+constexpr double kMostly = 0.5;     // of the area reversed: the whole model is
+constexpr double kContradicts = 0.1; // of the area: the stored tangents are not to be followed
+
+// What is wrong with the model as it is.
+std::string defects(const LintReport& report)
 {
     const Stored s = storedShares(report);
     const std::string green = otherGreen(report);
-    const bool reversed = s.reversedW > 0.5;
+    const bool reversed = s.reversedW > kMostly;
     if (reversed && !green.empty())
         return fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area and green points the other way in {}: "
-                           "together they are right, each alone is not. ", 100 * s.reversedW, green);
+                           "together they are right, each alone is not.", 100 * s.reversedW, green);
     std::string text;
-    report.distrustStored = s.reversedW > 0.1 || s.turned > 0.1;
     if (reversed)
-        text = fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area. ", 100 * s.reversedW);
-    else if (report.distrustStored)
+        text = fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area.", 100 * s.reversedW);
+    else if (distrustStored(report))
         text = fmt::format("The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
-                           "{:.0f} degrees on {:.0f} %. ", 100 * s.reversedW, kTurned, 100 * s.turned);
+                           "{:.0f} degrees on {:.0f} %.", 100 * s.reversedW, kTurned, 100 * s.turned);
     if (!green.empty())
-        text += fmt::format("Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it). ", green);
+        text += fmt::format("{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
+                            text.empty() ? "" : " ", green);
     return text;
 }
 
 // Which extension reads tangents in which material, as a sentence; empty if none.
 std::string otherReaders(const LintReport& report)
 {
-    std::string names;
-    for (const PrimitiveLint& p : report.primitives) {
-        const std::string name = p.material.empty() ? "a material" : p.material;
-        const std::string one = fmt::format("{} ({})", name, p.tangentsFor);
-        if (!p.tangentsFor.empty() && names.find(one) == std::string::npos)
-            names += (names.empty() ? "" : ", ") + one;
-    }
-    return names.empty() ? "" : fmt::format(" Tangents are also read by what is not looked at here and stay for it: {}.", names);
+    std::vector<std::string> names;
+    for (const PrimitiveLint& p : report.primitives)
+        if (!p.tangentsFor.empty())
+            addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
+    return names.empty() ? "" : fmt::format("Tangents are also read by what is not looked at here and stay for it: {}.", listed(names));
+}
+
+std::string nameOf(const PrimitiveLint& p) { return p.mesh.empty() ? p.material.empty() ? "a primitive" : p.material : p.mesh; }
+
+// Normal maps that are there and could not be judged, as a sentence; empty if none.
+std::string notJudged(const LintReport& report)
+{
+    std::vector<std::string> names;
+    for (const PrimitiveLint& p : report.primitives)
+        if (!p.notJudged.empty())
+            addOnce(names, fmt::format("{} ({})", nameOf(p), p.notJudged));
+    return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
 // The primitive with the largest mean error of that reading among those where somebody might see it; empty
@@ -113,54 +171,102 @@ std::string worstReading(const LintReport& report, const std::string& name)
     std::string text;
     double worst = 0;
     for (const PrimitiveLint& p : report.primitives)
-        for (const Reading& r : p.readings)
-            if (r.name == name && (r.error.mean > kUnseenMean || r.error.percentile95 > kUnseen95) && r.error.mean > worst) {
-                worst = r.error.mean;
-                text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", p.mesh.empty() ? p.material : p.mesh,
-                                   r.error.mean, r.error.percentile95);
-            }
+        if (const Reading* r = readingOf(p, name);
+            r && (r->error.mean > kUnseenMean || r->error.percentile95 > kUnseen95) && r->error.mean > worst) {
+            worst = r->error.mean;
+            text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", nameOf(p), r->error.mean, r->error.percentile95);
+        }
     return text;
+}
+
+std::string seen(const LintReport& report, const Whole& orthonormal, const Whole& cotangent)
+{
+    const char* how = orthonormal.unseen() ? "nobody sees a difference"
+        : orthonormal.mean < kWrongMean    ? "moving highlights show a difference"
+                                           : "the light seems to come from elsewhere";
+    return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: {:.2f} degrees off on average with the "
+                       "frame orthonormal ({:.2f} with cotangent){}.",
+                       how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
+}
+
+const Spread& fitOf(const MapFit& fit, Advice advice)
+{
+    return advice == Advice::convertToCotangent ? fit.cotangent : advice == Advice::convertToSmooth ? fit.smooth : fit.orthonormal;
+}
+
+// Counts what `convert` would do; convert_gltf.cpp says which tangents go.
+void foresee(LintReport& report)
+{
+    for (const MapFit& fit : report.fits)
+        ++(fitsAsItIs(fitOf(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
+    for (const PrimitiveLint& p : report.primitives)
+        report.dropsTangents = report.dropsTangents || (p.stored.present && p.tangentsFor.empty() && !p.unread);
+}
+
+// What to do, given what the command would do.
+std::string advised(const LintReport& report, const Whole& steps)
+{
+    const std::string frame(name(frameOf(report.advice)));
+    const std::string why = report.advice != Advice::convertToSmooth ? ""
+        : fmt::format(" (cotangent steps by up to {:.0f} degrees at edges, 95 %)", steps.percentile95);
+    const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
+    if (report.mapsConverted == 0 && report.dropsTangents)
+        return fmt::format("Read the maps with the frame {} as they are; the command drops the tangents.", frame);
+    if (report.mapsConverted == 0)
+        return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
+    if (report.mapsKept == 0)
+        return fmt::format("Convert the maps to the frame {}{}.{}", frame, why, tangents);
+    return fmt::format("Convert {} of {} maps to the frame {}{}; the others can be read with it as they are.{}", report.mapsConverted,
+                       report.fits.size(), frame, why, tangents);
+}
+
+void adviseWithoutMaps(LintReport& report)
+{
+    if (!report.notJudged.empty())
+        report.advised = "No normal map was judged, so nothing is advised.";
+    else if (report.otherReaders.empty())
+        report.advised = "No primitive has a normal map and uv to read it with: nothing here uses tangents, they can be dropped.";
+    else
+        report.advised = "No primitive has a normal map and uv to read it with: no normal map uses tangents.";
+}
+
+void adviseForMaps(LintReport& report)
+{
+    const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
+    report.seen = seen(report, orthonormal, wholeReading(report, "cotangent"));
+    report.advice = orthonormal.unseen()         ? Advice::readOrthonormal
+        : steps.percentile95 > kCreases95 ? Advice::convertToSmooth
+                                          : Advice::convertToCotangent;
+    foresee(report);
+    report.advised = advised(report, steps);
 }
 
 } // namespace
 
-void recommend(LintReport& report)
+bool distrustStored(const LintReport& report)
 {
-    bool anyMap = false;
-    for (const PrimitiveLint& p : report.primitives)
-        anyMap = anyMap || !p.readings.empty();
-    if (!anyMap) {
-        const std::string others = otherReaders(report);
-        report.recommendation = "No primitive has a normal map and uv to read it with: "
-            + (others.empty() ? std::string("nothing here uses tangents, they can be dropped.")
-                              : "no normal map uses tangents." + others);
-        return;
-    }
-    const std::string notes = defects(report);
-    const Whole orthonormal = wholeReading(report, "orthonormal"), cotangent = wholeReading(report, "cotangent");
-    Whole steps;
-    for (const PrimitiveLint& p : report.primitives)
-        if (!p.readings.empty())
-            steps.add(p.uv.area, p.steps.cotangent);
-    steps.finish();
-    if (orthonormal.mean < kUnseenMean && orthonormal.percentile95 < kUnseen95) {
-        report.advice = Advice::readOrthonormal;
-        report.recommendation = notes
-            + fmt::format("If the maps were made for MikkTSpace, they can be read without tangents with the frame orthonormal, "
-                          "{:.2f} degrees off on average{}. The command drops the tangents and fits those maps to that frame that gain by it.",
-                          orthonormal.mean, worstReading(report, "orthonormal"))
-            + otherReaders(report);
-        return;
-    }
-    const bool creases = steps.percentile95 > kCreases95;
-    report.advice = creases ? Advice::convertToSmooth : Advice::convertToCotangent;
-    report.recommendation = notes
-        + fmt::format("If the maps were made for MikkTSpace, reading them without tangents is {:.1f} degrees off on "
-                      "average (orthonormal; cotangent {:.1f}): convert them to {}{}.",
-                      orthonormal.mean, cotangent.mean, creases ? "smooth" : "cotangent",
-                      creases ? fmt::format(", because cotangent steps by up to {:.0f} degrees at edges (95 %)",
-                                            steps.percentile95) : "")
-        + otherReaders(report);
+    const Stored s = storedShares(report);
+    if (s.reversedW > kMostly && !otherGreen(report).empty())
+        return false;
+    return s.reversedW > kContradicts || s.turned > kContradicts;
 }
 
-} // namespace cotan::lint
+void recommend(LintReport& report)
+{
+    report.otherReaders = otherReaders(report);
+    report.notJudged = notJudged(report);
+    if (std::any_of(report.primitives.begin(), report.primitives.end(), judged)) {
+        report.distrustStored = distrustStored(report);
+        report.defects = defects(report);
+        adviseForMaps(report);
+    } else {
+        adviseWithoutMaps(report);
+    }
+    for (const std::string* sentence : {&report.defects, &report.seen, &report.advised, &report.notJudged, &report.otherReaders})
+        if (!sentence->empty())
+            report.recommendation += (report.recommendation.empty() ? "" : " ") + *sentence;
+}
+
+} // namespace lint
+
+} // namespace cotan

@@ -11,6 +11,7 @@ Spread spreadOf(std::vector<std::pair<double, double>> weighted)
     Spread s;
     if (weighted.empty())
         return s;
+    s.count = weighted.size();
     std::sort(weighted.begin(), weighted.end());
     double total = 0, sum = 0;
     for (const auto& [value, weight] : weighted) {

@@ -36,10 +36,8 @@ StoredTangents storedTangents(const MappedSurface& s)
             angles.emplace_back(degrees, third);
         }
     }
-    if (compared > 0) {
-        result.reversedW /= compared;
-        result.turned /= compared;
-    }
+    result.reversedW /= compared; // of nothing: NaN
+    result.turned /= compared;
     result.angle = spreadOf(std::move(angles));
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
 
 namespace cotan {
@@ -26,10 +27,9 @@ glm::dvec3 storedTexel(const Image& image, int x, int y)
     return {p[0], p[1], p[2]};
 }
 
-f64::cotan_normal_format formatOf(const Material& material)
+f64::cotan_normal_format formatOf(const Material& material, PixelType type)
 {
-    return {material.normalFormat.expansion, material.normalFormat.channels,
-            material.normalFormat.greenAlongV ? 1.0 : -1.0, double(material.normalScale)};
+    return toFormat<f64::cotan_normal_format>(material.normalFormat, type, double(material.normalScale));
 }
 
 int wrappedTexel(double coordinate, int size, Wrap wrap)

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -78,7 +79,7 @@ UvQuality uvQuality(const MappedSurface& s)
         shear.emplace_back(degrees, area);
         gradient.emplace_back(std::max(glm::length(g.u), glm::length(g.v)), area);
     }
-    const double whole = q.area > 0 ? q.area : 1;
+    const double whole = q.area > 0 ? q.area : std::numeric_limits<double>::quiet_NaN();
     q.degenerate /= whole;
     q.mirrored /= whole;
     q.stretched /= whole;

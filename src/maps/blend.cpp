@@ -135,7 +135,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
                 // A detail of no strength is no detail, also for the modes that flatten the base with it.
                 if (b != glm::vec3(0) && d != glm::vec3(0) && mask * s.strength != 0)
                     n = blendTexels(b, d, s.mode);
-                texels[x] = encodeTexel(n, s.to);
+                texels[x] = encodeTexel(n, s.to, s.type);
                 if (s.dither)
                     texels[x] = dithered(texels[x], steps, int(x), s.firstRow + y);
             }

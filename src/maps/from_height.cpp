@@ -93,7 +93,7 @@ Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::s
                 const bool finite = std::isfinite(slope.x) && std::isfinite(slope.y);
                 badHere += !finite;
                 const glm::vec3 normal = finite ? glm::normalize(glm::vec3(-slope, 1)) : glm::vec3(0, 0, 1);
-                texels[x] = encodeTexel(normal, s.to);
+                texels[x] = encodeTexel(normal, s.to, s.type);
                 if (s.dither)
                     texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace cotan::maps {
@@ -16,20 +19,25 @@ namespace {
 constexpr float kLowestZ = 0.17f;
 constexpr double kLikely = 0.12, kCertain = 0.5;  // |agreement|
 constexpr double kLikelyDeviations = 5;
-constexpr double kMostBlocksASide = 16;
+constexpr int kFewestTexels = 100;                // of a picture: noise agrees by chance in smaller ones
+constexpr double kFewest = 4;                     // patches; fewer do not tell their own spread
+constexpr int kRun = 8;                           // texels alike side by side, for the colour between charts
+constexpr double kBetween = 0.02;                 // of all texels in such runs of the commonest colour
 
-// Products of the cross derivatives over the cells of a block.
+// Products of the cross derivatives over the cells of a patch.
 struct Products {
     double ay2 = 0, bx2 = 0, ayBx = 0; // red and green in their places
     double by2 = 0, ax2 = 0, byAx = 0; // exchanged
     double cells = 0;  // looked at
     double active = 0; // with a relief that is not constant: where rounding noise can be
+    double cross = 0, along = 0; // sums of ay^2 + bx^2 and of ax^2 + by^2 as they are, for noise
 
-    void add(const Products& o)
+    void add(const Products& o, double sign = 1)
     {
-        ay2 += o.ay2, bx2 += o.bx2, ayBx += o.ayBx;
-        by2 += o.by2, ax2 += o.ax2, byAx += o.byAx;
-        cells += o.cells, active += o.active;
+        ay2 += sign * o.ay2, bx2 += sign * o.bx2, ayBx += sign * o.ayBx;
+        by2 += sign * o.by2, ax2 += sign * o.ax2, byAx += sign * o.byAx;
+        cells += sign * o.cells, active += sign * o.active;
+        cross += sign * o.cross, along += sign * o.along;
     }
     double agreement() const { return ay2 + bx2 > 0 ? 2 * ayBx / (ay2 + bx2) : 0; }
     double exchanged() const { return by2 + ax2 > 0 ? 2 * byAx / (by2 + ax2) : 0; }
@@ -39,71 +47,66 @@ struct Slope {
     float a = 0, b = 0, weight = 0; // dh/dx, dh/dy upwards; weight 0: skip
 };
 
-Slope slopeOf(const glm::vec3& n)
+struct Derivatives {
+    float ax = 0, ay = 0, bx = 0, by = 0;
+    float energy() const { return ax * ax + ay * ay + bx * bx + by * by; }
+};
+
+Slope slopeOf(const glm::vec3& n, bool xyz)
 {
     const float length = glm::length(n);
-    if (!(length > 0) || n.z < kLowestZ * length)
+    const bool direction = xyz ? usableLength(length) : length > 0 && n.x * n.x + n.y * n.y < 1.1f * length * length;
+    if (!direction || n.z < kLowestZ * length)
         return {};
     const float z = n.z / length;
     return {-n.x / n.z, -n.y / n.z, z * z};
 }
 
-void addRow(const Slope* upper, const Slope* lower, std::size_t first, std::size_t last, Products& sums)
+// The stored bytes of the colour that fills what lies between charts: the one in the most runs. Empty if
+// there is none.
+using Colour = std::string_view;
+
+Colour at(const Image& image, std::size_t i)
 {
-    for (std::size_t x = first; x < last; ++x) {
-        const Slope &p = upper[x], &q = upper[x + 1], &r = lower[x], &s = lower[x + 1];
-        const float weight = p.weight * q.weight * r.weight * s.weight;
-        if (weight == 0)
-            continue;
-        const double ax = 0.5 * (q.a + s.a - p.a - r.a) * weight, ay = 0.5 * (p.a + q.a - r.a - s.a) * weight;
-        const double bx = 0.5 * (q.b + s.b - p.b - r.b) * weight, by = 0.5 * (p.b + q.b - r.b - s.b) * weight;
-        sums.ay2 += ay * ay, sums.bx2 += bx * bx, sums.ayBx += ay * bx;
-        sums.by2 += by * by, sums.ax2 += ax * ax, sums.byAx += by * ax;
-        sums.cells += 1;
-        sums.active += ax != 0 || ay != 0 || bx != 0 || by != 0;
-    }
+    return {reinterpret_cast<const char*>(image.data.data()) + i * image.bytesPerPixel(), image.bytesPerPixel()};
 }
 
-// The slopes of all rows of a strip.
-std::vector<Slope> slopesOf(const Image& strip, const Convention& convention)
+std::string colourBetween(const std::vector<Patch>& patches)
 {
-    std::vector<Slope> slopes(strip.pixelCount());
-    forRowBands(strip.height, [&](int first, int last) {
-        std::vector<glm::vec3> normals(std::size_t(strip.width));
-        for (int y = first; y < last; ++y) {
-            decodeRow(strip, y, convention, normals);
-            std::ranges::transform(normals, slopes.begin() + std::ptrdiff_t(y) * strip.width, slopeOf);
+    std::unordered_map<Colour, std::size_t> inRuns;
+    std::size_t all = 0;
+    for (const Patch& patch : patches) {
+        const std::size_t width = std::size_t(patch.texels.width), count = patch.texels.pixelCount();
+        all += count;
+        for (std::size_t start = 0, i = 0; i < count; start = i) {
+            for (i = start + 1; i < count && i % width != 0 && at(patch.texels, i) == at(patch.texels, start);)
+                ++i;
+            if (i - start >= kRun)
+                inRuns[at(patch.texels, start)] += i - start;
         }
-    });
+    }
+    const auto most = std::ranges::max_element(inRuns, {}, [](const auto& c) { return std::pair(c.second, c.first); });
+    return most != inRuns.end() && double(most->second) > kBetween * double(all) ? std::string(most->first) : std::string();
+}
+
+std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Swizzle swizzle, const std::string& between)
+{
+    Image moved = patch.texels;
+    unswizzle(moved, swizzle);
+    const std::size_t width = std::size_t(moved.width);
+    std::vector<glm::vec3> normals(width);
+    std::vector<glm::vec4> texels(width);
+    std::vector<Slope> slopes(moved.pixelCount());
+    for (int y = 0; y < moved.height; ++y) {
+        loadRow(patch.texels, y, texels);
+        decodeRow(moved, y, convention, normals);
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * width + x;
+            if (!outsideCharts(texels[x]) && at(patch.texels, i) != between)
+                slopes[i] = slopeOf(normals[x], convention.channels == Channels::xyz);
+        }
+    }
     return slopes;
-}
-
-// Spread of a figure of the sum when single blocks are left out (the jackknife).
-template<class Figure> double uncertainty(const std::vector<Products>& blocks, const Products& all, Figure figure)
-{
-    double sum = 0, sum2 = 0, n = 0;
-    for (const Products& b : blocks)
-        if (b.cells > 0) {
-            Products rest = all;
-            rest.ay2 -= b.ay2, rest.bx2 -= b.bx2, rest.ayBx -= b.ayBx;
-            rest.by2 -= b.by2, rest.ax2 -= b.ax2, rest.byAx -= b.byAx;
-            const double f = figure(rest);
-            sum += f, sum2 += f * f, n += 1;
-        }
-    if (n < 2)
-        return 1;
-    return std::sqrt(std::max(0.0, (n - 1) / n * (sum2 - sum * sum / n)));
-}
-
-double votesFor(const std::vector<Products>& blocks, double sign, bool exchanged)
-{
-    double with = 0, all = 0;
-    for (const Products& b : blocks) {
-        const double c = exchanged ? b.byAx : b.ayBx;
-        all += std::abs(c);
-        with += c * sign > 0 ? std::abs(c) : 0;
-    }
-    return all > 0 ? with / all : 0;
 }
 
 // Rounding moves a slope by a twelfth of a squared step; four of them, halved, are in a derivative.
@@ -113,9 +116,73 @@ double noiseOf(PixelType type)
     return step * step / 12;
 }
 
+// Where charts meet, and at folds of the frame that a map was baked for, slopes jump and fit to no relief.
+// A cell's share is held at 1: its energy over itself and the patch's median.
+Products productsOf(const std::vector<Slope>& slopes, std::size_t width, double noise)
+{
+    std::vector<Derivatives> cells;
+    Products sums;
+    for (std::size_t i = 0; i + width + 1 < slopes.size(); ++i) {
+        if (i % width == width - 1)
+            continue;
+        const Slope &p = slopes[i], &q = slopes[i + 1], &r = slopes[i + width], &s = slopes[i + width + 1];
+        const float weight = 0.5f * p.weight * q.weight * r.weight * s.weight;
+        if (weight == 0)
+            continue;
+        sums.cells += 1;
+        const Derivatives d{(q.a + s.a - p.a - r.a) * weight, (p.a + q.a - r.a - s.a) * weight,
+                            (q.b + s.b - p.b - r.b) * weight, (p.b + q.b - r.b - s.b) * weight};
+        if (d.energy() > 0)
+            cells.push_back(d);
+    }
+    if (cells.empty())
+        return sums;
+    sums.active = double(cells.size());
+    std::vector<float> energies(cells.size());
+    std::ranges::transform(cells, energies.begin(), &Derivatives::energy);
+    const auto middle = energies.begin() + std::ptrdiff_t(energies.size() / 2);
+    std::ranges::nth_element(energies, middle);
+    const double typical = double(*middle) + 16 * noise;
+    for (const Derivatives& d : cells) {
+        const double ax = double(d.ax), ay = double(d.ay), bx = double(d.bx), by = double(d.by);
+        const double share = 1 / (double(d.energy()) + typical);
+        sums.ay2 += share * ay * ay, sums.bx2 += share * bx * bx, sums.ayBx += share * ay * bx;
+        sums.by2 += share * by * by, sums.ax2 += share * ax * ax, sums.byAx += share * by * ax;
+        sums.cross += ay * ay + bx * bx, sums.along += ax * ax + by * by;
+    }
+    return sums;
+}
+
+// Spread of a figure of the sum when single patches are left out (the jackknife).
+template<class Figure> double uncertainty(const std::vector<Products>& patches, const Products& all, Figure figure)
+{
+    double sum = 0, sum2 = 0, n = 0;
+    for (const Products& p : patches)
+        if (p.cells > 0) {
+            Products rest = all;
+            rest.add(p, -1);
+            const double f = figure(rest);
+            sum += f, sum2 += f * f, n += 1;
+        }
+    if (n < kFewest)
+        return 1;
+    return std::sqrt(std::max(0.0, (n - 1) / n * (sum2 - sum * sum / n)));
+}
+
+double votesFor(const std::vector<Products>& patches, double sign, bool exchanged)
+{
+    double with = 0, all = 0;
+    for (const Products& p : patches) {
+        const double c = exchanged ? p.byAx : p.ayBx;
+        all += std::abs(c);
+        with += c * sign > 0 ? std::abs(c) : 0;
+    }
+    return all > 0 ? with / all : 0;
+}
+
 std::string unreadable(int width, int height, const NormalStatistics& s)
 {
-    if (width < 3 || height < 3)
+    if (width < 3 || height < 3 || width * std::int64_t(height) < kFewestTexels)
         return "the picture is too small to have a relief";
     switch (s.content) {
     case Content::flat: return "every texel has the same value: there is no relief to judge by";
@@ -140,88 +207,56 @@ Convention reading(const NormalStatistics& s)
     return c;
 }
 
-} // namespace
-
-struct GreenSurvey::State {
-    int width = 0, height = 0;
-    PixelType type = PixelType::unorm8;
-    NormalStatistics statistics;
-    std::string unreadable;
-    int side = 0, across = 0; // of the square blocks, in texels; how many in a row of them
-    std::vector<Products> blocks;
-};
-
-GreenSurvey::GreenSurvey(int width, int height, PixelType type, const NormalStatistics& statistics)
-    : state_(std::make_unique<State>())
+NormalStatistics statisticsOf(const std::vector<Patch>& patches)
 {
-    State& s = *state_;
-    s.width = width, s.height = height, s.type = type, s.statistics = statistics;
-    s.unreadable = unreadable(width, height, statistics);
-    if (!s.unreadable.empty())
-        return;
-    s.side = std::max(8, int(std::ceil(std::max(width, height) / kMostBlocksASide)));
-    s.across = (width - 2) / s.side + 1;
-    s.blocks.resize(std::size_t(s.across) * std::size_t((height - 2) / s.side + 1));
+    MapSurvey survey;
+    for (const Patch& patch : patches)
+        survey.first(patch.texels);
+    for (const Patch& patch : patches)
+        survey.second(patch.texels);
+    return survey.finish();
 }
 
-GreenSurvey::~GreenSurvey() = default;
-
-void GreenSurvey::add(const Image& strip, int firstRow)
+std::vector<Products> productsOf(const std::vector<Patch>& patches, const NormalStatistics& statistics, double noise)
 {
-    State& s = *state_;
-    if (s.blocks.empty())
-        return;
-    Image moved;
-    if (s.statistics.swizzle != Swizzle::rg) {
-        moved = strip;
-        unswizzle(moved, s.statistics.swizzle);
-    }
-    const std::vector<Slope> slopes = slopesOf(moved.width > 0 ? moved : strip, reading(s.statistics));
-    // Columns of blocks side by side; in each the rows follow one another, however they are cut into strips.
-    oneapi::tbb::parallel_for(std::size_t(0), std::size_t(s.across), [&](std::size_t i) {
-        const std::size_t first = i * std::size_t(s.side), last = std::min(first + std::size_t(s.side), std::size_t(s.width - 1));
-        for (int y = 0; y + 1 < strip.height; ++y) {
-            const Slope* upper = slopes.data() + std::size_t(y) * std::size_t(s.width);
-            addRow(upper, upper + s.width, first, last,
-                   s.blocks[std::size_t((firstRow + y) / s.side) * std::size_t(s.across) + i]);
-        }
+    const Convention convention = reading(statistics);
+    const std::string between = colourBetween(patches);
+    std::vector<Products> products(patches.size());
+    oneapi::tbb::parallel_for(std::size_t(0), patches.size(), [&](std::size_t i) {
+        products[i] = productsOf(slopesOf(patches[i], convention, statistics.swizzle, between),
+                                 std::size_t(patches[i].texels.width), noise);
     });
+    return products;
 }
 
-GreenVerdict GreenSurvey::verdict() const
+void decide(GreenVerdict& v, const std::vector<Products>& patches, double noise)
 {
-    GreenVerdict v;
-    v.reason = state_->unreadable;
-    if (!v.reason.empty())
-        return v;
-    const std::vector<Products>& blocks = state_->blocks;
     Products all;
-    for (const Products& b : blocks)
-        all.add(b);
-    v.used = all.cells / (double(state_->width - 1) * double(state_->height - 1));
+    for (const Products& p : patches)
+        all.add(p);
     v.agreement = all.agreement();
     v.exchanged = all.exchanged();
-    const double noise = noiseOf(state_->type) * std::max(all.active, 1.0);
-    if (all.ay2 + all.bx2 + all.by2 + all.ax2 < 6 * noise) {
+    noise *= std::max(all.active, 1.0);
+    if (all.cross + all.along < 6 * noise) {
         v.reason = "the relief is so weak that it drowns in rounding";
-        return v;
+        return;
     }
     // Exchanged channels are believed only when they explain clearly more.
     const bool exchanged = std::abs(v.exchanged) > 0.7 && std::abs(v.exchanged) > std::abs(v.agreement) + 0.25;
     const double best = exchanged ? v.exchanged : v.agreement;
-    const double spread = uncertainty(blocks, all, [&](const Products& p) { return exchanged ? p.exchanged() : p.agreement(); });
+    const double spread = uncertainty(patches, all, [&](const Products& p) { return exchanged ? p.exchanged() : p.agreement(); });
     v.deviations = std::min(std::abs(best) / std::max(spread, 1e-6), 1e3);
     v.residualRatio = (1 + std::abs(best)) / std::max(1 - std::abs(best), 1e-4);
     const double sign = best < 0 ? -1 : 1;
-    v.votes = votesFor(blocks, sign, exchanged);
-    const double cross = exchanged ? all.by2 + all.ax2 : all.ay2 + all.bx2;
-    if (cross < 4 * noise || cross < 0.002 * (all.ay2 + all.bx2 + all.by2 + all.ax2)) {
+    v.votes = votesFor(patches, sign, exchanged);
+    const double cross = exchanged ? all.along : all.cross;
+    if (cross < 4 * noise || cross < 0.002 * (all.cross + all.along)) {
         v.reason = "the relief runs along the rows and columns only: either way of green explains it";
-        return v;
+        return;
     }
     if (std::abs(best) < kLikely || v.deviations < kLikelyDeviations) {
         v.reason = "red and green do not agree on a relief, whichever way green points";
-        return v;
+        return;
     }
     v.green = sign > 0 ? Green::up : Green::down;
     v.confidence = std::abs(best) >= kCertain && v.votes >= 0.8 ? Confidence::certain : Confidence::likely;
@@ -229,14 +264,43 @@ GreenVerdict GreenSurvey::verdict() const
     v.swapped = std::abs(best) > std::abs(other) + 0.15 ? (exchanged ? Swapped::yes : Swapped::no)
                                                         : Swapped::undecidable;
     v.reason = "the slopes in red and green belong to one relief when green points this way";
+}
+
+} // namespace
+
+const char* name(Green g) { return g == Green::up ? "up" : g == Green::down ? "down" : "undecidable"; }
+const char* name(Swapped s) { return s == Swapped::no ? "no" : s == Swapped::yes ? "yes" : "undecidable"; }
+const char* name(Confidence c)
+{
+    return c == Confidence::certain ? "certain" : c == Confidence::likely ? "likely" : "none";
+}
+
+GreenVerdict greenOf(const PatchSampler& sampler)
+{
+    const std::vector<Patch>& patches = sampler.patches();
+    GreenVerdict v;
+    v.sampled = sampler.share();
+    v.statistics = statisticsOf(patches);
+    v.reason = unreadable(sampler.width(), sampler.height(), v.statistics);
+    if (!v.reason.empty())
+        return v;
+    const double noise = noiseOf(sampler.type());
+    const std::vector<Products> products = productsOf(patches, v.statistics, noise);
+    double looked = 0, cells = 0;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        looked += products[i].cells;
+        cells += double(patches[i].texels.width - 1) * double(patches[i].texels.height - 1);
+    }
+    v.used = cells > 0 ? looked / cells : 0;
+    decide(v, products, noise);
     return v;
 }
 
-GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics)
+GreenVerdict greenOf(const Image& image)
 {
-    GreenSurvey survey(image.width, image.height, image.type, statistics);
-    survey.add(image, 0);
-    return survey.verdict();
+    PatchSampler sampler(image.width, image.height, image.type);
+    sampler.add(image, 0);
+    return greenOf(sampler);
 }
 
 } // namespace cotan::maps

@@ -109,7 +109,7 @@ template<class RowOf> MipLevel encoded(int width, int height, const MipSettings&
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const Moments& m = row[x];
                 const glm::vec3 mean = m.share > 0 ? m.normal / m.share : glm::vec3(0);
-                normals[x] = encodeTexel(mean, s.to, s.keepLengths);
+                normals[x] = encodeTexel(mean, s.to, s.type, s.keepLengths);
                 const double r = roughnessOf(m, s);
                 rough[x] = glm::vec4(float(r), float(r), float(r), 1);
                 roughness[std::size_t(y)] += r;

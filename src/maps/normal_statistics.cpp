@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 namespace cotan::maps {
+
+bool outsideCharts(const glm::vec4& t)
+{
+    constexpr float kDark = 8.0f / 255, kBright = 247.0f / 255; // what JPEG leaves of black and white
+    const bool black = std::abs(t.x) <= kDark && std::abs(t.y) <= kDark && std::abs(t.z) <= kDark;
+    return t.w == 0 || black || (t.x >= kBright && t.y >= kBright && t.z >= kBright);
+}
+
+bool usableLength(float length) { return length > 0.5f && length < 1.45f; }
 
 namespace {
 
@@ -16,17 +26,28 @@ constexpr double kConstant = 3.0 / 255; // a channel whose range is less is cons
 
 // Sums over a band of rows; bands are added in their order, so that threads do not matter.
 struct Sums {
-    std::size_t finite = 0, grey = 0;
+    std::size_t all = 0, allGrey = 0;
+    std::size_t finite = 0, grey = 0; // of what is not background
+    std::size_t strange = 0;          // of those: no normal under any reading
     std::array<double, 4> lowest{1e30, 1e30, 1e30, 1e30}, highest{-1e30, -1e30, -1e30, -1e30};
     std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
     std::array<std::size_t, 4> counted{};
     std::size_t signedUnit = 0; // length within 0.1 of 1 as stored
     ChannelRange range;
 
+    void repeat(std::size_t times)
+    {
+        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times;
+        for (std::size_t i = 0; i < 4; ++i)
+            error2[i] *= double(times), counted[i] *= times;
+    }
+
     void add(const Sums& o)
     {
         range.add(o.range);
+        all += o.all, allGrey += o.allGrey;
         finite += o.finite;
+        strange += o.strange;
         grey += o.grey;
         signedUnit += o.signedUnit;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -57,42 +78,74 @@ bool finite(const glm::vec4& t)
     return std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z) && std::isfinite(t.w);
 }
 
+bool allAlike(const Image& image)
+{
+    const std::size_t pixel = image.bytesPerPixel(), bytes = image.pixelCount() * pixel;
+    return bytes > pixel && std::memcmp(image.data.data(), image.data.data() + pixel, bytes - pixel) == 0;
+}
+
+// work(sums, texel, the one to its left). Strips of one colour, which files of some bytes have by the
+// million, cost one texel.
 template<class Band, class Work> void sumBands(const Image& image, Band& all, Work work)
 {
+    if (allAlike(image)) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        loadRow(image, 0, row);
+        Band band;
+        work(band, row[0], row[0]);
+        band.repeat(image.pixelCount());
+        all.add(band);
+        return;
+    }
     std::vector<Band> bands(std::size_t(image.height + 15) / 16);
     forRowBands(image.height, [&](int first, int last) {
         std::vector<glm::vec4> row(std::size_t(image.width));
         for (int y = first; y < last; ++y) {
             loadRow(image, y, row);
-            for (const glm::vec4& t : row)
-                work(bands[std::size_t(first) / 16], t);
+            for (std::size_t x = 0; x < row.size(); ++x)
+                work(bands[std::size_t(first) / 16], row[x], row[x > 0 ? x - 1 : std::min<std::size_t>(1, row.size() - 1)]);
         }
     });
     for (const Band& band : bands)
         all.add(band);
 }
 
+
 void addStoredValues(const Image& image, Sums& sums)
 {
     static const Curve decoded(fromSrgb), encoded(toSrgb);
-    sumBands(image, sums, [](Sums& s, const glm::vec4& t) {
+    const int bits = bitsPerComponent(image.type);
+    const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // of floats: 2c - 1 either way
+    sumBands(image, sums, [=](Sums& s, const glm::vec4& t, const glm::vec4& left) {
+        const bool grey = std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
+        ++s.all;
+        s.allGrey += grey;
+        const glm::vec3 v(t);
+        const glm::vec3 exact = bits == 32 ? v * 2.0f - 1.0f : (v * (top - 1) - middle) / (middle - 1);
+        // What is alike and no normal is a field of one colour; but floats may be signed.
+        if (outsideCharts(t) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
+            return;
         s.range.add(t);
         if (!finite(t))
             return;
         ++s.finite;
-        s.grey += std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
+        s.grey += grey;
         for (int c = 0; c < 4; ++c) {
             s.lowest[std::size_t(c)] = std::min(s.lowest[std::size_t(c)], double(t[c]));
             s.highest[std::size_t(c)] = std::max(s.highest[std::size_t(c)], double(t[c]));
         }
-        const glm::vec3 v(t);
         s.signedUnit += std::abs(glm::length(v) - 1) < 0.1f;
-        const glm::vec3 readings[] = {(v * 255.0f - 128.0f) / 127.0f, v * 2.0f - 1.0f,
+        const glm::vec3 readings[] = {exact, v * 2.0f - 1.0f,
                                       glm::vec3(decoded(v.x), decoded(v.y), decoded(v.z)) * 2.0f - 1.0f,
                                       glm::vec3(encoded(v.x), encoded(v.y), encoded(v.z)) * 2.0f - 1.0f};
+        std::array<float, 4> lengths{};
+        std::ranges::transform(readings, lengths.begin(), [](const glm::vec3& r) { return glm::length(r); });
+        if (bits != 32 && std::ranges::none_of(lengths, usableLength)) { // floats may be signed
+            ++s.strange;
+            return;
+        }
         for (std::size_t i = 0; i < 4; ++i) {
-            const double length = glm::length(readings[i]);
-            s.error2[i] += (length - 1) * (length - 1);
+            s.error2[i] += (lengths[i] - 1.0) * (lengths[i] - 1.0);
             ++s.counted[i];
         }
     });
@@ -127,14 +180,23 @@ Centre centreOf(const Sums& s)
 }
 
 struct Directions {
-    std::size_t valid = 0, below = 0, outside = 0, shortened = 0;
+    std::size_t valid = 0, below = 0, outside = 0, shortened = 0, background = 0;
     double length = 0, error2 = 0, tilt = 0;
     std::array<double, 3> sum{};
     std::array<std::size_t, 9> histogram{};
 
+    void repeat(std::size_t times)
+    {
+        valid *= times, below *= times, outside *= times, shortened *= times, background *= times;
+        length *= double(times), error2 *= double(times), tilt *= double(times);
+        for (double& s : sum)
+            s *= double(times);
+        for (std::size_t& h : histogram)
+            h *= times;
+    }
     void add(const Directions& o)
     {
-        valid += o.valid, below += o.below, outside += o.outside, shortened += o.shortened;
+        valid += o.valid, below += o.below, outside += o.outside, shortened += o.shortened, background += o.background;
         length += o.length, error2 += o.error2, tilt += o.tilt;
         for (std::size_t i = 0; i < 3; ++i)
             sum[i] += o.sum[i];
@@ -146,13 +208,23 @@ struct Directions {
 void addDirections(const Image& image, const Convention& convention, Transfer transfer, Directions& sums)
 {
     static const Curve decoded(fromSrgb), encoded(toSrgb);
-    sumBands(image, sums, [&](Directions& d, glm::vec4 t) {
+    const bool xyz = convention.channels == Channels::xyz;
+    sumBands(image, sums, [&](Directions& d, glm::vec4 t, const glm::vec4& left) {
+        if (outsideCharts(t)) {
+            ++d.background;
+            return;
+        }
+        const bool alike = t == left;
         if (transfer != Transfer::linear && finite(t)) {
             const Curve& curve = transfer == Transfer::srgb ? decoded : encoded;
             t = {curve(t.x), curve(t.y), curve(t.z), t.w};
         }
-        const glm::vec3 n = decodeTexel(t, convention);
+        const glm::vec3 n = decodeTexel(t, convention, image.type);
         const float length = glm::length(n);
+        if (alike && (xyz ? !usableLength(length) : n.x * n.x + n.y * n.y > 1.2f)) { // a field of one colour
+            ++d.background;
+            return;
+        }
         if (!(length >= kShortest))
             return;
         ++d.valid;
@@ -178,14 +250,19 @@ Content twoChannelContent(const NormalStatistics& s)
 
 Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue, bool constantAll)
 {
+    if (s.swizzle != Swizzle::rg)
+        return twoChannelContent(s);
+    // Black and white belong to a grey picture; around charts they do not make one.
+    if (share(sums.allGrey, sums.all) > 0.97 && (sums.finite == 0 || share(sums.grey, sums.finite) > 0.97))
+        return Content::grey;
     if (sums.finite == 0)
-        return Content::other;
+        return s.background == 1 ? Content::flat : Content::other;
     if (constantAll)
         return Content::flat;
-    if (s.swizzle != Swizzle::rg || constantBlue)
+    if (constantBlue)
         return twoChannelContent(s);
-    if (share(sums.grey, sums.finite) > 0.97)
-        return Content::grey;
+    if (share(sums.strange, sums.finite) > 0.1)
+        return Content::other;
     if (s.belowHorizon > 0.1)
         return s.lengthSpread < 0.2 ? Content::objectSpace : Content::other;
     return s.lengthSpread < 0.25 ? Content::tangentSpace : Content::other;
@@ -199,6 +276,7 @@ struct MapSurvey::State {
     Directions d;
     PixelType type = PixelType::unorm8;
     Convention read;
+    Image texel; // the first one, while all are alike; no data afterwards
     bool two = false, constantAll = false, between = false;
 
     void afterFirst();
@@ -240,10 +318,21 @@ MapSurvey::~MapSurvey() = default;
 
 void MapSurvey::first(const Image& strip)
 {
-    state_->type = strip.type;
-    state_->s.texels += strip.pixelCount();
-    addStoredValues(strip, state_->sums);
+    State& s = *state_;
+    s.type = strip.type;
+    const std::size_t pixel = strip.bytesPerPixel();
+    if (s.s.texels == 0) {
+        s.texel = makeImage(1, 1, strip.type);
+        std::memcpy(s.texel.data.data(), strip.data.data(), pixel);
+    }
+    const bool alike = strip.pixelCount() == 1 || allAlike(strip);
+    if (!s.texel.data.empty() && !(alike && std::memcmp(s.texel.data.data(), strip.data.data(), pixel) == 0))
+        s.texel.data.clear();
+    s.s.texels += strip.pixelCount();
+    addStoredValues(strip, s.sums);
 }
+
+bool MapSurvey::oneColour() const { return !state_->texel.data.empty(); }
 
 void MapSurvey::second(const Image& strip)
 {
@@ -259,9 +348,14 @@ void MapSurvey::second(const Image& strip)
 
 NormalStatistics MapSurvey::finish()
 {
+    if (!state_->between && oneColour()) { // the second pass would tell what this texel tells
+        second(state_->texel);
+        state_->d.repeat(state_->s.texels);
+    }
     NormalStatistics& s = state_->s;
     const Directions& d = state_->d;
-    s.invalid = 1 - share(d.valid, s.texels);
+    s.background = share(d.background, s.texels);
+    s.invalid = share(s.texels - d.background - d.valid, s.texels);
     s.belowHorizon = share(d.below, d.valid);
     s.outsideDisc = share(d.outside, d.valid);
     s.shortened = share(d.shortened, d.valid);
@@ -275,7 +369,7 @@ NormalStatistics MapSurvey::finish()
         for (std::size_t i = 0; i < 9; ++i)
             s.tilt[i] = share(d.histogram[i], d.valid);
     }
-    s.content = contentOf(s, state_->sums, state_->two, state_->constantAll);
+    s.content = oneColour() ? Content::flat : contentOf(s, state_->sums, state_->two, state_->constantAll);
     if (s.signedStored && s.content == Content::tangentSpace)
         s.content = Content::signedValues;
     return s;

@@ -53,10 +53,10 @@ Tables tablesOf(const RecodeSettings& s)
         for (int code = 0; code < 256; ++code) {
             glm::vec4 texel(0, 0, 0, 1);
             texel[k] = float(code) * (1.0f / 255);
-            const float value = decodeTexel(texel, s.from)[k];
+            const float value = decodeTexel(texel, s.from, PixelType::unorm8)[k];
             glm::vec3 normal(k == 2 ? 1.0f : 0.0f, 0, 1);
             normal[k] = value;
-            row[std::size_t(code)] = encodeTexel(normal, s.to, true);
+            row[std::size_t(code)] = encodeTexel(normal, s.to, PixelType::unorm8, true);
             t.square[std::size_t(k)][std::size_t(code)] = value * value;
         }
         storeRow(out, 0, row);
@@ -84,7 +84,7 @@ Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts&
 {
     const Tables tables = tablesOf(s);
     Image flatTexel = makeImage(1, 1, PixelType::unorm8);
-    const glm::vec4 encoded = encodeTexel(glm::vec3(0), s.to, true);
+    const glm::vec4 encoded = encodeTexel(glm::vec3(0), s.to, PixelType::unorm8, true);
     storeRow(flatTexel, 0, std::span(&encoded, 1));
     const std::uint8_t* f = flatTexel.bytes8();
     const std::array<std::uint8_t, 3> flat{f[0], f[1], f[2]};
@@ -146,7 +146,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 // A change of strength changes the length too; what was unit is unit again.
                 const bool keepLength = !s.normalise && s.strength == 1.0f && s.from.channels == Channels::xyz;
                 const float alpha = keepAlpha ? texels[x].w : 1.0f;
-                texels[x] = encodeTexel(n, s.to, keepLength);
+                texels[x] = encodeTexel(n, s.to, s.type, keepLength);
                 texels[x].w = alpha;
                 if (s.dither)
                     texels[x] = dithered(texels[x], most, int(x), s.firstRow + y);

@@ -23,9 +23,9 @@ bool finite(const glm::vec3& v)
 }
 
 // cotan_decode with "along v" read as "up the picture".
-f32::cotan_normal_format pictureFormat(const Convention& c)
+f32::cotan_normal_format pictureFormat(const Convention& c, PixelType type)
 {
-    f32::cotan_normal_format format = toFormat<f32::cotan_normal_format>(c);
+    f32::cotan_normal_format format = toFormat<f32::cotan_normal_format>(c, 1, bitsPerComponent(type));
     format.green = c.greenUp ? 1.0f : -1.0f;
     return format;
 }
@@ -139,9 +139,9 @@ void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
     }
 }
 
-glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention)
+glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, PixelType type)
 {
-    return decode(texel, pictureFormat(convention));
+    return decode(texel, pictureFormat(convention, type));
 }
 
 void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals)
@@ -149,16 +149,16 @@ void decodeRow(const Image& image, int row, const Convention& convention, std::s
     thread_local std::vector<glm::vec4> texels;
     texels.resize(normals.size());
     loadRow(image, row, texels);
-    const auto format = pictureFormat(convention);
+    const auto format = pictureFormat(convention, image.type);
     for (std::size_t i = 0; i < normals.size(); ++i)
         normals[i] = decode(texels[i], format);
 }
 
-glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, bool keepLength)
+glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength)
 {
     if (!finite(normal) || glm::dot(normal, normal) < kShortest * kShortest)
         normal = glm::vec3(0, 0, 1);
-    const auto format = pictureFormat(convention);
+    const auto format = pictureFormat(convention, type);
     if (keepLength && convention.channels == Channels::xyz) {
         const int e = format.expansion;
         return {f32::cotan_compress(normal.x, e), f32::cotan_compress(normal.y * format.green, e),
@@ -180,8 +180,8 @@ void forRowBands(int height, const std::function<void(int first, int last)>& wor
 double quantisationDegrees(const Convention& convention, int bits, double tilt)
 {
     // Half a step in each stored component, as a signed number.
-    const double scale = convention.expansion == Expansion::exact ? 255.0 / 127 : 2.0;
-    const double half = bits >= 32 ? 3e-7 : 0.5 * scale / (std::pow(2.0, bits) - 1);
+    const double codes = std::pow(2.0, bits);
+    const double half = bits >= 32 ? 3e-7 : convention.expansion == Expansion::exact ? 1 / (codes - 2) : 1 / (codes - 1);
     const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
     // Tangential part of the error, to first order:
     double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst

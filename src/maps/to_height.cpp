@@ -209,40 +209,136 @@ template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSetti
     return invalid;
 }
 
+using Row = std::vector<glm::vec2>;
+
+// The share of the neighbours above, in the middle and below, that a kernel takes across its derivative.
+std::array<float, 3> sharesAcross(Kernel kernel)
+{
+    if (kernel == Kernel::sobel)
+        return {0.25f, 0.5f, 0.25f};
+    if (kernel == Kernel::scharr)
+        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
+    return {0, 1, 0};
+}
+
+// Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
+// has the other sign.
+glm::vec2 slopeAt(const Row* const rows[3], int x, int dy, int width, bool top, bool bottom)
+{
+    const bool outsideY = (dy < 0 && top) || (dy > 0 && bottom), outsideX = x < 0 || x >= width;
+    const glm::vec2 s = (*rows[outsideY ? 1 : 1 + dy])[std::size_t(std::clamp(x, 0, width - 1))];
+    return {outsideX ? -s.x : s.x, outsideY ? -s.y : s.y};
+}
+
+// The transpose of what makes slopes of heights: minus the divergence, as the kernel has it.
+float transposed(Kernel kernel, const Row* const rows[3], int x, int width, bool top, bool bottom)
+{
+    const auto at = [&](int dx, int dy) { return slopeAt(rows, x + dx, dy, width, top, bottom); };
+    if (kernel == Kernel::forward) { // no slope leaves the last column, none enters the first row from above
+        const float right = x + 1 < width ? at(0, 0).x : 0, left = x > 0 ? at(-1, 0).x : 0;
+        return left - right + (top ? 0 : at(0, 0).y) - (bottom ? 0 : at(0, 1).y);
+    }
+    const auto shares = sharesAcross(kernel);
+    float sum = 0;
+    for (int k = -1; k <= 1; ++k)
+        sum += 0.5f * shares[std::size_t(k + 1)] * (at(-1, k).x - at(1, k).x + at(k, -1).y - at(k, 1).y);
+    return sum;
+}
+
+// The slope that a kernel makes of heights, to the right and down the picture; clamped at the borders.
+glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y, int width, int height)
+{
+    const auto at = [&](int dx, int dy) {
+        return heights[std::size_t(std::clamp(y + dy, 0, height - 1)) * std::size_t(width) + std::size_t(std::clamp(x + dx, 0, width - 1))];
+    };
+    if (kernel == Kernel::forward)
+        return {at(1, 0) - at(0, 0), at(0, 0) - at(0, -1)};
+    const auto shares = sharesAcross(kernel);
+    glm::vec2 sum(0);
+    for (int k = -1; k <= 1; ++k)
+        sum += 0.5f * shares[std::size_t(k + 1)] * glm::vec2(at(1, k) - at(-1, k), at(k, 1) - at(k, -1));
+    return sum;
+}
+
+// In place: from the right side of the normal equations to the heights. power(x, y): what the slopes keep of a
+// cosine of that frequency; not above 0: nothing.
+template<class PowerOf> void divide(std::vector<float>& h, int width, int height, PowerOf power)
+{
+    transformCosine(h, width, height, false);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double p = power(std::numbers::pi * x / width, std::numbers::pi * y / height);
+            float& v = h[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+            v = p > 0 ? float(double(v) / p) : 0.0f;
+        }
+    transformCosine(h, width, height, true);
+}
+
+// The wanted differences between neighbours are the means of their slopes; none across the border. Minus their
+// divergence, and what a height leaves of the two that begin at a texel.
+void solveFreeSpectral(const Image& map, const ToHeightSettings& s, Heights& result)
+{
+    const std::size_t width = std::size_t(map.width), height = std::size_t(map.height);
+    std::vector<float>& h = result.texels;
+    result.invalid = eachSlope(map, s, [&](std::size_t x, int y, const Row& above, const Row& here, const Row& below) {
+        float d = 0;
+        d -= x + 1 < width ? 0.5f * (here[x].x + here[x + 1].x) : 0;
+        d += x > 0 ? 0.5f * (here[x - 1].x + here[x].x) : 0;
+        d -= std::size_t(y) + 1 < height ? 0.5f * (here[x].y + below[x].y) : 0;
+        d += y > 0 ? 0.5f * (above[x].y + here[x].y) : 0;
+        h[std::size_t(y) * width + x] = d;
+    });
+    divide(h, map.width, map.height, [](double x, double y) { return 4 - 2 * std::cos(x) - 2 * std::cos(y); });
+}
+
+double residualSpectral(const std::vector<float>& h, std::size_t x, std::size_t y, std::size_t width, std::size_t height,
+                        const Row& here, const Row& below)
+{
+    const float* at = h.data() + y * width + x;
+    double sum = 0;
+    if (x + 1 < width)
+        sum += std::pow(double(at[1] - at[0] - 0.5f * (here[x].x + here[x + 1].x)), 2);
+    if (y + 1 < height)
+        sum += std::pow(double(at[width] - at[0] - 0.5f * (here[x].y + below[x].y)), 2);
+    return sum;
+}
+
+// Least squares over the kernel's slopes of heights that are clamped at the borders.
+void solveFreeKernel(const Image& map, const ToHeightSettings& s, Heights& result)
+{
+    const int width = map.width, height = map.height;
+    result.invalid = eachSlope(map, s, [&](std::size_t x, int y, const Row& above, const Row& here, const Row& below) {
+        const Row* const rows[3] = {&above, &here, &below};
+        result.texels[std::size_t(y) * std::size_t(width) + x] =
+            transposed(s.kernel, rows, int(x), width, y == 0, y == height - 1);
+    });
+    divide(result.texels, width, height, [&](double x, double y) {
+        const auto [dx, dy] = response(s.kernel, x, y);
+        const double power = std::norm(dx) + std::norm(dy);
+        return power > kLeast * (x * x + y * y) ? power : 0;
+    });
+}
+
 void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
 {
-    using Row = std::vector<glm::vec2>;
     const std::size_t width = std::size_t(map.width), height = std::size_t(map.height);
     std::vector<float>& h = result.texels;
     h.resize(map.pixelCount());
-    // The divergence of the wanted differences; none across the border.
-    result.invalid = eachSlope(map, s, [&](std::size_t x, int y, const Row& above, const Row& here, const Row& below) {
-        float d = 0;
-        d += x + 1 < width ? 0.5f * (here[x].x + here[x + 1].x) : 0;
-        d -= x > 0 ? 0.5f * (here[x - 1].x + here[x].x) : 0;
-        d += std::size_t(y) + 1 < height ? 0.5f * (here[x].y + below[x].y) : 0;
-        d -= y > 0 ? 0.5f * (above[x].y + here[x].y) : 0;
-        h[std::size_t(y) * width + x] = d;
-    });
-    transformCosine(h, map.width, map.height, false);
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = 0; x < width; ++x) {
-            const double eigenvalue = 2 * std::cos(std::numbers::pi * double(x) / double(width))
-                + 2 * std::cos(std::numbers::pi * double(y) / double(height)) - 4;
-            float& v = h[y * width + x];
-            v = x == 0 && y == 0 ? 0.0f : float(double(v) / eigenvalue);
-        }
-    transformCosine(h, map.width, map.height, true);
+    const bool spectral = s.kernel == Kernel::spectral;
+    spectral ? solveFreeSpectral(map, s, result) : solveFreeKernel(map, s, result);
 
     std::vector<Power> rows(height);
     std::vector<glm::dvec2> sums(height, glm::dvec2(0));
     eachSlope(map, s, [&](std::size_t x, int y, const Row&, const Row& here, const Row& below) {
-        const float* at = h.data() + std::size_t(y) * width + x;
         Power& power = rows[std::size_t(y)];
-        if (x + 1 < width)
-            power.residual += std::pow(double(at[1] - at[0] - 0.5f * (here[x].x + here[x + 1].x)), 2);
-        if (std::size_t(y) + 1 < height)
-            power.residual += std::pow(double(at[width] - at[0] - 0.5f * (here[x].y + below[x].y)), 2);
+        if (spectral) {
+            power.residual += residualSpectral(h, x, std::size_t(y), width, height, here, below);
+        } else {
+            const glm::dvec2 off = here[x] - slopeOf(s.kernel, h, int(x), y, map.width, map.height);
+            const bool forward = s.kernel == Kernel::forward; // whose last column and first row have no slope
+            power.residual += forward && x + 1 == width ? 0 : off.x * off.x;
+            power.residual += forward && y == 0 ? 0 : off.y * off.y;
+        }
         power.slope += double(glm::dot(here[x], here[x]));
         sums[std::size_t(y)] += glm::dvec2(here[x]);
     });

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "cotan/portable.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
 
 namespace cotan::reference {
@@ -136,7 +137,8 @@ MipChain makeMipChain(const Image& image, Content content, NormalMapFormat store
     MipChain chain{&image, content, {}};
     if (!withLevels)
         return chain;
-    f32::cotan_normal_format format{stored.expansion, stored.channels, 1.0f, 1.0f};
+    stored.greenAlongV = true; // green as it is stored
+    const auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
     std::vector<glm::vec4> before, averages;
     int width = image.width, height = image.height;
     while (width > 1 || height > 1) {

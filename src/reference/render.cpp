@@ -1,6 +1,7 @@
 #include "cotan/reference/render.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <new>
 #include <optional>
@@ -112,15 +113,19 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
             storePixel(picture, x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
 }
 
-Image draw(const Scene& scene, const View& view)
+Image draw(const Scene& scene, const View& view, const std::function<void(double)>& progress)
 {
     bool bytes = view.output == Output::shaded && !view.linearOutput;
     Image picture = makeImage(view.width, view.height,
                               bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
     Frozen frozen = prepare(scene, view);
-    oneapi::tbb::parallel_for(
-        std::size_t(0), frozen.tiled.tiles.size(),
-        [&](std::size_t index) { drawTile(scene, view, frozen, index, picture); });
+    const std::size_t tiles = frozen.tiled.tiles.size();
+    std::atomic<std::size_t> done = 0;
+    oneapi::tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t index) {
+        drawTile(scene, view, frozen, index, picture);
+        if (progress)
+            progress(double(++done) / double(tiles));
+    });
     return picture;
 }
 
@@ -150,7 +155,7 @@ std::optional<Error> checkView(const View& view)
 
 } // namespace
 
-Result<Image> renderReference(const Scene& scene, const View& view, int threads)
+Result<Image> renderReference(const Scene& scene, const View& view, int threads, const std::function<void(double)>& progress)
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
@@ -158,7 +163,7 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads)
         return ok.error();
     try {
         std::optional<Image> picture;
-        onThreads(threads, [&] { picture = draw(scene, view); });
+        onThreads(threads, [&] { picture = draw(scene, view, progress); });
         return std::move(*picture);
     } catch (const TooManyLayers&) {
         return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)

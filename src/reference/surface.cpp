@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"
+#include "cotan/scene/normal_format.hpp"
 
 namespace cotan::reference {
 
@@ -108,12 +109,6 @@ f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3
 glm::vec3 finiteOrZero(glm::vec3 v)
 {
     return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0);
-}
-
-f32::cotan_normal_format decodingOf(const Material& material)
-{
-    return {material.normalFormat.expansion, material.normalFormat.channels,
-            material.normalFormat.greenAlongV ? 1.0f : -1.0f, material.normalScale};
 }
 
 // The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
@@ -224,7 +219,9 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     if (result.mapped) {
         glm::vec4 texel =
             sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
-        glm::vec3 m = f32::cotan_decode(glm::vec3(texel), decodingOf(material));
+        glm::vec3 m = f32::cotan_decode(
+            glm::vec3(texel), toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
+                                                                 double(material.normalScale)));
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));

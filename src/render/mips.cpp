@@ -10,6 +10,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "cotan/portable.hpp"
+#include "cotan/scene/normal_format.hpp"
 
 namespace cotan {
 
@@ -27,9 +28,12 @@ struct FloatLevel {
     vec4* row(int y) { return texels.data() + std::size_t(y) * std::size_t(width); }
 };
 
-f32::cotan_normal_format portableFormat(const NormalMapFormat& format)
+// Green as it is stored: levels are made in the map's own terms.
+f32::cotan_normal_format portableFormat(const MipRequest& request)
 {
-    return {format.expansion, format.channels, 1.0f, 1.0f};
+    NormalMapFormat format = request.normalFormat;
+    format.greenAlongV = true;
+    return toFormat<f32::cotan_normal_format>(format, request.image->type);
 }
 
 vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
@@ -249,7 +253,7 @@ void addFinestLevel(MipChain& chain, const MipRequest& request)
 FloatLevel firstHalf(const MipRequest& request)
 {
     const Image& image = *request.image;
-    const f32::cotan_normal_format format = portableFormat(request.normalFormat);
+    const f32::cotan_normal_format format = portableFormat(request);
     std::vector<vec4> row(static_cast<std::size_t>(image.width));
     int loaded = -1; // an odd height asks for its middle rows twice in a row
     return halved(image.width, image.height, [&](int y) {
@@ -266,7 +270,7 @@ FloatLevel firstHalf(const MipRequest& request)
 
 void addSmallerLevel(MipChain& chain, const MipRequest& request, const FloatLevel& level)
 {
-    const f32::cotan_normal_format format = portableFormat(request.normalFormat);
+    const f32::cotan_normal_format format = portableFormat(request);
     const bool normal = request.kind == TextureKind::normal;
     addLevel(chain, level.width, level.height, [&](std::size_t i) {
         return normal ? encodedNormal(level.texels[i], format) : level.texels[i];

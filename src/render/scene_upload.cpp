@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cotan/convention.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "gpu_structs.hpp"
 #include "view_data.hpp"
@@ -169,8 +170,10 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
     return maps;
 }
 
-gpu::CotanMaterial materialConstants(const Material& m, const Textures& textures)
+gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, const Textures& textures)
 {
+    const bool mapped = m.normalMap.present() && std::size_t(m.normalMap.image) < scene.images.size();
+    const PixelType type = mapped ? scene.images[std::size_t(m.normalMap.image)].type : PixelType::unorm8;
     const auto use = [&](const Texture& texture, TextureKind kind) {
         return useConstants(texture, textures.present(texture, kind, m.normalFormat));
     };
@@ -178,7 +181,7 @@ gpu::CotanMaterial materialConstants(const Material& m, const Textures& textures
     g.baseColor = m.baseColor;
     g.emissive = gpu::vec4(m.emissive, m.alphaCutoff);
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
-    g.normalMap = gpu::ivec4(m.normalFormat.expansion, m.normalFormat.channels,
+    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)), m.normalFormat.channels,
                              m.normalFormat.greenAlongV ? 1 : -1, m.unlit ? 1 : 0);
     g.baseColorMap = use(m.baseColorMap, TextureKind::color);
     g.metallicRoughnessMap = use(m.metallicRoughnessMap, TextureKind::data);
@@ -282,7 +285,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 
     for (std::size_t i = 0; i < count; ++i) {
         const Material& m = scene.materials[i];
-        const gpu::CotanMaterial constants = materialConstants(m, textures_);
+        const gpu::CotanMaterial constants = materialConstants(scene, m, textures_);
         uploader.buffer(materialBuffer_, i * stride, bytesOf(std::span(&constants, 1)));
         const auto use = [&](const Texture& texture, TextureKind kind) {
             return MapUse{texture.sampler, textures_.view(texture, kind, m.normalFormat)};

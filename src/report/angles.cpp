@@ -105,7 +105,7 @@ double shareOpposed(const std::vector<float>& degrees)
         compared += d >= 0;
         opposed += d > 90;
     }
-    return compared ? double(opposed) / double(compared) : 0;
+    return compared > 0 ? double(opposed) / double(compared) : kOfNothing;
 }
 
 Image heatMap(const std::vector<float>& degrees, int width, int height)

@@ -144,11 +144,14 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
 nlohmann::ordered_json toJson(const std::vector<Measurement>& rows)
 {
     auto list = nlohmann::ordered_json::array();
-    for (const Measurement& m : rows)
+    for (const Measurement& m : rows) {
+        const bool any = m.samples > 0 && m.invalid < 1; // finite results
+        const auto figure = [&](double degrees) { return any ? nlohmann::ordered_json(degrees) : nlohmann::ordered_json(); };
         list.push_back({{"table", m.table}, {"scene", m.scene}, {"setting", m.setting}, {"frame", m.frame},
                         {"truth", m.truth}, {"arithmetic", m.arithmetic}, {"samples", m.samples},
-                        {"mean", m.mean}, {"percentile95", m.percentile95}, {"maximum", m.maximum},
+                        {"mean", figure(m.mean)}, {"percentile95", figure(m.percentile95)}, {"maximum", figure(m.maximum)},
                         {"invalid", m.invalid}});
+    }
     return list;
 }
 

@@ -85,6 +85,8 @@ AngleStatistics AngleHistogram::statistics() const
 
 std::string toText(const AngleStatistics& s)
 {
+    if (s.count == 0)
+        return "nothing was compared";
     return fmt::format("mean {:.3f}, median {:.3f}, 95 % {:.3f}, 99 % {:.3f}, max {:.2f} degrees; "
                        "over 1: {:.1f} %, over 5: {:.1f} %",
                        s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100,

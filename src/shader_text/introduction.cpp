@@ -35,6 +35,7 @@ std::string_view expansionText(Expansion e)
 {
     switch (e) {
     case Expansion::exact: return "(255c - 128)/127";
+    case Expansion::exact16: return "(65535c - 32768)/32767";
     case Expansion::biased: return "2c - 1";
     case Expansion::signedValues: break;
     }
@@ -125,8 +126,9 @@ std::string limits(const Choice& choice, Form form)
     if (form == Form::fused)
         text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
-                "//   non-finite input and normals shorter than 0.01. (Longest position difference) * (longest\n"
-                "//   uv difference) within 1e-12 .. 1e5, each within 1e-9 .. 1e6.\n";
+                "//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest\n"
+                "//   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within\n"
+                "//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).\n";
     else if (choice.frame == Frame::mikktspace)
         text += "//   Zero vectors give the interpolated normal as it is, and so does one that is not finite.\n";
     else if (info(choice.frame).total)

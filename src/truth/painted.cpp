@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cotan/portable.hpp"
 #include "cotan/truth/quad.hpp"
 #include "cotan/truth/tessellation.hpp"
 
@@ -10,10 +11,9 @@ namespace cotan {
 
 namespace {
 
-std::uint16_t toWord(double component) // the exact expansion, see cotan_compress
+std::uint16_t toWord(double component)
 {
-    const double c = (component * 127 + 128) / 255;
-    return std::uint16_t(std::lround(std::clamp(c, 0.0, 1.0) * 65535));
+    return std::uint16_t(std::lround(f64::cotan_compress(component, COTAN_EXPAND_EXACT16) * 65535));
 }
 
 Image slopeMap(glm::dvec2 origin, double side, int pixels)

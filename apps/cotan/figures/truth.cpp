@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "cotan/portable.hpp"
 #include "cotan/report/angles.hpp"
 
 namespace cotan::app {
@@ -87,7 +88,7 @@ Image heightMap16(const Height& height, int side)
             const HeightSample h = height((column + 0.5) / side, (row + 0.5) / side);
             const glm::dvec3 m = glm::normalize(glm::dvec3(-h.hu, h.hv, 1));
             for (int k = 0; k < 3; ++k)
-                texel[k] = std::uint16_t(std::lround((127 * m[k] + 128) / 255 * 65535));
+                texel[k] = std::uint16_t(std::lround(f64::cotan_compress(m[k], COTAN_EXPAND_EXACT16) * 65535));
             texel[3] = 65535;
         }
     return image;

@@ -53,7 +53,8 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene);
 // ---- geometry -------------------------------------------------------------------------------
 
 // One primitive as a triangle list. Attributes are as the file has them, dequantised but not
-// normalised; arrays are empty or have one entry a vertex. Morph targets and skins are not applied.
+// normalised; arrays are empty or have one entry a vertex. Vertices that no triangle uses are left
+// out. Morph targets and skins are not applied.
 struct GltfGeometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -63,7 +64,8 @@ struct GltfGeometry {
     int texcoordSet = 0;                // which uv set that is
 };
 
-// mesh, primitive: indices into `root`. Points and lines give a geometry without indices.
+// mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
+// empty geometry.
 // Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh,
                                   std::size_t primitive);
@@ -96,7 +98,8 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
                                               const LoadLimits& limits = {});
 
 // New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg".
-// The bytes go into the buffer, whatever the image was before; its name and extras are kept.
+// Whatever the image was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras
+// are kept.
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType);
 
@@ -121,7 +124,8 @@ struct GltfWritten {
 };
 
 // Writes NAME.glb (one file: image files are embedded) or NAME.gltf with NAME.bin; then images keep
-// their relative URIs and are copied if the folder is another one. All buffers become one.
+// their relative URIs and are copied if the folder is another one, and new ones become files NAME-IMAGE.png or .jpg,
+// with a number where another file has that name. All buffers become one.
 // Accessors, views, images and bytes that the file used and now nothing uses are removed, and all
 // indices follow; where an extension that we do not know might refer to them, they are kept, and a
 // note says so. Whatever fails, nothing is left behind.

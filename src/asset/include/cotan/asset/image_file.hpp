@@ -13,6 +13,10 @@
 
 namespace cotan {
 
+// "WebP", "KTX2", "DDS" or "AVIF" for the first bytes of such a file, which extensions of glTF name as images and
+// nothing here reads for a model; empty for all else.
+std::string foreignFormat(std::span<const std::byte> bytes);
+
 // Reads an image file. 8-bit files become unorm8, 16-bit ones unorm16, half and float float32.
 // The stored values are kept: no colour conversion, no premultiplication.
 // Errors (ErrorKind::input): not an image, broken or short data, a wrong checksum, a size of zero

@@ -73,7 +73,8 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
 // The normals of the high surface as a picture of the low one should show them: through each pixel's
 // centre to the low surface, from there as bake() does. float32, alpha 1 where both were found.
 // A second way to the same places: by rays from the eye instead of texels of a raster.
-Image expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
+// Errors: those of HighSurface::make, for the low surface.
+Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
 
 // Fills texels without a value from the nearest one that has one, up to `radius` texels away (0: no
 // limit), ties to the upper, then the left. So every texel belongs to its nearest chart.

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,10 @@ Status planOutput(const std::string& option, const std::filesystem::path& file);
 // To be called by all that read files, before they do. Errors: ErrorKind::usage where an output that is planned or
 // being written would replace the file. Outputs that are finished may be read again.
 Status noteInput(const std::filesystem::path& file);
+
+// Tells the watcher of every input, whether the account is on or not: how a process that reads for another one can tell
+// that one. Set it while there is one thread.
+void watchInputs(std::function<void(const std::filesystem::path&)> watcher);
 
 // Called when writing begins and when the file is in its place; OutputFile does it. Errors of the first: as planOutput,
 // for a file that was not planned; ErrorKind::usage where it was written before.

@@ -2,6 +2,7 @@
 // drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/lint/spread.hpp"
 #include "cotan/lint/surface.hpp"
+#include "cotan/maps/green.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -19,6 +21,7 @@ inline constexpr double kTurned = 45;     // degrees between a stored tangent an
 inline constexpr std::size_t kMostPlacings = 8; // of one mesh
 inline constexpr double kTestTilt = 35;   // degrees: the texel whose step across edges is measured
 
+// Shares are NaN where there is no area to take them of.
 struct UvQuality {
     double area = 0;
     double degenerate = 0;  // uv without area: points and lines
@@ -29,7 +32,7 @@ struct UvQuality {
     double sheared = 0;     // over kSheared
     Spread stretch;         // ratio, at least 1; degenerate triangles left out
     Spread shear;           // degrees
-    double gradient = 0;    // the longer uv gradient per unit of length, median
+    double gradient = 0;    // the longer uv gradient per unit of length, median; 0: there is none
     double largestUv = 0;   // magnitude
 };
 
@@ -43,7 +46,7 @@ struct StoredTangents {
     bool present = false;
     double reversedW = 0; // share of area where the bitangent points against the uv
     double turned = 0;    // share of area where the tangent is over kTurned from dP/du
-    Spread angle;         // degrees from dP/du in the plane of the normal
+    Spread angle;         // degrees from dP/du in the plane of the normal; empty: nothing was compared, and the shares say nothing
 };
 
 // How another frame reads the map if it was made for MikkTSpace.
@@ -59,6 +62,8 @@ struct PrimitiveLint {
     std::size_t placing = 0, placings = 1;
     std::string tangentsFor; // an extension of the material that reads tangents and is not looked at
     int image = -1; // of the normal map; -1: none
+    bool unread = false;   // there is one, in a format that is not read: nothing is known of its pixels
+    std::string notJudged; // why a normal map that there is was not judged; empty if it was
     std::size_t triangles = 0;
     bool hasUv = false;
     UvQuality uv;
@@ -66,17 +71,27 @@ struct PrimitiveLint {
     StoredTangents stored;
     std::vector<Reading> readings; // cotangent, orthonormal, smooth, exact and, if present, stored; empty without a map
     double precision = 0;          // degrees by rounding of float derivatives at LintOptions::distance
-    double closest = 0;            // the distance at which that is half a degree
+    double closest = 0;            // the distance at which that is half a degree; both 0 where uv have no gradient
 };
 
-// Which way green points, from the map alone: the slopes of a height have no curl.
+// Which way green points, from the map alone, and which way the material reads it. `cotan map detect` gives
+// the same verdict.
 struct GreenEvidence {
     int image = -1;
     std::string name;
-    bool decided = false;   // false: the map says nothing either way
-    bool asDeclared = true; // as the material reads it
-    double correlation = 0; // 1: a perfect height field as declared; -1: with green the other way
-    double agreement = 0;   // share of the detail, by tiles, that says the same
+    bool declaredUp = true; // green up the picture, as the material reads it
+    maps::GreenVerdict verdict;
+
+    bool decided() const { return verdict.green != maps::Green::undecidable; }
+    bool asDeclared() const { return !decided() || (verdict.green == maps::Green::up) == declaredUp; }
+};
+
+// One normal map read as it is with the frames that may be advised, against MikkTSpace with the stored tangents,
+// where these are to be trusted: what `convert` decides by (mapError, fitsAsItIs).
+struct MapFit {
+    int image = -1;
+    std::string name;
+    Spread orthonormal, cotangent, smooth; // empty where nothing was judged: no pixels, or nothing shows the map
 };
 
 enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmooth };
@@ -84,16 +99,28 @@ enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmoot
 struct LintReport {
     std::vector<PrimitiveLint> primitives;
     std::vector<GreenEvidence> maps;
+    std::vector<MapFit> fits;
     double distance = 0;     // the viewing distance used, world units
     Advice advice = Advice::nothing;
     // Stored tangents contradict the uv on more than a tenth of the area, and the maps do not make
     // up for it (a reversed w with reversed green is right again).
     bool distrustStored = false;
-    std::string recommendation;
+    // What `convert` to the advised frame would do: how many maps it would make anew, how many it would leave, and
+    // whether it would drop tangents. With neither it has nothing to do.
+    std::size_t mapsConverted = 0, mapsKept = 0;
+    bool dropsTangents = false;
+    // In sentences, each empty where there is nothing to say: what is wrong with the model as it is, what is seen
+    // without tangents, what to do, which maps were not judged, what else reads tangents.
+    std::string defects, seen, advised, notJudged, otherReaders;
+    std::string recommendation; // all of these
 };
+
+// The frame that an advice names: orthonormal, cotangent or smooth.
+Frame frameOf(Advice advice);
 
 struct LintOptions {
     double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
+    std::function<void(double)> progress{}; // gets the share that is done
 };
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,

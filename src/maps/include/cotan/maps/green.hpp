@@ -4,13 +4,16 @@
 // negated satisfies da/dy = -db/dx instead, and one with red and green exchanged has them in each
 // other's place. What cannot be told: whether bumps are dents. (x,-y) and (-x,y) are the same
 // relief, once seen as bumps and once as dents; we take red to point right, as every convention has it.
+//
+// Maps of charts are judged by their charts: what lies between them (alpha 0, black, white, one colour) says
+// nothing, and where two charts meet the slopes jump, so that large steps count no more than small ones.
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "cotan/scene/image.hpp"
 #include "cotan/maps/normal_statistics.hpp"
+#include "cotan/maps/patches.hpp"
+#include "cotan/scene/image.hpp"
 
 namespace cotan::maps {
 
@@ -26,27 +29,19 @@ struct GreenVerdict {
     // Correlation of da/dy with db/dx, green taken to point up: +1 for green up, -1 for green down,
     // near 0 when there is nothing to tell. `exchanged`: the same with red and green exchanged.
     double agreement = 0, exchanged = 0;
-    double deviations = 0;     // |agreement| in units of its uncertainty, from blocks left out in turn
+    double deviations = 0;     // |agreement| in units of its uncertainty, from patches left out in turn
     double residualRatio = 1;  // what the other way leaves unexplained over what this way leaves
-    double votes = 0;          // share of the blocks, by weight, that agree with the verdict
-    double used = 0;           // share of the texel cells that were looked at
+    double votes = 0;          // share of the patches, by weight, that agree with the verdict
+    double used = 0;           // share of the texel cells in the patches that say something
+    double sampled = 1;        // share of the picture that the patches hold
+    NormalStatistics statistics; // of the patches
 };
 
-// statistics: of the same image.
-GreenVerdict greenOf(const Image& image, const NormalStatistics& statistics);
+const char* name(Green green);           // up, down, undecidable
+const char* name(Swapped swapped);       // no, yes, undecidable
+const char* name(Confidence confidence); // none, likely, certain
 
-// The same for a picture that comes in strips from the top.
-class GreenSurvey {
-public:
-    GreenSurvey(int width, int height, PixelType type, const NormalStatistics& statistics);
-    ~GreenSurvey();
-    // Rows from firstRow on, and the row below them, except at the bottom.
-    void add(const Image& strip, int firstRow);
-    GreenVerdict verdict() const;
-
-private:
-    struct State;
-    std::unique_ptr<State> state_;
-};
+GreenVerdict greenOf(const PatchSampler& sampler);
+GreenVerdict greenOf(const Image& image); // sampled in the same way; needs pixels
 
 } // namespace cotan::maps

@@ -43,7 +43,7 @@ enum class Boundary { periodic, free };
 struct ToHeightSettings {
     Convention from;
     Boundary boundary = Boundary::periodic;
-    Kernel kernel = Kernel::spectral; // periodic: how the slopes were made. free: always half-texel differences
+    Kernel kernel = Kernel::spectral; // how the slopes were made. free: with the borders clamped
     double aspect = 1;                // a texel's height over its width, both in metres
 };
 
@@ -58,8 +58,9 @@ struct Heights {
 
 // Least squares: the height whose slopes are nearest to the map's. Periodic: R. Frankot, R.
 // Chellappa, A Method for Enforcing Integrability in Shape from Shading Algorithms, 1988, with the
-// kernel's own response in place of the derivative's. Free: Poisson's equation with natural
-// boundaries, by cosine transforms.
+// kernel's own response in place of the derivative's. Free: the same over heights that are clamped at the
+// borders, by cosine transforms; spectral: over differences of neighbours, Poisson's equation with natural
+// boundaries.
 Heights heightFromNormals(const Image& map, const ToHeightSettings& settings);
 
 // Bytes that heightFromNormals takes beside the map, for a check before it is called.

@@ -21,7 +21,7 @@ enum class Content {
     grey,         // red, green and blue the same: a height map, perhaps
     other,        // lengths that no normal map has: a colour picture
 };
-enum class Centre { exact, biased, unknown };            // 128 or 127.5 of 255 as zero
+enum class Centre { exact, biased, unknown };            // the middle code, 128 of 255, or 127.5 as zero
 enum class Transfer { linear, srgb, linearised };        // srgb: stored as if it were a colour
 
 struct NormalStatistics {
@@ -31,6 +31,8 @@ struct NormalStatistics {
     Transfer transfer = Transfer::linear;
     bool signedStored = false; // floats that go below zero, or unit vectors as they are
     std::size_t texels = 0;
+    double background = 0;   // share outside the charts: alpha 0, black, white, fields of another colour; the rest
+                             // leaves it out
     double invalid = 0;      // share: not finite, or length under 0.1
     double belowHorizon = 0; // share with z < -0.02
     double outsideDisc = 0;  // share with x^2 + y^2 > 1.02
@@ -44,6 +46,12 @@ struct NormalStatistics {
     double rmsExact = 0, rmsBiased = 0; // (length - 1) under either centre
 };
 
+// Whether a texel says by itself that it lies between the charts of a map: alpha 0, (nearly) black or white.
+bool outsideCharts(const glm::vec4& texel);
+
+// Whether a normal of three channels, filtered or compressed, can still have that length.
+bool usableLength(float length);
+
 // Reads the whole picture twice. Any size, any contents.
 NormalStatistics statisticsOfMap(const Image& image);
 
@@ -54,6 +62,7 @@ public:
     MapSurvey();
     ~MapSurvey();
     void first(const Image& strip);
+    bool oneColour() const; // after the first pass: all texels are alike, and the second may be left out
     void second(const Image& strip);
     NormalStatistics finish();
 

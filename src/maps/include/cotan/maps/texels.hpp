@@ -50,15 +50,15 @@ void loadRow(const Image& image, int row, std::span<glm::vec4> texels);
 void storeRow(Image& image, int row, std::span<const glm::vec4> texels);
 
 // One texel as a vector of picture space, with its stored length; (0,0,0) where a component is not
-// finite or the vector is shorter than 1e-3.
-glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention);
+// finite or the vector is shorter than 1e-3. type: of the components, which says where zero lies.
+glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, PixelType type);
 
 // A whole row. normals: image.width entries.
 void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals);
 
 // A vector of picture space as stored components; alpha 1. It is normalised first unless the
-// convention has three channels and keepLength is set. (0,0,0) is stored as flat.
-glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, bool keepLength = false);
+// convention has three channels and keepLength is set. (0,0,0) is stored as flat. type: as above.
+glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength = false);
 
 // Calls work(first, last) for bands of rows, on all threads that the caller's arena allows. Results
 // must depend on the rows only.

@@ -19,7 +19,8 @@ void keepInterior(std::vector<float>& degrees, int width, int height);
 // The statistics of the entries that are not -1.
 AngleStatistics angleStatistics(const std::vector<float>& degrees);
 
-// Share of compared pixels where the two directions point away from each other (over 90 degrees).
+// Share of compared pixels where the two directions point away from each other (over 90 degrees); NaN
+// where nothing was compared.
 double shareOpposed(const std::vector<float>& degrees);
 
 // A picture of the angles: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 and more; grey

@@ -20,6 +20,7 @@ std::string toCsv(const std::vector<Measurement>& rows);
 // not a number where one is expected.
 Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, const std::string& name);
 
+// Figures of rows without a finite result are null.
 nlohmann::ordered_json toJson(const std::vector<Measurement>& rows);
 
 // Markdown tables, one for each table, scene, truth and arithmetic; frames downwards, settings

@@ -1,6 +1,7 @@
 // Numbers about a set of angles.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,16 +9,19 @@
 
 namespace cotan {
 
-// All in degrees; `over1` and `over5` are shares in [0,1]. All zero for an empty set.
+// What a statistic of nothing is: no number, so that no comparison with a limit holds.
+inline constexpr double kOfNothing = std::numeric_limits<double>::quiet_NaN();
+
+// All in degrees; `over1` and `over5` are shares in [0,1]. All but `count` are NaN for an empty set.
 struct AngleStatistics {
     std::size_t count = 0;
-    double mean = 0;
-    double median = 0;
-    double percentile95 = 0;
-    double percentile99 = 0;
-    double maximum = 0;
-    double over1 = 0;
-    double over5 = 0;
+    double mean = kOfNothing;
+    double median = kOfNothing;
+    double percentile95 = kOfNothing;
+    double percentile99 = kOfNothing;
+    double maximum = kOfNothing;
+    double over1 = kOfNothing;
+    double over5 = kOfNothing;
 };
 
 // The statistics of a list of finite angles. A percentile q is the value at rank
@@ -40,8 +44,10 @@ private:
     float maximum_ = 0;
 };
 
-// "mean 0.17, median 0.12, 95 % 0.41, 99 % 0.62, max 0.88 degrees; over 1: 0.0 %, over 5: 0.0 %"
+// "mean 0.17, median 0.12, 95 % 0.41, 99 % 0.62, max 0.88 degrees; over 1: 0.0 %, over 5: 0.0 %";
+// "nothing was compared" for an empty set.
 std::string toText(const AngleStatistics& s);
+// "pixels" is the count; the figures of an empty set are null when it is written.
 nlohmann::ordered_json toJson(const AngleStatistics& s);
 
 } // namespace cotan

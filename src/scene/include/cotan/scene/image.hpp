@@ -15,6 +15,8 @@ constexpr std::size_t bytesPerComponent(PixelType type)
     return type == PixelType::unorm8 ? 1 : type == PixelType::unorm16 ? 2 : 4;
 }
 
+constexpr int bitsPerComponent(PixelType type) { return int(8 * bytesPerComponent(type)); }
+
 // Always four components a pixel, red green blue alpha, rows from the top, no padding.
 // Grey files become r = g = b; a missing alpha becomes 1. The values are those of the file:
 // whether they are sRGB or linear is decided by what they are used for.

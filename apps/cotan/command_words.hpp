@@ -1,0 +1,21 @@
+// The words that name a command, looked at before anything else.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "cotan/result.hpp"
+
+namespace cotan::app {
+
+// Whether the words at the beginning, such as `map convert`, name a command, as far as they are there. words: those of
+// the command line, without the program. Errors: ErrorKind::usage with the word and the nearest that there is.
+Status checkCommandWords(const CLI::App& app, std::span<char* const> words);
+
+// Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
+std::size_t editDistance(std::string_view a, std::string_view b);
+
+} // namespace cotan::app

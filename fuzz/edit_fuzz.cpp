@@ -1,0 +1,158 @@
+// A glTF file opened, changed as `tangents` and `convert` change it, written and read again: what was not changed is equal,
+// what was set comes back.
+#include <bit>
+#include <vector>
+
+#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/asset/image_file.hpp"
+#include "scene_checks.hpp"
+
+using namespace cotan;
+using namespace cotan::fuzz;
+
+namespace {
+
+struct Primitive {
+    std::size_t mesh, index;
+    GltfGeometry geometry;
+};
+
+// All primitives that can be read.
+std::vector<Primitive> primitivesOf(const GltfDocument& document)
+{
+    std::vector<Primitive> all;
+    const auto meshes = document.root.find("meshes");
+    if (meshes == document.root.end())
+        return all;
+    for (std::size_t m = 0; m < meshes->size(); ++m)
+        for (std::size_t p = 0; p < (*meshes)[m].at("primitives").size(); ++p) {
+            auto geometry = gltfGeometry(document, m, p);
+            if (geometry)
+                all.push_back({m, p, *std::move(geometry)});
+            else
+                checkError(geometry.error());
+        }
+    return all;
+}
+
+// Equal to the bit; so NaN equals NaN.
+template<class Vector>
+bool sameCorners(const std::vector<Vector>& a, const GltfGeometry& ga, const std::vector<Vector>& b, const GltfGeometry& gb)
+{
+    if (a.empty() != b.empty() || ga.indices.size() != gb.indices.size())
+        return false;
+    for (std::size_t c = 0; !a.empty() && c < ga.indices.size(); ++c)
+        if (std::memcmp(&a[ga.indices[c]], &b[gb.indices[c]], sizeof(Vector)) != 0)
+            return false;
+    return true;
+}
+
+void checkEqual(const std::vector<Primitive>& before, const std::vector<Primitive>& after)
+{
+    COTAN_HOLDS(before.size() == after.size(), "{} {}", before.size(), after.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const GltfGeometry &a = before[i].geometry, &b = after[i].geometry;
+        COTAN_HOLDS(sameCorners(a.positions, a, b.positions, b), "positions of {}", i);
+        COTAN_HOLDS(sameCorners(a.normals, a, b.normals, b), "normals of {}", i);
+        COTAN_HOLDS(sameCorners(a.texcoords, a, b.texcoords, b), "texcoords of {}", i);
+    }
+}
+
+// Writes, reads and compares; the primitives that were read again. Nothing where it cannot be written.
+std::vector<Primitive> through(const GltfDocument& document, const std::filesystem::path& file,
+                               const std::vector<Primitive>& before)
+{
+    const auto written = writeGltf(document, file, smallLimits());
+    if (!written) {
+        checkError(written.error());
+        return {};
+    }
+    const auto again = openGltfDocument(file, smallLimits());
+    COTAN_HOLDS(bool(again), "{}", again ? "" : again.error().message);
+    std::vector<Primitive> after = primitivesOf(*again);
+    checkEqual(before, after);
+    return after;
+}
+
+std::vector<GltfCornerTangents> tangentsOf(const std::vector<Primitive>& primitives)
+{
+    std::vector<GltfCornerTangents> all;
+    for (const Primitive& p : primitives) {
+        const GltfGeometry& g = p.geometry;
+        checkTangents({g.positions, g.normals, g.texcoords, g.indices});
+        auto corners = mikktspaceTangents({g.positions, g.normals, g.texcoords, g.indices}, 1);
+        if (!corners.empty())
+            all.push_back({p.mesh, p.index, std::move(corners)});
+    }
+    return all;
+}
+
+void checkTangentsRead(const std::vector<GltfCornerTangents>& set, const std::vector<Primitive>& read)
+{
+    for (const GltfCornerTangents& given : set)
+        for (const Primitive& p : read) {
+            if (p.mesh != given.mesh || p.index != given.primitive)
+                continue;
+            COTAN_HOLDS(p.geometry.indices.size() == given.corners.size(), "{}", given.corners.size());
+            for (std::size_t c = 0; c < given.corners.size(); ++c)
+                COTAN_HOLDS(p.geometry.tangents[p.geometry.indices[c]] == given.corners[c]
+                                || !finite(given.corners[c]),
+                            "corner {}", c);
+        }
+}
+
+// A new picture for every image and a copy of every material, as `convert` makes them.
+void changeImages(GltfDocument& document)
+{
+    Image flat = makeImage(2, 2, PixelType::unorm8, "flat");
+    const auto png = encodePng(flat);
+    COTAN_HOLDS(bool(png));
+    const auto count = [&](const char* name) {
+        const auto found = document.root.find(name);
+        return found == document.root.end() ? std::size_t(0) : found->size();
+    };
+    const std::size_t images = count("images"), textures = count("textures"), materials = count("materials");
+    for (std::size_t i = 0; i < images; ++i) {
+        const auto bytes = gltfImageBytes(document, i, smallLimits());
+        if (!bytes)
+            checkError(bytes.error());
+        replaceGltfImage(document, i, *png, "image/png");
+        const auto replaced = gltfImageBytes(document, i, smallLimits());
+        COTAN_HOLDS(replaced && *replaced == *png, "image {}", i);
+    }
+    const std::size_t added = addGltfImage(document, *png, "image/png", "added");
+    COTAN_HOLDS(added == images, "{}", added);
+    if (textures > 0)
+        COTAN_HOLDS(copyGltfTexture(document, textures - 1, added) == textures);
+    if (materials > 0)
+        COTAN_HOLDS(copyGltfMaterial(document, materials - 1) == materials);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const Scratch scratch;
+    const std::span bytes(data, size);
+    const auto file = scratch.write(startsWith(bytes, "glTF") ? "model.glb" : "model.gltf", bytes);
+    auto document = openGltfDocument(file, smallLimits());
+    if (!document) {
+        checkError(document.error());
+        return 0;
+    }
+    const std::vector<Primitive> before = primitivesOf(*document);
+    through(*document, scratch / "repacked.glb", before);
+    through(*document, scratch / "repacked.gltf", before);
+
+    const std::vector<GltfCornerTangents> tangents = tangentsOf(before);
+    if (const auto set = setGltfTangents(*document, tangents))
+        checkTangentsRead(tangents, through(*document, scratch / "tangents.glb", before));
+    else
+        checkError(set.error());
+    for (const Primitive& p : before)
+        if (const auto dropped = dropGltfTangents(*document, p.mesh, p.index))
+            COTAN_HOLDS(gltfGeometry(*document, p.mesh, p.index)->tangents.empty());
+    changeImages(*document);
+    through(*document, scratch / "converted.glb", before);
+    return 0;
+}

@@ -1,0 +1,31 @@
+// Pictures in memory: each format by its first bytes, anything else as TGA. What was read is written as PNG and read again.
+#include <algorithm>
+
+#include "cotan/asset/image_file.hpp"
+#include "fuzz.hpp"
+#include "limits.hpp"
+
+using namespace cotan;
+using namespace cotan::fuzz;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const auto image = decodeImage(std::as_bytes(std::span(data, size)), "picture.tga", smallLimits());
+    if (!image) {
+        checkError(image.error());
+        return 0;
+    }
+    const int side = smallLimits().imageSide;
+    COTAN_HOLDS(image->width > 0 && image->width <= side && image->height > 0 && image->height <= side, "{} x {}",
+                image->width, image->height);
+    COTAN_HOLDS(image->data.size() == image->pixelCount() * image->bytesPerPixel(), "{}", image->data.size());
+    const auto again = decodeImage(std::as_bytes(std::span(data, size)), "picture.tga", smallLimits());
+    COTAN_HOLDS(again && again->data == image->data, "the second reading differs");
+    if (image->type == PixelType::float32 || image->pixelCount() > 65536)
+        return 0;
+    const auto png = encodePng(*image);
+    COTAN_HOLDS(bool(png));
+    const auto read = decodeImage(*png, "again.png", smallLimits());
+    COTAN_HOLDS(read && read->type == image->type && read->width == image->width && read->data == image->data);
+    return 0;
+}

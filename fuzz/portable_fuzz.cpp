@@ -1,0 +1,186 @@
+// The portable text over random bits: the total functions give finite frames and unit normals for any input, in float and
+// in double; the fused forms give what the frames give, within the range that fused.h states.
+#include <array>
+#include <numbers>
+
+#include "cotan/frame.hpp"
+#include "fuzz.hpp"
+
+using namespace cotan;
+using namespace cotan::fuzz;
+
+namespace {
+
+template<class V> bool isUnit(const V& v, double tolerance = 1e-5) { return std::abs(double(glm::length(v)) - 1) < tolerance; }
+
+// Whether a value may stand in a promise that asks for finite input of an ordinary size.
+template<class V> bool ordinary(const V& v) { return glm::length(v) > 1e-18f && glm::length(v) < 1e18f; }
+
+glm::vec3 anyVector(Values& values) { return {values.next<float>(), values.next<float>(), values.next<float>()}; }
+glm::vec2 anyPair(Values& values) { return {values.next<float>(), values.next<float>()}; }
+
+template<class F> void checkFrame(const F& f, std::string_view name, bool metric)
+{
+    COTAN_HOLDS(isUnit(f.n), "{}", name);
+    COTAN_HOLDS(std::isfinite(glm::dot(f.t, decltype(f.t)(1e-3f)) + glm::dot(f.b, decltype(f.b)(1e-3f))), "{}", name);
+    const auto longest = std::max(glm::length(f.t), glm::length(f.b));
+    COTAN_HOLDS(metric || longest < 1.001f, "{}: {}", name, double(longest));
+}
+
+void checkTotalFrames(Values values)
+{
+    const glm::vec3 n = anyVector(values), dpdx = anyVector(values), dpdy = anyVector(values), m = anyVector(values);
+    const glm::vec2 duvdx = anyPair(values), duvdy = anyPair(values);
+    for (const FrameInfo& frame : frames()) {
+        if (!frame.total || frame.source == FrameSource::vertices)
+            continue;
+        const bool metric = frame.frame == Frame::gradient;
+        const auto f = evaluate(frame.frame, n, dpdx, dpdy, duvdx, duvdy);
+        checkFrame(f, frame.name, metric);
+        const auto d = evaluate(frame.frame, glm::dvec3(n), glm::dvec3(dpdx), glm::dvec3(dpdy), glm::dvec2(duvdx),
+                                glm::dvec2(duvdy));
+        checkFrame(d, frame.name, metric);
+        COTAN_HOLDS(isUnit(f32::cotan_apply(f, m)), "{}: {} {} {}", frame.name, m.x, m.y, m.z);
+        COTAN_HOLDS(isUnit(f32::cotan_encode(f, glm::normalize(n + glm::vec3(0, 0, 1e-3f)))) || !ordinary(n), "{}",
+                    frame.name);
+        COTAN_HOLDS(isUnit(f32::cotan_encode(f, m)), "{}: {} {} {}", frame.name, m.x, m.y, m.z);
+    }
+    for (const auto& f : {f32::cotan_frame_smooth(n, dpdx, dpdy), f32::cotan_frame_vertex(n, dpdx, duvdx.x < 0 ? -1.0f : 1.0f)}) {
+        checkFrame(f, "from vertices", false);
+        COTAN_HOLDS(isUnit(f32::cotan_apply(f, m)), "{} {} {}", m.x, m.y, m.z);
+        // What is left of a vector almost along n is rounding, and points anywhere.
+        const auto along = [&](const glm::vec3& v) {
+            const glm::vec3 unit = f32::cotan_normalize_or(v, f.n);
+            return glm::length(glm::cross(unit, f.n)) < 1e-3f;
+        };
+        COTAN_HOLDS(along(dpdx) || along(dpdy) || std::abs(glm::dot(f.n, f.t)) + std::abs(glm::dot(f.n, f.b)) < 1e-3f);
+    }
+}
+
+void checkTexels(Values values)
+{
+    f32::cotan_normal_format format;
+    format.expansion = values.choose(3);
+    format.channels = values.choose(4);
+    format.green = values.flip() ? 1.0f : -1.0f;
+    format.strength = float(values.between(0.25, 4));
+    const glm::vec3 texel = anyVector(values);
+    if (!ordinary(texel))
+        return;
+    const glm::vec3 m = f32::cotan_decode(glm::clamp(texel, -1.0f, 1.0f), format);
+    COTAN_HOLDS(finite(m), "{} {} {}", m.x, m.y, m.z);
+    const glm::vec3 stored = f32::cotan_encode_texel(glm::normalize(texel), format);
+    for (const float c : {stored.x, stored.y, stored.z})
+        COTAN_HOLDS(c >= (format.expansion == COTAN_EXPAND_SIGNED ? -1.0f : 0.0f) && c <= 1.0f, "{}", c);
+}
+
+void checkGradientsAndBlends(Values values)
+{
+    const glm::vec3 a = anyVector(values), b = anyVector(values), g = anyVector(values);
+    if (!ordinary(a) || !ordinary(b))
+        return;
+    const glm::vec3 n = glm::normalize(a), v = glm::normalize(b);
+    COTAN_HOLDS(isUnit(f32::cotan_resolve_gradient(n, g)), "{} {} {}", g.x, g.y, g.z);
+    COTAN_HOLDS(finite(f32::cotan_slope_of_texel(v)));
+    COTAN_HOLDS(finite(f32::cotan_gradient_of_normal(n, v)));
+    const glm::vec3 weights = f32::cotan_triplanar_weights(n);
+    COTAN_HOLDS(std::abs(weights.x + weights.y + weights.z - 1) < 1e-5f);
+    const glm::vec3 up = glm::vec3(v.x, v.y, std::abs(v.z));
+    for (const glm::vec3& blended :
+         {f32::cotan_blend_reoriented(n, up), f32::cotan_blend_whiteout(n, up), f32::cotan_blend_udn(n, up),
+          f32::cotan_blend_slopes(n, up, 1, 1), f32::cotan_blend_linear(n, up)})
+        COTAN_HOLDS(isUnit(blended));
+}
+
+// ---- fused forms ----------------------------------------------------------------------------
+
+struct Input {
+    glm::vec3 n, dpdx, dpdy, m;
+    glm::vec2 duvdx, duvdy;
+};
+
+glm::dvec2 turned(double radians, double length) { return glm::dvec2(std::cos(radians), std::sin(radians)) * length; }
+
+glm::dvec3 direction(Values& values)
+{
+    const double z = values.between(-1, 1), around = values.between(0, 2 * std::numbers::pi);
+    return glm::dvec3(turned(around, std::sqrt(1 - z * z)), z);
+}
+
+// Two differences of lengths 0.3 to 1 (the longer: 1), 20 to 160 degrees apart on the side asked for.
+std::array<glm::dvec2, 2> twoDifferences(Values& values, double side)
+{
+    constexpr double kDegree = std::numbers::pi / 180;
+    const double start = values.between(0, 360), apart = values.between(20, 160) * side;
+    const double shorter = values.between(0.3, 1);
+    const bool first = values.flip();
+    return {turned(start * kDegree, first ? 1 : shorter), turned((start + apart) * kDegree, first ? shorter : 1)};
+}
+
+Input soundInput(Values& values, double pScale, double uvScale, double nLength)
+{
+    const glm::dvec3 face = direction(values), other = direction(values);
+    const glm::dvec3 crossed = glm::cross(face, other);
+    const glm::dvec3 x = glm::length(crossed) > 1e-3 ? glm::normalize(crossed)
+                                                     : glm::normalize(glm::cross(face, glm::dvec3(face.y, face.z, -face.x) + 0.1));
+    const glm::dvec3 y = glm::cross(face, x);
+    const auto p = twoDifferences(values, values.flip() ? 1 : -1), uv = twoDifferences(values, values.flip() ? 1 : -1);
+    const glm::dvec2 lean = turned(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
+    const glm::dvec2 tilt = turned(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
+    Input i;
+    i.n = glm::vec3(glm::normalize(face * std::sqrt(1 - glm::dot(lean, lean)) + x * lean.x + y * lean.y) * nLength
+                    * (values.flip() ? 1.0 : -1.0));
+    i.dpdx = glm::vec3((x * p[0].x + y * p[0].y) * pScale);
+    i.dpdy = glm::vec3((x * p[1].x + y * p[1].y) * pScale);
+    i.duvdx = glm::vec2(uv[0] * uvScale);
+    i.duvdy = glm::vec2(uv[1] * uvScale);
+    i.m = glm::vec3(tilt, std::sqrt(1 - glm::dot(tilt, tilt)));
+    return i;
+}
+
+double degreesBetween(glm::dvec3 a, glm::dvec3 b)
+{
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+}
+
+void checkFused(Values values)
+{
+    // fused.h's range: each scale from 1e-9 to 1e6, their product from 1e-12 to 1e5, |n| from 0.01.
+    const double pScale = std::pow(10, values.between(-9, 6)), uvScale = std::pow(10, values.between(-9, 6));
+    const double nLength = std::pow(10, values.between(-2, 0));
+    if (pScale * uvScale < 1.1e-12 || pScale * uvScale > 0.9e5)
+        return;
+    const Input i = soundInput(values, pScale, uvScale, nLength);
+    using Fused = glm::vec3 (*)(glm::vec3, glm::vec3, glm::vec3, glm::vec2, glm::vec2, glm::vec3);
+    const bool largeArea = glm::length(glm::cross(glm::dvec3(i.dpdx), glm::dvec3(i.dpdy))) >= 1e-10;
+    for (const auto& [frame, fused] : {std::pair<Frame, Fused>(Frame::cotangent, f32::cotan_perturb_cotangent),
+                                       std::pair<Frame, Fused>(Frame::gradient, f32::cotan_perturb_gradient),
+                                       std::pair<Frame, Fused>(Frame::orthonormal, f32::cotan_perturb_orthonormal)}) {
+        if (frame == Frame::gradient && !largeArea)
+            continue;
+        const auto f = evaluate(frame, glm::dvec3(i.n), glm::dvec3(i.dpdx), glm::dvec3(i.dpdy), glm::dvec2(i.duvdx),
+                                glm::dvec2(i.duvdy));
+        const glm::dvec3 expected = f64::cotan_apply(f, i.m);
+        const glm::vec3 found = fused(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
+        // Thirty roundings of 6e-8, amplified by 1/sin 20 degrees twice and 1/cos 57 degrees twice: 4e-3 degrees.
+        COTAN_HOLDS(degreesBetween(expected, found) < 4e-3, "{} off by {} at |n| {} p {} uv {}", name(frame),
+                    degreesBetween(expected, found), nLength, pScale, uvScale);
+        COTAN_HOLDS(isUnit(found, 1e-6), "{}", name(frame));
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    if (size == 0)
+        return 0;
+    const Values values({data + 1, size - 1});
+    switch (data[0] % 4) {
+    case 0: checkTotalFrames(values); break;
+    case 1: checkTexels(values); break;
+    case 2: checkGradientsAndBlends(values); break;
+    default: checkFused(values); break;
+    }
+    return 0;
+}

@@ -1,0 +1,5 @@
+// The tool's main as a function.
+int cotanMain(int argc, char** argv);
+#define COTAN_VERSION "fuzz"
+#define main cotanMain
+#include "main.cpp"

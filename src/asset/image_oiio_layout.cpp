@@ -1,0 +1,269 @@
+// Whether a file holds what its header promises, before OpenImageIO's readers believe it.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <fmt/format.h>
+
+#include "image_oiio.hpp"
+
+namespace cotan::oiio {
+
+namespace {
+
+using Problem = std::optional<std::string>;
+using File = OIIO::Filesystem::IOProxy;
+
+// Numbers at places in a file; what lies behind its end is 0, and `past` is set.
+class Numbers {
+public:
+    Numbers(File& file, bool bigEndian) : file_(file), bigEndian_(bigEndian) {}
+
+    std::uint64_t at(std::uint64_t offset, std::size_t bytes)
+    {
+        std::array<unsigned char, 8> raw{};
+        if (offset > file_.size() || bytes > file_.size() - offset
+            || file_.pread(raw.data(), bytes, std::int64_t(offset)) != bytes) {
+            past = true;
+            return 0;
+        }
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < bytes; ++i)
+            value = value << 8 | raw[bigEndian_ ? i : bytes - 1 - i];
+        return value;
+    }
+
+    std::uint64_t size() const { return file_.size(); }
+
+    bool past = false;
+
+private:
+    File& file_;
+    bool bigEndian_;
+};
+
+// ---- TIFF -----------------------------------------------------------------------------------
+
+// Values of one tag of the directory: `count` of `size` bytes from `offset`. count 0: not there.
+struct Tag {
+    std::uint64_t count = 0, offset = 0;
+    std::size_t size = 0;
+};
+
+class TiffDirectory {
+public:
+    explicit TiffDirectory(File& file) : numbers_(file, startsWithM(file))
+    {
+        const bool large = numbers_.at(2, 2) == 43; // BigTIFF
+        const std::size_t word = large ? 8 : 4;
+        const std::uint64_t start = numbers_.at(large ? 8 : 4, word);
+        const std::uint64_t entries = numbers_.at(start, large ? 8 : 2);
+        for (std::uint64_t i = 0; i < entries && !numbers_.past; ++i) {
+            const std::uint64_t entry = start + (large ? 8 : 2) + i * (large ? 20 : 12);
+            const std::uint64_t type = numbers_.at(entry + 2, 2);
+            Tag tag{numbers_.at(entry + 4, word), entry + 4 + word,
+                    type == 1 ? 1u : type == 3 ? 2u : type == 4 ? 4u : type == 16 ? 8u : 0u};
+            if (tag.size == 0)
+                continue; // no whole numbers
+            if (tag.count > word / tag.size)
+                tag.offset = numbers_.at(tag.offset, word);
+            tags_.emplace_back(numbers_.at(entry, 2), tag);
+        }
+    }
+
+    Tag find(std::uint64_t id) const
+    {
+        const auto found = std::ranges::find(tags_, id, &std::pair<std::uint64_t, Tag>::first);
+        return found == tags_.end() ? Tag{} : found->second;
+    }
+
+    std::uint64_t value(const Tag& tag, std::uint64_t i) { return numbers_.at(tag.offset + i * tag.size, tag.size); }
+
+    std::uint64_t valueOr(std::uint64_t id, std::uint64_t fallback)
+    {
+        const Tag tag = find(id);
+        return tag.count > 0 ? value(tag, 0) : fallback;
+    }
+
+    bool past() const { return numbers_.past; }
+    std::uint64_t fileSize() const { return numbers_.size(); }
+
+private:
+    static bool startsWithM(File& file)
+    {
+        char first = 0;
+        return file.pread(&first, 1, 0) == 1 && first == 'M';
+    }
+
+    Numbers numbers_;
+    std::vector<std::pair<std::uint64_t, Tag>> tags_;
+};
+
+// Bytes that the rows of a strip, or a tile, take where they are not compressed; 0: unknown.
+std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
+{
+    const std::uint64_t width = tiled ? tiff.valueOr(322, 0) : tiff.valueOr(256, 0);
+    const bool subsampled = tiff.valueOr(262, 0) == 6; // YCbCr
+    if (tiff.valueOr(259, 1) != 1 || subsampled || width > 0xffffffff)
+        return 0;
+    const std::uint64_t bits = tiff.valueOr(258, 1) * (planes ? 1 : tiff.valueOr(277, 1));
+    return (width * std::min<std::uint64_t>(bits, 0xffffff) + 7) / 8;
+}
+
+// TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
+Problem checkTiff(File& file)
+{
+    TiffDirectory tiff(file);
+    const bool tiled = tiff.find(324).count > 0, planes = tiff.valueOr(284, 1) == 2;
+    const Tag offsets = tiff.find(tiled ? 324 : 273), counts = tiff.find(tiled ? 325 : 279);
+    const std::uint64_t height = tiff.valueOr(257, 0);
+    const std::uint64_t rows = std::max<std::uint64_t>(
+        1, std::min(tiled ? tiff.valueOr(323, 0) : tiff.valueOr(278, height), std::uint64_t(0xffffffff)));
+    const std::uint64_t strips = std::max<std::uint64_t>(1, (std::min(height, std::uint64_t(0xffffffff)) + rows - 1) / rows);
+    const std::uint64_t rowBytes = plainRowBytes(tiff, tiled, planes);
+    const char* const part = tiled ? "tile" : "strip";
+    if (tiff.past())
+        return "its directory lies behind the end of the file";
+    for (std::uint64_t i = 0; i < offsets.count; ++i) {
+        const std::uint64_t offset = tiff.value(offsets, i), stored = i < counts.count ? tiff.value(counts, i) : 0;
+        const std::uint64_t rowsHere = tiled ? rows : std::min(rows, height - std::min(height, i % strips * rows));
+        const std::uint64_t plain = std::min(rowBytes * rowsHere, std::uint64_t(1) << 62);
+        if (tiff.past())
+            return "the list of its strips or tiles lies behind the end of the file";
+        if (stored > 0 && stored < plain)
+            return fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain);
+        const std::uint64_t needed = std::max<std::uint64_t>({stored, plain, 1});
+        if (offset > tiff.fileSize() || needed > tiff.fileSize() - offset)
+            return fmt::format("{} {} takes {} bytes from {}, the file has {}", part, i, needed, offset,
+                               tiff.fileSize());
+    }
+    return std::nullopt;
+}
+
+// ---- OpenEXR --------------------------------------------------------------------------------
+
+// "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
+// empty header the headers of several parts.
+Problem checkExr(File& file)
+{
+    constexpr std::uint64_t kSeveralParts = 0x1000;
+    constexpr std::size_t kLongest = 256; // of a name with its end
+    Numbers numbers(file, /*bigEndian*/ false);
+    std::uint64_t at = 8;
+    const auto text = [&] {
+        std::string name;
+        while (name.size() < kLongest && !numbers.past)
+            if (const auto c = char(numbers.at(at++, 1)))
+                name += c;
+            else
+                break;
+        return name;
+    };
+    const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
+    for (bool first = true, more = true; more; first = false) {
+        bool empty = true;
+        for (std::string name = text(); !name.empty(); name = text(), empty = false) {
+            text(); // its type
+            const std::uint64_t size = numbers.at(at, 4);
+            at += 4;
+            if (numbers.past || name.size() >= kLongest || size > numbers.size() - at)
+                return fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
+                                   numbers.size() - std::min(at, numbers.size()));
+            at += size;
+        }
+        if (numbers.past)
+            return "its header goes on behind the end of the file";
+        more = several && !(empty && !first);
+    }
+    return std::nullopt;
+}
+
+// ---- DDS ------------------------------------------------------------------------------------
+
+// Bytes of a block of 4 x 4 pixels, or of one pixel, of the formats of DXGI_FORMAT.
+struct DdsFormat {
+    std::size_t block = 0, pixel = 0; // both 0: not known
+};
+
+DdsFormat dxgiFormat(std::uint64_t format)
+{
+    struct Range {
+        std::uint64_t first, last;
+        DdsFormat bytes;
+    };
+    constexpr std::array<Range, 16> kRanges = {{{1, 4, {0, 16}},
+                                                {5, 8, {0, 12}},
+                                                {9, 18, {0, 8}},
+                                                {23, 43, {0, 4}},
+                                                {48, 59, {0, 2}},
+                                                {60, 65, {0, 1}},
+                                                {70, 72, {8, 0}},
+                                                {73, 78, {16, 0}},
+                                                {79, 81, {8, 0}},
+                                                {82, 84, {16, 0}},
+                                                {85, 86, {0, 2}},
+                                                {87, 88, {0, 4}},
+                                                {90, 91, {0, 4}},
+                                                {92, 93, {0, 4}},
+                                                {94, 96, {16, 0}},
+                                                {97, 99, {16, 0}}}};
+    for (const Range& range : kRanges)
+        if (format >= range.first && format <= range.last)
+            return range.bytes;
+    return {};
+}
+
+DdsFormat ddsFormat(Numbers& numbers)
+{
+    constexpr std::uint64_t kFourLetters = 0x4;
+    if (!(numbers.at(80, 4) & kFourLetters))
+        return {0, numbers.at(88, 4) / 8};
+    std::string name;
+    for (std::uint64_t i = 0; i < 4; ++i)
+        name += char(numbers.at(84 + i, 1));
+    if (name == "DX10")
+        return dxgiFormat(numbers.at(128, 4));
+    if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
+        return {8, 0};
+    return {name.starts_with("DXT") || name == "ATI2" || name == "BC5U" || name == "BC5S" ? std::size_t(16) : 0, 0};
+}
+
+// Microsoft's DDS_HEADER and DDS_HEADER_DXT10; the first level only.
+Problem checkDds(File& file)
+{
+    Numbers numbers(file, /*bigEndian*/ false);
+    const std::uint64_t height = numbers.at(12, 4), width = numbers.at(16, 4);
+    const bool dx10 = (numbers.at(80, 4) & 0x4) && numbers.at(84, 4) == 0x30315844;
+    const DdsFormat format = ddsFormat(numbers);
+    const std::uint64_t header = dx10 ? 148 : 128;
+    if (numbers.past || numbers.size() < header)
+        return "its header goes on behind the end of the file";
+    if (format.block == 0 && format.pixel == 0)
+        return "its pixel format is not read here";
+    const std::uint64_t blocks = ((width + 3) / 4) * ((height + 3) / 4);
+    const std::uint64_t bytes = format.block > 0 ? blocks : width * height;
+    const std::uint64_t each = format.block > 0 ? format.block : format.pixel;
+    if (bytes > (numbers.size() - header) / each)
+        return fmt::format("{} x {} pixels take {} times {} bytes, the file has {} behind its header", width, height,
+                           bytes, each, numbers.size() - header);
+    return std::nullopt;
+}
+
+} // namespace
+
+Problem checkFileLayout(File& file, const std::string& format)
+{
+    if (format == "tiff")
+        return checkTiff(file);
+    if (format == "openexr")
+        return checkExr(file);
+    if (format == "dds")
+        return checkDds(file);
+    return std::nullopt;
+}
+
+} // namespace cotan::oiio

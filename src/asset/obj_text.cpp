@@ -1,0 +1,300 @@
+#include "obj_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "polygon_triangles.hpp"
+#include "text_lines.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Problem = std::optional<std::string>; // expected and found, without file and line
+
+constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate",
+                                                            "normal"};
+
+// Comparisons while polygons are cut: one or two seconds. A star, a comb or a spiral of 20,000 corners
+// takes up to 30 million.
+constexpr std::size_t kCuttingSteps = 100'000'000;
+
+// The largest index of each attribute that a face names, and where, to be compared with the totals
+// at the end: a face may stand before what it refers to.
+struct HighestIndex {
+    std::int64_t value = 0;
+    std::size_t offset = 0;
+};
+
+struct Polygon {
+    std::size_t part = 0;
+    std::size_t corners = 0;
+    std::size_t offset = 0; // of its line
+};
+
+struct Parser {
+    const LoadLimits& limits;
+    ObjText out;
+    std::array<std::int64_t, 3> counts{}; // positions, texture coordinates, normals so far
+    std::array<HighestIndex, 3> highest{};
+    std::string name, material; // that the next face belongs to
+    std::optional<std::size_t> part;
+    std::map<std::pair<std::string, std::string>, std::size_t> parts;
+    std::vector<Polygon> polygons;
+    std::vector<ObjCorner> corners; // of the polygons, one after the other
+    std::size_t triangles = 0;
+};
+
+Problem readNumbers(Words words, std::array<float, 7>& numbers, std::size_t& count)
+{
+    count = 0;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+        const auto number = finiteNumber(word);
+        if (!number)
+            return fmt::format("expected a finite number, found {}", quotedWord(word));
+        if (count < numbers.size())
+            numbers[count] = *number;
+    }
+    return std::nullopt;
+}
+
+Problem countAttribute(Parser& parser, std::size_t attribute)
+{
+    if (std::size_t(++parser.counts[attribute]) > parser.limits.vertices)
+        return fmt::format("over the limit of {} vertices", parser.limits.vertices);
+    return std::nullopt;
+}
+
+// x y z, with a weight, with a colour, or with a colour and alpha.
+Problem readPosition(Parser& parser, Words words)
+{
+    std::array<float, 7> n{};
+    std::size_t count = 0;
+    if (Problem problem = readNumbers(words, n, count))
+        return problem;
+    if (count != 3 && count != 4 && count != 6 && count != 7)
+        return fmt::format("expected 3, 4, 6 or 7 numbers, found {}", count);
+    glm::vec3 position(n[0], n[1], n[2]);
+    if (count == 4) {
+        if (n[3] == 0)
+            return "expected a weight other than 0";
+        position /= n[3];
+        if (!(glm::abs(position.x) + glm::abs(position.y) + glm::abs(position.z) < 1e38f))
+            return "expected a position within the range of float";
+    }
+    ObjText& out = parser.out;
+    if (count >= 6 || !out.colors.empty()) {
+        out.colors.resize(out.positions.size(), glm::vec4(1));
+        out.colors.push_back(count >= 6 ? glm::vec4(n[3], n[4], n[5], count == 7 ? n[6] : 1.0f) : glm::vec4(1));
+    }
+    out.positions.push_back(position);
+    return countAttribute(parser, 0);
+}
+
+Problem readTexcoord(Parser& parser, Words words)
+{
+    std::array<float, 7> n{};
+    std::size_t count = 0;
+    if (Problem problem = readNumbers(words, n, count))
+        return problem;
+    if (count < 1 || count > 3)
+        return fmt::format("expected 1 to 3 numbers, found {}", count);
+    parser.out.texcoords.emplace_back(n[0], n[1]);
+    return countAttribute(parser, 1);
+}
+
+Problem readNormal(Parser& parser, Words words)
+{
+    std::array<float, 7> n{};
+    std::size_t count = 0;
+    if (Problem problem = readNumbers(words, n, count))
+        return problem;
+    if (count != 3)
+        return fmt::format("expected 3 numbers, found {}", count);
+    parser.out.normals.emplace_back(n[0], n[1], n[2]);
+    return countAttribute(parser, 2);
+}
+
+// The place in the array. What is above the totals is refused at the end, before it is used.
+Problem readIndex(Parser& parser, std::size_t attribute, std::int64_t index, std::size_t offset,
+                  std::uint32_t& place)
+{
+    if (index == 0)
+        return "expected an index from 1 or a negative one, found 0";
+    if (index < 0 && index + parser.counts[attribute] < 0)
+        return fmt::format("expected a {} index down to -{}, found {}", kAttributeName[attribute],
+                           parser.counts[attribute], index);
+    if (index < 0)
+        index += parser.counts[attribute] + 1;
+    HighestIndex& highest = parser.highest[attribute];
+    if (index > highest.value)
+        highest = {index, offset};
+    place = std::uint32_t(index - 1);
+    return std::nullopt;
+}
+
+// A corner is v, v/vt, v//vn or v/vt/vn.
+Problem readCorner(Parser& parser, std::string_view text, std::size_t offset, ObjCorner& corner)
+{
+    const std::array<std::uint32_t*, 3> places = {&corner.position, &corner.texcoord, &corner.normal};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t attribute = 0; at != end; ++attribute) {
+        std::int64_t index = 0;
+        if (attribute > 2)
+            return fmt::format("expected a corner v/vt/vn, found {}", quotedWord(text));
+        if (*at != '/') {
+            if (*at == '+')
+                ++at;
+            const auto [after, error] = std::from_chars(at, end, index);
+            if (error != std::errc{} || (after != end && *after != '/'))
+                return fmt::format("expected a corner v/vt/vn, found {}", quotedWord(text));
+            if (Problem problem = readIndex(parser, attribute, index, offset, *places[attribute]))
+                return problem;
+            at = after;
+        }
+        if (at != end) // the slash
+            ++at;
+    }
+    if (corner.position == kObjNone)
+        return fmt::format("expected a corner with a position, found {}", quotedWord(text));
+    return std::nullopt;
+}
+
+std::size_t currentPart(Parser& parser)
+{
+    if (!parser.part) {
+        const auto [entry, isNew] =
+            parser.parts.try_emplace({parser.name, parser.material}, parser.out.parts.size());
+        if (isNew)
+            parser.out.parts.push_back({parser.name, parser.material, {}});
+        parser.part = entry->second;
+    }
+    return *parser.part;
+}
+
+Problem readFace(Parser& parser, Words words, std::size_t offset)
+{
+    const std::size_t before = parser.corners.size();
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        ObjCorner corner;
+        if (Problem problem = readCorner(parser, word, offset, corner))
+            return problem;
+        const ObjCorner& first = parser.corners.size() > before ? parser.corners[before] : corner;
+        if ((corner.texcoord == kObjNone) != (first.texcoord == kObjNone)
+            || (corner.normal == kObjNone) != (first.normal == kObjNone))
+            return "expected every corner of a face to name the same attributes, found a mixture";
+        parser.corners.push_back(corner);
+    }
+    const std::size_t corners = parser.corners.size() - before;
+    if (corners == 0)
+        return "expected the corners of a face, found none";
+    if (corners < 3) { // a line or a point
+        parser.corners.resize(before);
+        return std::nullopt;
+    }
+    ++parser.out.polygons;
+    parser.out.polygonsWithoutUv += parser.corners[before].texcoord == kObjNone ? 1 : 0;
+    parser.triangles += corners - 2;
+    if (parser.triangles > parser.limits.triangles)
+        return fmt::format("over the limit of {} triangles", parser.limits.triangles);
+    parser.polygons.push_back({currentPart(parser), corners, offset});
+    if (parser.out.parts.size() > parser.limits.nodes)
+        return fmt::format("over the limit of {} nodes: groups with a material each", parser.limits.nodes);
+    return std::nullopt;
+}
+
+Problem readLine(Parser& parser, std::string_view line, std::size_t offset)
+{
+    Words words{line};
+    const std::string_view keyword = words.next();
+    const Words data{words.rest.substr(0, words.rest.find('#'))};
+    if (keyword == "v")
+        return readPosition(parser, data);
+    if (keyword == "vt")
+        return readTexcoord(parser, data);
+    if (keyword == "vn")
+        return readNormal(parser, data);
+    if (keyword == "f" || keyword == "fo") // the older name
+        return readFace(parser, data, offset);
+    if (keyword == "mtllib" && !words.all().empty())
+        parser.out.libraries.emplace_back(words.all());
+    if (keyword == "g" || keyword == "o")
+        parser.name = words.all();
+    if (keyword == "usemtl")
+        parser.material = words.all();
+    if (keyword == "g" || keyword == "o" || keyword == "usemtl")
+        parser.part.reset();
+    return std::nullopt;
+}
+
+Problem readLines(Parser& parser, const std::string& text, std::size_t& offset)
+{
+    if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
+        offset = zero;
+        return "expected text, found a zero byte";
+    }
+    for (offset = 0; offset < text.size();) {
+        const std::size_t end = std::min(text.find('\n', offset), text.size());
+        if (Problem problem = readLine(parser, std::string_view(text).substr(offset, end - offset), offset))
+            return problem;
+        offset = end + 1;
+    }
+    for (std::size_t attribute = 0; attribute < 3; ++attribute) {
+        const HighestIndex& highest = parser.highest[attribute];
+        if (highest.value > parser.counts[attribute]) {
+            offset = highest.offset;
+            return fmt::format("expected a {} index up to {}, found {}", kAttributeName[attribute],
+                               parser.counts[attribute], highest.value);
+        }
+    }
+    return std::nullopt;
+}
+
+Problem cutPolygons(Parser& parser, std::size_t& offset)
+{
+    std::size_t stepsLeft = kCuttingSteps, first = 0;
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> triangles;
+    for (const Polygon& polygon : parser.polygons) {
+        const ObjCorner* const corners = parser.corners.data() + first;
+        first += polygon.corners;
+        positions.clear();
+        triangles.clear();
+        for (std::size_t i = 0; i < polygon.corners; ++i)
+            positions.push_back(parser.out.positions[corners[i].position]);
+        if (!cutPolygon(positions, triangles, stepsLeft)) {
+            offset = polygon.offset;
+            return fmt::format("over the limit of {} steps to cut polygons into triangles, here one of {} corners",
+                               kCuttingSteps, polygon.corners);
+        }
+        for (const std::uint32_t corner : triangles)
+            parser.out.parts[polygon.part].corners.push_back(corners[corner]);
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits)
+{
+    const TextLines lines(std::move(text));
+    Parser parser{limits, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0};
+    std::size_t offset = 0;
+    Problem problem = readLines(parser, lines.text(), offset);
+    if (!problem && parser.polygons.empty())
+        return inputError(fmt::format("{}: expected faces, found none", name));
+    if (!problem)
+        problem = cutPolygons(parser, offset);
+    if (problem)
+        return inputError(fmt::format("{}: line {}: {}", name, lines.number(offset), *problem));
+    return std::move(parser.out);
+}
+
+} // namespace cotan

@@ -1,0 +1,51 @@
+// How far a normal map is off when another frame reads it, at places on the surfaces that show it; and whether
+// that asks for a new map. `lint` and `convert` both decide by this.
+#pragma once
+
+#include <vector>
+
+#include "cotan/lint/spread.hpp"
+#include "cotan/lint/surface.hpp"
+#include "cotan/portable.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+// One surface that reads the map, and how.
+struct MapUse {
+    MappedSurface surface;
+    f64::cotan_normal_format format; // as for 8 bits, others follow the image; strength: the material's factor on the slopes; 0: does not count
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+};
+
+struct FramePair {
+    Frame from = Frame::mikktspace, to = Frame::cotangent;           // view independent, both
+    TangentOrigin fromTangents = TangentOrigin::stored, toTangents = TangentOrigin::generated;
+};
+
+// Whether a use shows anything of its map: factors on the slopes below this flatten it.
+inline constexpr double kFlattened = 1e-6;
+
+// A place on a surface.
+struct SurfacePoint {
+    std::size_t triangle = 0;
+    glm::dvec3 barycentric{1, 0, 0};
+};
+
+// `count` points at equal steps of area, over the triangles that have area in space and in uv; none where no
+// triangle has. The same for the same surface.
+std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t count);
+
+// Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
+// points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
+// their data, of any sizes. Empty (count 0) where no use shows anything: no triangle with area in space and uv.
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses, const FramePair& frames);
+
+// Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
+inline constexpr double kAsRounding = 0.3;
+
+// Whether a map stays as it is, being off by so much when it is read with the new frame: where a new one, rounded,
+// would be no better, and where nothing shows it.
+bool fitsAsItIs(const Spread& off);
+
+} // namespace cotan

@@ -1,0 +1,207 @@
+// What --help says is so: its examples run, its options are used, and wrong words get an answer that helps.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cotan/asset/image_file.hpp"
+#include "quad_model.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+Words split(const std::string& line)
+{
+    std::istringstream stream(line);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// The names that a help text lists under "Subcommands:".
+Words subcommandsOf(const std::string& help)
+{
+    Words names;
+    std::istringstream text(help);
+    bool listed = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line == "Subcommands:")
+            listed = true;
+        else if (listed && line.size() > 2 && line.starts_with("  ") && line[2] != ' ')
+            names.push_back(split(line)[0]);
+        else if (line.empty())
+            listed = false;
+    }
+    return names;
+}
+
+std::vector<Words> examplesOf(const std::string& help)
+{
+    std::vector<Words> examples;
+    std::istringstream text(help.substr(std::min(help.size(), help.find("Examples:"))));
+    for (std::string line; std::getline(text, line);)
+        if (line.starts_with("  cotan "))
+            examples.push_back(split(line));
+    return examples;
+}
+
+// Every command with its help.
+std::map<std::string, std::string> helps()
+{
+    TemporaryFolder folder;
+    std::map<std::string, std::string> all;
+    const auto ask = [&](Words words) {
+        words.push_back("--help");
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 0);
+        return run.out;
+    };
+    all[""] = ask({});
+    for (const std::string& name : subcommandsOf(all[""])) {
+        all[name] = ask({name});
+        for (const std::string& inner : subcommandsOf(all[name]))
+            all[name + " " + inner] = ask({name, inner});
+    }
+    return all;
+}
+
+// The files that examples name.
+void prepare(const TemporaryFolder& folder)
+{
+    write(quad(2), folder.path());
+    ASSERT_EQ(runTool({"tangents", "quad.gltf", "-o", "model.glb"}, folder.path()).code, 0);
+    for (const char* name : {"rocks.png", "other.png", "grain.png", "height.png"})
+        ASSERT_TRUE(writeImage(folder / name, makeReliefMap(Relief::domes, 64)));
+    for (const char* name : {"statue.obj", "statue_low.obj"})
+        std::ofstream(folder / name) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                                        "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
+}
+
+TEST(Help, everyCommandHasTwoExamplesAndTheExitCodes)
+{
+    const auto all = helps();
+    EXPECT_GT(all.size(), 18u);
+    for (const auto& [name, help] : all) {
+        EXPECT_GE(examplesOf(help).size(), 2u) << name;
+        EXPECT_NE(help.find("Exit codes"), std::string::npos) << name;
+        for (const Words& words : examplesOf(help))
+            EXPECT_TRUE(name.empty() || words.at(1) == split(name)[0]) << name << " shows another command";
+    }
+}
+
+// cost may have no driver to ask, which is exit code 3.
+TEST(Help, everyExampleRunsAsItIsPrinted)
+{
+    for (const auto& [name, help] : helps())
+        for (Words words : examplesOf(help)) {
+            TemporaryFolder folder;
+            prepare(folder);
+            words.erase(words.begin());
+            const ToolRun run = runTool(words, folder.path(), 120);
+            EXPECT_TRUE(run.code == 0 || (name == "cost" && run.code == 3)) << ::testing::PrintToString(words) << run.err;
+        }
+}
+
+TEST(Help, optionsThatACommandDoesNotUseAreNotListedAndOutputIsRefused)
+{
+    const auto all = helps();
+    for (const char* name : {"lint", "map info", "map detect"}) {
+        EXPECT_EQ(all.at(name).find("--output"), std::string::npos) << name;
+        TemporaryFolder folder;
+        prepare(folder);
+        Words words = split(name);
+        words.insert(words.end(), {name == std::string("lint") ? "model.glb" : "rocks.png", "-o", "x.png"});
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 1) << name;
+        EXPECT_NE(run.err.find("leave out -o"), std::string::npos) << run.err;
+    }
+    for (const char* name : {"lint", "shader", "cost"})
+        if (all.contains(name)) {
+            EXPECT_EQ(all.at(name).find("--threads"), std::string::npos) << name;
+        }
+    EXPECT_NE(all.at("render").find("--threads"), std::string::npos);
+}
+
+TEST(Help, aNameHasOneMeaningAndOlderNamesGoOnWorking)
+{
+    const auto all = helps();
+    for (const auto& [name, text] : all) {
+        const std::string help = text.substr(0, text.find("Examples:"));
+        if (help.find("--size ") != std::string::npos) {
+            EXPECT_NE(help.find("--size WxH"), std::string::npos) << name << ": --size is pixels or texels";
+        }
+        if (help.find("--from ") != std::string::npos) {
+            EXPECT_NE(help.find("--from WORDS"), std::string::npos) << name << ": --from is a convention";
+        }
+    }
+    TemporaryFolder folder;
+    prepare(folder);
+    for (const Words& words : std::vector<Words>{{"convert", "model.glb", "--from", "mikktspace", "--to", "orthonormal", "-o", "a.glb"},
+                                                 {"convert", "model.glb", "--from-frame", "mikktspace", "--to-frame", "orthonormal", "-o", "b.glb"},
+                                                 {"map", "from-height", "height.png", "--size", "2", "--range", "0.05", "-o", "a.png"},
+                                                 {"map", "from-height", "height.png", "--metres", "2", "--range", "0.05", "-o", "b.png"}})
+        EXPECT_EQ(runTool(words, folder.path()).code, 0) << words[0];
+    EXPECT_EQ(readWhole(folder / "a.glb"), readWhole(folder / "b.glb"));
+    EXPECT_EQ(readWhole(folder / "a.png"), readWhole(folder / "b.png"));
+    EXPECT_EQ(runTool({"map", "from-height", "height.png", "--metres", "2", "--size", "2", "--range", "1", "-o", "c.png"}, folder.path()).code, 1);
+}
+
+TEST(Help, anUnknownCommandIsNamedWithTheNearestOne)
+{
+    TemporaryFolder folder;
+    const std::vector<std::pair<Words, std::string>> cases = {
+        {{"rendr"}, "did you mean render?"},          {{"redner", "a.glb"}, "did you mean render?"},
+        {{"comp"}, "did you mean compare?"},          {{"accurracy"}, "did you mean accuracy?"},
+        {{"map", "detct", "a.png"}, "did you mean detect?"}, {{"map", "form-height"}, "did you mean from-height?"},
+        {{"xyzzyplugh"}, "expected one of render, "}};
+    for (const auto& [words, answer] : cases) {
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 1) << words.back();
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find("'" + words[words[0] == "map" ? 1 : 0] + "'"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find(answer), std::string::npos) << run.err;
+    }
+}
+
+TEST(Help, mapsInJpegAreWarnedOf)
+{
+    TemporaryFolder folder;
+    prepare(folder);
+    for (const Words& words : std::vector<Words>{{"bake", "--high", "statue.obj", "--low", "statue_low.obj", "--size", "8x8", "-o", "x.jpg"},
+                                                 {"map", "from-height", "height.png", "--bits", "8", "-o", "x.JPEG"}}) {
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_NE(run.err.find("JPEG loses degrees"), std::string::npos) << words[0] << run.err;
+    }
+}
+
+TEST(Help, standardOutputThatCannotBeWrittenIsExitCodeFour)
+{
+    TemporaryFolder folder;
+    prepare(folder);
+    for (const std::string line : {"--help", "--version", "lint model.glb", "lint model.glb --json -", "map info rocks.png", "accuracy --list",
+                                   "shader --lang glsl", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
+        for (const std::string sink : {">/dev/full", "| true"}) {
+            const std::string script = "set -o pipefail; { sleep 0.05; \"" COTAN_TOOL "\" " + line + "; } " + sink;
+            const std::string shell = "bash -c '" + script + "' 2>" + (folder / "err").string();
+            const int status = std::system(("cd " + folder.path().string() + " && " + shell).c_str());
+            EXPECT_EQ(WEXITSTATUS(status), 4) << line << sink;
+            const std::string err = readWhole(folder / "err");
+            EXPECT_NE(err.find(sink[0] == '>' ? "no space left" : "broken pipe"), std::string::npos) << line << err;
+        }
+}
+
+TEST(Help, theTablesAreListedAsJson)
+{
+    TemporaryFolder folder;
+    const ToolRun run = runTool({"accuracy", "--list", "--json", "-"}, folder.path());
+    EXPECT_EQ(run.code, 0);
+    const auto report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(report.at("tables").back().at("name"), "rendered");
+    EXPECT_GT(report.at("tables").size(), 5u);
+}
+
+} // namespace
+} // namespace cotan

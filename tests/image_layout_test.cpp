@@ -1,0 +1,419 @@
+// Picture files made by hand, in every layout that a reader has to get right, and cut short.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <jpeglib.h>
+#include <unistd.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/image_rows.hpp"
+
+namespace cotan {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// ---- TIFF from first principles (TIFF 6.0) ------------------------------------------------------
+
+struct Tiff {
+    int width = 1, height = 1, channels = 3, bits = 8;
+    bool bigEndian = false;
+    int rowsPerStrip = 0; // 0: tiles of 16 x 16
+    bool planes = false;  // each channel on its own
+    std::vector<std::uint16_t> palette = {}; // reds, greens, blues
+
+    // What channel c has at (x, y): every bit of 16 is of use, and x and y differ.
+    std::uint16_t value(int x, int y, int c) const
+    {
+        return std::uint16_t((4129 * x + 8221 * y + 16411 * c + 259) & (bits == 16 ? 0xffff : 0xff));
+    }
+};
+
+class TiffWriter {
+public:
+    explicit TiffWriter(const Tiff& tiff) : t_(tiff) {}
+
+    std::string make()
+    {
+        const std::string parts = makeParts();
+        const std::size_t count = offsets_.size();
+        std::vector<std::array<std::uint32_t, 4>> entries; // tag, type, count, value
+        const auto add = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t n, std::uint32_t value) {
+            entries.push_back({tag, type, n, value});
+        };
+        const bool tiled = t_.rowsPerStrip == 0, indexed = !t_.palette.empty();
+        const std::size_t known = 10 + (tiled ? 1 : 0) + (indexed ? 1 : 0); // entries
+        std::size_t at = 8 + 2 + 12 * known + 4;
+        const auto offsetsAt = std::uint32_t(at), countsAt = std::uint32_t(at + 4 * count);
+        at += 8 * count;
+        const auto bitsAt = std::uint32_t(at), paletteAt = std::uint32_t(at + 2 * std::size_t(t_.channels));
+        at += 2 * std::size_t(t_.channels) + 2 * t_.palette.size();
+        add(256, 4, 1, std::uint32_t(t_.width));
+        add(257, 4, 1, std::uint32_t(t_.height));
+        if (t_.channels > 2)
+            add(258, 3, std::uint32_t(t_.channels), bitsAt);
+        else
+            add(258, 3, 1, std::uint32_t(t_.bits)); // a short: the first half of its place
+        add(259, 3, 1, 1);
+        add(262, 3, 1, indexed ? 3 : t_.channels >= 3 ? 2 : 1);
+        const bool single = count == 1; // then the value stands in the entry
+        const auto list = [&](std::uint32_t tag, std::uint32_t value, const std::vector<std::uint32_t>& values) {
+            add(tag, 4, std::uint32_t(count), single ? values[0] : value);
+        };
+        for (std::uint32_t& offset : offsets_)
+            offset += std::uint32_t(at);
+        if (!tiled)
+            list(273, offsetsAt, offsets_);
+        add(277, 3, 1, std::uint32_t(t_.channels));
+        if (!tiled) {
+            add(278, 4, 1, std::uint32_t(t_.rowsPerStrip));
+            list(279, countsAt, counts_);
+        }
+        add(284, 3, 1, t_.planes ? 2 : 1);
+        if (indexed)
+            add(320, 3, std::uint32_t(t_.palette.size()), paletteAt);
+        if (tiled) {
+            add(322, 4, 1, 16);
+            add(323, 4, 1, 16);
+            list(324, offsetsAt, offsets_);
+            list(325, countsAt, counts_);
+        }
+        EXPECT_EQ(entries.size(), known);
+
+        std::string file = t_.bigEndian ? "MM" : "II";
+        file += number(42, 2) + number(8, 4) + number(entries.size(), 2);
+        for (const auto& [tag, type, n, value] : entries)
+            file += number(tag, 2) + number(type, 2) + number(n, 4)
+                + (type == 3 && n == 1 ? number(value, 2) + std::string(2, '\0') : number(value, 4));
+        file += number(0, 4);
+        for (const std::uint32_t offset : offsets_)
+            file += number(offset, 4);
+        for (const std::uint32_t n : counts_)
+            file += number(n, 4);
+        for (int c = 0; c < t_.channels; ++c)
+            file += number(std::uint64_t(t_.bits), 2);
+        for (const std::uint16_t entry : t_.palette)
+            file += number(entry, 2);
+        EXPECT_EQ(file.size(), at);
+        return file + parts;
+    }
+
+private:
+    std::string number(std::uint64_t value, int bytes) const
+    {
+        std::string text;
+        for (int i = 0; i < bytes; ++i)
+            text += char(value >> (8 * (t_.bigEndian ? bytes - 1 - i : i)));
+        return text;
+    }
+
+    std::string makeParts()
+    {
+        const bool tiled = t_.rowsPerStrip == 0;
+        const int w = tiled ? 16 : t_.width, h = tiled ? 16 : t_.rowsPerStrip;
+        std::string parts;
+        for (int plane = 0; plane < (t_.planes ? t_.channels : 1); ++plane)
+            for (int top = 0; top < t_.height; top += h)
+                for (int left = 0; left < t_.width; left += w) {
+                    offsets_.push_back(std::uint32_t(parts.size()));
+                    const int rows = tiled ? h : std::min(h, t_.height - top);
+                    for (int y = top; y < top + rows; ++y)
+                        for (int x = left; x < left + w; ++x)
+                            for (int c = 0; c < (t_.planes ? 1 : t_.channels); ++c)
+                                parts += number(t_.value(x, y, t_.planes ? plane : c), t_.bits / 8);
+                    counts_.push_back(std::uint32_t(parts.size()) - offsets_.back());
+                }
+        return parts;
+    }
+
+    const Tiff& t_;
+    std::vector<std::uint32_t> offsets_, counts_;
+};
+
+std::vector<Tiff> tiffs()
+{
+    std::vector<Tiff> all;
+    for (const int bits : {8, 16})
+        for (const bool bigEndian : {false, true})
+            for (const int rows : {0, 2, 5})
+                for (const bool planes : {false, true})
+                    for (const auto& [width, height] : {std::pair(19, 5), std::pair(3, 18)})
+                        all.push_back({.width = width, .height = height, .channels = 3, .bits = bits, .bigEndian = bigEndian,
+                                       .rowsPerStrip = rows, .planes = planes});
+    all.push_back({.width = 7, .height = 3, .channels = 1, .bits = 16, .bigEndian = true, .rowsPerStrip = 3});
+    return all;
+}
+
+int component(const Image& image, int x, int y, int c)
+{
+    const std::size_t at = (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4 + std::size_t(c);
+    return image.type == PixelType::unorm16 ? image.words()[at] : image.bytes8()[at];
+}
+
+// A file for one test.
+class PictureFile : public testing::Test {
+protected:
+    fs::path folder = fs::temp_directory_path()
+        / ("cotan_layout_test_" + std::to_string(::getpid()) + "_"
+           + testing::UnitTest::GetInstance()->current_test_info()->name());
+    void SetUp() override { fs::create_directories(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+
+    fs::path write(const std::string& name, const std::string& bytes) const
+    {
+        fs::remove(folder / name);
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+        return folder / name;
+    }
+
+    // The picture by rows, `strip` at a time; nothing where that fails.
+    std::optional<Image> byRows(const fs::path& file, int strip) const
+    {
+        auto rows = openRows(file);
+        if (!rows)
+            return std::nullopt;
+        Image whole = makeImage((*rows)->width, (*rows)->height, (*rows)->type);
+        const std::size_t rowBytes = std::size_t(whole.width) * whole.bytesPerPixel();
+        for (int y = 0; y < whole.height; y += strip) {
+            Image part = makeImage(whole.width, std::min(strip, whole.height - y), whole.type);
+            if (!(*rows)->read(part))
+                return std::nullopt;
+            std::memcpy(whole.data.data() + std::size_t(y) * rowBytes, part.data.data(), part.data.size());
+        }
+        return whole;
+    }
+
+    // Both ways of reading refuse what `cut` leaves of the file, in one line and without a word besides.
+    void expectCutsRefused(const std::string& name, const std::string& whole, std::size_t first) const
+    {
+        ASSERT_TRUE(decodeImage(bytesOf(whole), name));
+        testing::internal::CaptureStderr();
+        for (std::size_t length = first; length < whole.size(); length += 1 + whole.size() / 60) {
+            const std::string cut = whole.substr(0, length);
+            const auto image = decodeImage(bytesOf(cut), name);
+            EXPECT_FALSE(image) << name << " cut to " << length << " of " << whole.size();
+            if (!image) {
+                EXPECT_EQ(image.error().message.find('\n'), std::string::npos) << image.error().message;
+            }
+            EXPECT_FALSE(byRows(write(name, cut), 2)) << name << " by rows, cut to " << length;
+        }
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    }
+};
+
+TEST_F(PictureFile, tiffOfEveryLayoutHasItsValuesInTheirPlaces)
+{
+    for (const Tiff& t : tiffs()) {
+        SCOPED_TRACE(testing::Message() << t.width << " x " << t.height << ", " << t.bits << " bits, big-endian " << t.bigEndian
+                                        << ", rows " << t.rowsPerStrip << ", planes " << t.planes);
+        const std::string file = TiffWriter(t).make();
+        const auto image = decodeImage(bytesOf(file), "a.tif");
+        ASSERT_TRUE(image) << image.error().message;
+        EXPECT_EQ(image->type, t.bits == 16 ? PixelType::unorm16 : PixelType::unorm8);
+        ASSERT_EQ(image->width, t.width);
+        ASSERT_EQ(image->height, t.height);
+        for (int y = 0; y < t.height; ++y)
+            for (int x = 0; x < t.width; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(component(*image, x, y, c),
+                              c == 3 ? (t.bits == 16 ? 0xffff : 0xff) : t.value(x, y, t.channels == 1 ? 0 : c))
+                        << x << ' ' << y << ' ' << c;
+        for (const int strip : {1, 2, 7}) {
+            const auto rows = byRows(write("a.tif", file), strip);
+            ASSERT_TRUE(rows) << strip;
+            EXPECT_EQ(rows->data, image->data) << "rows " << strip;
+        }
+    }
+}
+
+TEST_F(PictureFile, tiffPaletteBecomesColours)
+{
+    Tiff t{.width = 5, .height = 2, .channels = 1, .bits = 8, .rowsPerStrip = 2};
+    for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 256; ++i)
+            t.palette.push_back(std::uint16_t(257 * ((i * (c + 2)) % 256)));
+    const std::string file = TiffWriter(t).make();
+    const auto image = decodeImage(bytesOf(file), "a.tif");
+    ASSERT_TRUE(image) << image.error().message;
+    for (int x = 0; x < 5; ++x)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_EQ(component(*image, x, 1, c), t.value(x, 1, 0) * (c + 2) % 256) << x << ' ' << c;
+}
+
+// Grey and alpha, of odd width.
+TEST_F(PictureFile, tiffOfTwoChannelsIsGreyAndAlpha)
+{
+    const Tiff t{.width = 5, .height = 3, .channels = 2, .bits = 16, .bigEndian = true, .rowsPerStrip = 2};
+    const auto image = decodeImage(bytesOf(TiffWriter(t).make()), "a.tif");
+    ASSERT_TRUE(image) << image.error().message;
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(component(*image, 4, 2, c), t.value(4, 2, c == 3 ? 1 : 0)) << c;
+}
+
+TEST_F(PictureFile, tiffCutAnywhereIsRefused)
+{
+    for (const Tiff& t : tiffs())
+        if (t.bits == 16 || t.bigEndian)
+            expectCutsRefused("a.tif", TiffWriter(t).make(), 8);
+}
+
+TEST_F(PictureFile, compressedTiffAndExrCutAnywhereAreRefused)
+{
+    Image image = makeImage(23, 9, PixelType::float32);
+    for (std::size_t i = 0; i < image.pixelCount() * 4; ++i)
+        image.floats()[i] = float(i * 7919 % 1000) / 1000;
+    Image words = makeImage(23, 9, PixelType::unorm16);
+    for (std::size_t i = 0; i < words.pixelCount() * 4; ++i)
+        words.words()[i] = std::uint16_t(i * 7919);
+    ASSERT_TRUE(writeImage(folder / "whole.exr", image));
+    ASSERT_TRUE(writeImage(folder / "whole.tif", words));
+    for (const char* const extension : {".exr", ".tif"}) {
+        std::ifstream in(folder / (std::string("whole") + extension), std::ios::binary);
+        const std::string whole{std::istreambuf_iterator<char>(in), {}};
+        expectCutsRefused(std::string("a") + extension, whole, 8);
+    }
+}
+
+TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
+{
+    const std::string start("\x76\x2f\x31\x01\2\0\0\0", 8);
+    for (const std::string& size : {std::string("\xff\xff\xff\x7f", 4), std::string("\xff\xff\xff\xff", 4)}) {
+        const std::string file = start + std::string("a\0string\0", 9) + size;
+        const auto image = decodeImage(bytesOf(file), "a.exr");
+        ASSERT_FALSE(image);
+        EXPECT_NE(image.error().message.find("an attribute of its header takes"), std::string::npos) << image.error().message;
+        EXPECT_FALSE(openRows(write("a.exr", file)));
+    }
+    EXPECT_FALSE(decodeImage(bytesOf(start + std::string(1000, 'n')), "a.exr"));
+    EXPECT_FALSE(decodeImage(bytesOf(start), "a.exr"));
+}
+
+// ---- DDS ----------------------------------------------------------------------------------------
+
+std::string dx10(int width, int height, std::uint32_t format)
+{
+    std::array<std::uint32_t, 37> header{};
+    header[0] = 0x20534444, header[1] = 124, header[2] = 0x1007; // caps, height, width, pixel format
+    header[3] = std::uint32_t(height), header[4] = std::uint32_t(width);
+    header[19] = 32, header[20] = 0x4, header[21] = 0x30315844; // "DX10"
+    header[27] = 0x1000;
+    header[32] = format, header[33] = 3 /*2D*/, header[35] = 1;
+    return {reinterpret_cast<const char*>(header.data()), sizeof header};
+}
+
+TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
+{
+    // BC5, 5 x 7 pixels: 2 x 2 blocks of two BC4 halves, all indices 0: each channel its first endpoint.
+    std::string file = dx10(5, 7, 83);
+    for (const int red : {200, 40, 90, 10})
+        file += std::string(1, char(red)) + std::string(7, '\0') + std::string(1, char(red / 2)) + std::string(7, '\0');
+    const auto image = decodeImage(bytesOf(file), "a.dds");
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(component(*image, 0, 0, 0), 200);
+    EXPECT_EQ(component(*image, 4, 3, 0), 40);
+    EXPECT_EQ(component(*image, 0, 4, 1), 45);
+    EXPECT_EQ(component(*image, 4, 6, 1), 5);
+    for (const std::size_t length : {std::size_t(0), std::size_t(128), std::size_t(147), std::size_t(148), file.size() - 1}) {
+        EXPECT_FALSE(decodeImage(bytesOf(file.substr(0, length)), "a.dds")) << length;
+    }
+    EXPECT_FALSE(decodeImage(bytesOf(dx10(4, 4, 999) + std::string(4096, '\0')), "a.dds"));
+    EXPECT_FALSE(decodeImage(bytesOf(dx10(0x7fffffff, 0x7fffffff, 83) + std::string(4096, '\0')), "a.dds"));
+}
+
+// ---- JPEG ---------------------------------------------------------------------------------------
+
+std::string makeJpeg(int width, int height, bool progressive)
+{
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = JDIMENSION(width);
+    jpeg.image_height = JDIMENSION(height);
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_colorspace(&jpeg, JCS_RGB);
+    if (progressive)
+        jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<JSAMPLE> row(std::size_t(width) * 3);
+    for (int y = 0; y < height; ++y) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] = JSAMPLE(i * 5 + std::size_t(y) * 3);
+        JSAMPROW rows = row.data();
+        jpeg_write_scanlines(&jpeg, &rows, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    std::string file(reinterpret_cast<const char*>(bytes), size);
+    std::free(bytes);
+    return file;
+}
+
+TEST_F(PictureFile, jpegOfOddSizeIsReadWithEveryNumberOfScans)
+{
+    for (const bool progressive : {false, true}) {
+        const auto image = decodeImage(bytesOf(makeJpeg(37, 21, progressive)), "a.jpg");
+        ASSERT_TRUE(image) << image.error().message;
+        EXPECT_EQ(image->width, 37);
+        EXPECT_EQ(image->height, 21);
+        // A ramp survives quality 75 within a few steps.
+        EXPECT_NEAR(component(*image, 10, 15, 0), 195, 12);
+        EXPECT_EQ(component(*image, 36, 20, 3), 255);
+    }
+}
+
+TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
+{
+    const std::string file = makeJpeg(64, 64, true);
+    const std::size_t last = file.rfind("\xff\xda");
+    ASSERT_NE(last, std::string::npos);
+    const std::string scan = file.substr(last, file.size() - last - 2), end = file.substr(file.size() - 2);
+    std::string many = file.substr(0, file.size() - 2);
+    for (int i = 0; i < 200; ++i)
+        many += scan;
+    const auto refused = decodeImage(bytesOf(many + end), "a.jpg");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("expected at most 100 scans"), std::string::npos) << refused.error().message;
+    // Ten scans of 30000 x 30000 pixels: over the limit in all. The size stands behind the frame's marker.
+    std::string large = file;
+    const std::size_t frame = large.find("\xff\xc2");
+    ASSERT_NE(frame, std::string::npos);
+    large.replace(frame + 5, 4, "\x75\x30\x75\x30");
+    LoadLimits limits;
+    limits.imageSide = 65535;
+    limits.imageBytes = std::size_t(1) << 40;
+    const auto slow = decodeImage(bytesOf(large), "a.jpg", limits);
+    ASSERT_FALSE(slow);
+    EXPECT_NE(slow.error().message.find("scans of 30000 x 30000 pixels"), std::string::npos) << slow.error().message;
+}
+
+// Three components of 64 x 64 coefficients of two bytes are 24576 bytes; the pixels take 16384.
+TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
+{
+    LoadLimits limits;
+    limits.imageBytes = 20000;
+    EXPECT_FALSE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
+    EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, false)), "a.jpg", limits));
+    limits.imageBytes = 24576;
+    EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
+}
+
+} // namespace
+} // namespace cotan

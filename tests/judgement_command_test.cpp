@@ -1,0 +1,355 @@
+// The tool's verdicts as a user meets them: what could not be judged is said, advice is what the command does, and a
+// converted .gltf has its pictures beside it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/asset/load.hpp"
+#include "quad_model.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+json jsonOf(std::vector<std::string> words, const std::filesystem::path& folder, int code = 0)
+{
+    words.insert(words.end(), {"--json", "-", "--quiet"});
+    const ToolRun run = runTool(words, folder, 120);
+    EXPECT_EQ(run.code, code) << fmt::format("{}\n", fmt::join(words, " ")) << run.err;
+    return json::parse(run.out, nullptr, false);
+}
+
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+// ---- places between texel centres -----------------------------------------------------------
+
+// A quad of 8 by 1 under one row of texels: u is half as dense as v, v runs from 0.05 to 0.3, and no texel centre is inside.
+void writeOneRow(const std::filesystem::path& folder, float low = 0.05f, float high = 0.3f)
+{
+    Made m = quad(8);
+    const std::vector<float> uv = {0, high, 1, high, 1, low, 0, high, 1, low, 0, low};
+    std::memcpy(m.bytes.data() + (18 + 18 + 24) * sizeof(float), uv.data(), uv.size() * sizeof(float));
+    write(m, folder);
+    Image row = makeImage(64, 1, PixelType::unorm8, "row");
+    for (int x = 0; x < 64; ++x) {
+        const std::uint8_t texel[4] = {std::uint8_t(128 + x / 2), std::uint8_t(160 - x), 220, 255};
+        std::copy_n(texel, 4, row.bytes8() + 4 * x);
+    }
+    ASSERT_TRUE(writeImage(folder / "waves.png", row));
+}
+
+TEST(Judgement, aMapWhoseRowLiesBetweenTexelCentresIsConvertedAndMeasured)
+{
+    TemporaryFolder folder;
+    writeOneRow(folder.path());
+    const json lint = jsonOf({"lint", "quad.gltf"}, folder.path());
+    const double predicted = lint["primitives"][0]["read_with"]["cotangent"]["mean"];
+    EXPECT_GT(predicted, 1);
+    const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
+    const json& map = r["maps"][0];
+    EXPECT_FALSE(map["kept"].get<bool>());
+    EXPECT_EQ(map["texels_covered"], 0);
+    EXPECT_NEAR(map["degrees_unconverted"]["mean"].get<double>(), predicted, 0.01);
+    EXPECT_GT(map["degrees_after_rounding"]["count"].get<int>(), 0);
+    EXPECT_LT(map["degrees_after_rounding"]["mean"].get<double>(), 0.5); // 8 bits
+    EXPECT_TRUE(map["disagreement_degrees"]["mean"].is_null());          // of no texel
+}
+
+TEST(Judgement, whereNothingShowsTheMapNothingIsSaidToFit)
+{
+    TemporaryFolder folder;
+    writeOneRow(folder.path(), 0.3f, 0.3f); // a line in uv
+    const ToolRun run = runTool({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(says(run.out, "nothing was judged")) << run.out;
+    EXPECT_FALSE(says(run.out, "0.00")) << run.out;
+    const json map = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path())["maps"][0];
+    EXPECT_TRUE(map["kept"].get<bool>());
+    EXPECT_EQ(map["degrees_unconverted"]["count"], 0);
+    EXPECT_TRUE(map["degrees_unconverted"]["mean"].is_null());
+    const json lint = jsonOf({"lint", "quad.gltf"}, folder.path());
+    EXPECT_EQ(lint["primitives"][0]["not_judged"], "no triangle has area, also in uv");
+    EXPECT_TRUE(lint["primitives"][0]["read_with"]["cotangent"]["mean"].is_null());
+    EXPECT_EQ(runTool({"lint", "quad.gltf", "--strict", "--limit", "5", "--quiet"}, folder.path()).code, 5); // nothing judged is nothing proved
+    EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 0);
+}
+
+TEST(Judgement, comparisonsWithoutANormalMapHaveNoAverage)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["materials"][0].erase("normalTexture");
+    write(m, folder.path());
+    const std::vector<std::string> compare = {"compare", "quad.gltf", "--device", "reference", "--size", "64x48", "-o", "c"};
+    const ToolRun run = runTool(compare, folder.path());
+    EXPECT_TRUE(says(run.out, "nothing was compared: no normal map is drawn")) << run.out;
+    const json r = jsonOf(compare, folder.path());
+    EXPECT_EQ(r["normals"]["pixels"], 0);
+    EXPECT_TRUE(r["normals"]["mean_degrees"].is_null());
+    const json e = jsonOf({"render", "quad.gltf", "--view", "error", "--device", "reference", "--size", "64x48", "-o", "e.png"}, folder.path());
+    EXPECT_TRUE(e["error_against_exact"]["mean_degrees"].is_null());
+    const json v = jsonOf({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"}, folder.path());
+    EXPECT_EQ(v["verify"]["degrees"]["pixels"], 0);
+    EXPECT_TRUE(v["verify"]["degrees"]["max_degrees"].is_null());
+    const ToolRun said = runTool({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"}, folder.path());
+    EXPECT_TRUE(says(said.err, "--verify compared nothing")) << said.err;
+    write(quad(2), folder.path()); // the control
+    EXPECT_GT(jsonOf(compare, folder.path())["normals"]["mean_degrees"].get<double>(), 1);
+    std::vector<std::string> plain = compare;
+    plain.push_back("--no-normal-maps");
+    EXPECT_EQ(jsonOf(plain, folder.path())["normals"]["pixels"], 0);
+}
+
+// ---- advice is what the command does --------------------------------------------------------
+
+// Runs what lint advises and holds it against what lint says it would do.
+void runAdvice(const std::filesystem::path& folder, const std::string& model)
+{
+    const json lint = jsonOf({"lint", model}, folder);
+    std::istringstream command(lint["run"].get<std::string>());
+    std::vector<std::string> words;
+    for (std::string word; command >> word && word != "--verify";)
+        words.push_back(word);
+    ASSERT_GT(words.size(), 2u);
+    EXPECT_EQ(words[0], "cotan");
+    words.erase(words.begin());
+    const json r = jsonOf(words, folder);
+    std::size_t kept = 0, converted = 0;
+    for (const json& map : r["maps"])
+        ++(map["kept"].get<bool>() ? kept : converted);
+    EXPECT_EQ(lint["run_would"]["maps_kept"], kept);
+    EXPECT_EQ(lint["run_would"]["maps_converted"], converted);
+    EXPECT_EQ(lint["run_would"]["drops_tangents"].get<bool>(), r["tangents"]["dropped_primitives"].get<int>() > 0);
+    EXPECT_TRUE(converted > 0 || r["tangents"]["dropped_primitives"].get<int>() > 0) << "it does nothing";
+}
+
+TEST(Advice, aCommandThatWouldDoNothingIsNotAdvised)
+{
+    TemporaryFolder folder;
+    Made m = quad(1);
+    m.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+    write(m, folder.path());
+    const json r = jsonOf({"lint", "quad.gltf"}, folder.path());
+    EXPECT_EQ(r["run"], "");
+    EXPECT_TRUE(says(r["recommendation"], "Nothing has to be changed")) << r["recommendation"];
+    EXPECT_EQ(r["run_would"]["maps_kept"], 1);
+    const std::string boomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
+    if (!std::filesystem::exists(boomBox))
+        GTEST_SKIP() << boomBox << " is missing";
+    const json b = jsonOf({"lint", boomBox}, folder.path());
+    EXPECT_EQ(b["run"], "") << b["recommendation"];
+}
+
+TEST(Advice, whatLintForeseesIsWhatConvertDoes)
+{
+    TemporaryFolder folder;
+    write(quad(1), folder.path()); // tangents go, the map stays
+    runAdvice(folder.path(), "quad.gltf");
+    // A mesh whose stored tangents are turned a little: convert follows them, and the map does not fit as it is.
+    Made m = quad(1);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const float turned[2] = {std::cos(0.2f), std::sin(0.2f)};
+        std::memcpy(m.bytes.data() + (18 + 18 + 4 * i) * sizeof(float), turned, sizeof turned);
+    }
+    write(m, folder.path());
+    runAdvice(folder.path(), "quad.gltf");
+    EXPECT_EQ(jsonOf({"lint", "quad.gltf"}, folder.path())["run_would"]["maps_converted"], 1);
+}
+
+// ---- verdict first --------------------------------------------------------------------------
+
+TEST(LintOutput, beginsWithAVerdictOfAtMostTenLinesAndGivesFiguresOnRequest)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    for (int i = 1; i < 30; ++i)
+        m.root["meshes"][0]["primitives"].push_back(m.root["meshes"][0]["primitives"][0]);
+    write(m, folder.path());
+    const ToolRun verdict = runTool({"lint", "quad.gltf", "--limit", "0.0001"}, folder.path());
+    EXPECT_LE(lines(verdict.out), 10) << verdict.out;
+    EXPECT_TRUE(verdict.out.starts_with("quad.gltf: 30 primitives, 30 with a normal map, 30 with stored tangents\n")) << verdict.out;
+    EXPECT_TRUE(says(verdict.out, "degrees off on average"));
+    EXPECT_TRUE(says(verdict.out, "\n  cotan convert quad.gltf ")) << verdict.out;
+    EXPECT_TRUE(says(verdict.out, "--details adds")) << verdict.out;
+    const ToolRun all = runTool({"lint", "quad.gltf", "--details"}, folder.path());
+    EXPECT_GT(lines(all.out), 200);
+    EXPECT_TRUE(says(all.out, "  made for MikkTSpace, read with cotangent: ")) << all.out;
+    EXPECT_TRUE(all.out.starts_with(verdict.out.substr(0, verdict.out.find("over the limit")))) << all.out;
+}
+
+// ---- formats that are not read --------------------------------------------------------------
+
+struct Foreign {
+    const char *extension, *file, *name;
+    std::string bytes;
+};
+
+const Foreign kForeign[] = {{"EXT_texture_webp", "waves.webp", "WebP", std::string("RIFF\x10\0\0\0WEBPVP8 ", 16)},
+                            {"KHR_texture_basisu", "waves.ktx2", "KTX2", std::string("\xabKTX 20\xbb\r\n\x1a\n more")}};
+
+void writeForeign(const Foreign& f, const std::filesystem::path& folder)
+{
+    Made m = quad(2);
+    m.root["extensionsUsed"] = m.root["extensionsRequired"] = {f.extension};
+    m.root["textures"][0] = {{"extensions", {{f.extension, {{"source", 0}}}}}};
+    m.root["images"][0] = {{"uri", f.file}};
+    write(m, folder);
+    std::ofstream(folder / f.file, std::ios::binary) << f.bytes;
+}
+
+TEST(ForeignMaps, lintJudgesWhatNeedsNoPixelsAndNamesWhatWasNot)
+{
+    for (const Foreign& f : kForeign) {
+        TemporaryFolder folder;
+        writeForeign(f, folder.path());
+        const json r = jsonOf({"lint", "quad.gltf"}, folder.path());
+        const json& p = r["primitives"][0];
+        EXPECT_NEAR(p["uv"]["stretch"]["mean"].get<double>(), 2, 1e-3) << f.name;
+        EXPECT_EQ(p["stored_tangents"]["reversed_w"], 0);
+        EXPECT_TRUE(says(p["not_judged"], f.name)) << p["not_judged"];
+        EXPECT_FALSE(p.contains("read_with"));
+        EXPECT_TRUE(says(r["warnings"].dump(), f.name)) << r["warnings"];
+        EXPECT_TRUE(says(r["recommendation"], "could not be judged")) << r["recommendation"];
+        EXPECT_FALSE(says(r["recommendation"], "can be dropped"));
+        EXPECT_EQ(r["run"], "");
+        const ToolRun strict = runTool({"lint", "quad.gltf", "--strict", "--limit", "90", "--quiet"}, folder.path());
+        EXPECT_EQ(strict.code, 5) << strict.err;
+        EXPECT_TRUE(says(strict.err, "not judged")) << strict.err;
+        EXPECT_EQ(runTool({"lint", "quad.gltf", "--strict", "--limit-area", "5", "--quiet"}, folder.path()).code, 0);
+    }
+}
+
+TEST(ForeignMaps, tangentsAreComparedAndWritten)
+{
+    for (const Foreign& f : kForeign) {
+        TemporaryFolder folder;
+        writeForeign(f, folder.path());
+        EXPECT_EQ(jsonOf({"tangents", "quad.gltf"}, folder.path())["whole"]["verdict"], "equal") << f.name;
+        EXPECT_EQ(jsonOf({"tangents", "quad.gltf", "--replace", "-o", "out.gltf"}, folder.path())["generated"], 1) << f.name;
+        const json out = json::parse(readWhole(folder / "out.gltf"));
+        EXPECT_EQ(out["images"][0]["uri"], f.file);
+        EXPECT_EQ(out["extensionsRequired"][0], f.extension);
+    }
+}
+
+TEST(ForeignMaps, convertLeavesThemAndTheTangentsThatTheyNeed)
+{
+    for (const Foreign& f : kForeign) {
+        TemporaryFolder folder;
+        writeForeign(f, folder.path());
+        const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
+        EXPECT_TRUE(r["maps"].empty()) << f.name;
+        EXPECT_TRUE(says(r["notes"].dump(), "TANGENT stays")) << r["notes"];
+        // Against the specification, but met: the texture itself names such an image.
+        Made m = quad(2);
+        m.root["images"][0] = {{"uri", f.file}};
+        write(m, folder.path());
+        const json s = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
+        EXPECT_TRUE(s["maps"].empty()) << f.name;
+        EXPECT_TRUE(says(s["notes"].dump(), "TANGENT stays")) << s["notes"];
+    }
+}
+
+TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
+{
+    TemporaryFolder folder;
+    writeForeign(kForeign[0], folder.path());
+    EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, folder.path()).code, 2);
+    std::ofstream(folder / "waves.webp") << "not an image";
+    EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 2); // broken is not foreign
+}
+
+// ---- memory ---------------------------------------------------------------------------------
+
+TEST(Memory, oneOptionOneLimitAndTheSameWordsEverywhere)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    ASSERT_TRUE(writeImage(folder / "waves.png", makeImage(1024, 512, PixelType::unorm8, "large"))); // 2 MiB
+    const std::vector<std::vector<std::string>> commands = {
+        {"lint", "quad.gltf"},
+        {"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"},
+        {"render", "quad.gltf", "-o", "out.png", "--device", "reference", "--size", "16x16"},
+        {"compare", "quad.gltf", "-o", "c", "--device", "reference", "--size", "16x16"},
+        {"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "8x8", "-o", "b.png"},
+    };
+    for (std::vector<std::string> words : commands) {
+        words.insert(words.end(), {"--quiet", "--memory", "1"});
+        const ToolRun refused = runTool(words, folder.path());
+        EXPECT_EQ(refused.code, 2) << words[0] << refused.err;
+        EXPECT_TRUE(says(refused.err, "the limit is 1048576 (--memory raises it)")) << words[0] << refused.err;
+        words.back() = "2";
+        EXPECT_EQ(runTool(words, folder.path()).code, 0) << words[0];
+    }
+    EXPECT_EQ(runTool({"tangents", "quad.gltf", "--quiet"}, folder.path()).code, 0); // needs no pixels
+}
+
+// ---- pictures beside a .gltf ----------------------------------------------------------------
+
+TEST(PicturesBeside, newMapsAreFilesNamedForTheModel)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const std::string old = readWhole(folder / "waves.png");
+    const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.gltf"}, folder.path());
+    const json out = json::parse(readWhole(folder / "out.gltf"));
+    EXPECT_EQ(out["images"][0]["uri"], "out-waves.png");
+    EXPECT_FALSE(out["images"][0].contains("bufferView"));
+    EXPECT_EQ(readWhole(folder / "waves.png"), old);
+    EXPECT_EQ(r["files"].size(), 3u) << r["files"];
+    EXPECT_EQ(r["bytes_after"].get<std::size_t>(), std::filesystem::file_size(folder / "out.gltf")
+                  + std::filesystem::file_size(folder / "out.bin") + std::filesystem::file_size(folder / "out-waves.png"));
+    // What is drawn is what the .glb would have.
+    jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
+    const auto beside = loadScene(folder / "out.gltf"), inside = loadScene(folder / "out.glb");
+    ASSERT_TRUE(beside && inside);
+    EXPECT_EQ(beside->images.at(0).data, inside->images.at(0).data);
+    // Again: its own picture is replaced.
+    jsonOf({"convert", "quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "out.gltf"}, folder.path());
+    EXPECT_EQ(json::parse(readWhole(folder / "out.gltf"))["images"][0]["uri"], "out-waves.png");
+    EXPECT_EQ(loadScene(folder / "out.gltf")->images.at(0).type, PixelType::unorm16);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out-waves-2.png"));
+}
+
+TEST(PicturesBeside, aFileThatDoesNotBelongToTheModelIsLeftAlone)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    std::ofstream(folder / "out-waves.png") << "mine";
+    jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.gltf"}, folder.path());
+    EXPECT_EQ(readWhole(folder / "out-waves.png"), "mine");
+    EXPECT_EQ(json::parse(readWhole(folder / "out.gltf"))["images"][0]["uri"], "out-waves-2.png");
+    EXPECT_TRUE(loadScene(folder / "out.gltf"));
+}
+
+TEST(PicturesBeside, namesAreMadePlainAndTwoMapsOfOneNameAreTwoFiles)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    m.root["images"][0]["name"] = "../a b/c";
+    m.root["images"].push_back({{"uri", "copy.png"}, {"name", "../a b/c"}});
+    m.root["textures"].push_back({{"source", 1}});
+    m.root["materials"].push_back({{"normalTexture", {{"index", 1}}}});
+    json second = m.root["meshes"][0]["primitives"][0];
+    second["material"] = 1;
+    m.root["meshes"][0]["primitives"].push_back(second);
+    write(m, folder.path());
+    std::filesystem::copy_file(folder / "waves.png", folder / "copy.png");
+    jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.gltf"}, folder.path());
+    const json out = json::parse(readWhole(folder / "out.gltf"));
+    EXPECT_EQ(out["images"][0]["uri"], "out-___a_b_c.png");
+    EXPECT_EQ(out["images"][1]["uri"], "out-___a_b_c-2.png");
+    EXPECT_TRUE(loadScene(folder / "out.gltf"));
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,376 @@
+// The parts of lint on a few triangles each, whose figures are worked out by hand. u and v never play the same role.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cotan/lint/texel.hpp"
+#include "judgement_cases.hpp"
+#include "parts.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+
+constexpr double kFloats = 1e-5; // positions and uv are floats, ratios and angles of their differences good to 1e-6
+
+// One unit of uv over 1 by `height`: the gradient of v is 1/height of that of u.
+MappedSurface tall(float height) { return surfaceOf(rectangle({0, 0}, {1, height}, {0, 0}, {1, 1})); }
+
+TEST(UvQuality, theGradientIsTheLongerOneAndTheMedianOverTheArea)
+{
+    EXPECT_NEAR(lint::uvQuality(tall(4)).gradient, 1, kFloats);     // of u: v has a quarter
+    EXPECT_NEAR(lint::uvQuality(tall(0.25f)).gradient, 4, kFloats); // of v
+    const auto small = rectangle({0, 0}, {1, 1}, {0, 0}, {3, 3}), other = rectangle({2, 0}, {1, 1}, {0, 0}, {3, 3}),
+               third = rectangle({4, 0}, {1, 1}, {0, 0}, {7, 7});
+    EXPECT_NEAR(lint::uvQuality(surfaceOf(small + third + other)).gradient, 3, kFloats);
+}
+
+TEST(UvQuality, stretchCountsFromOnePointTwoOnAndShearFromTenDegreesOn)
+{
+    EXPECT_NEAR(lint::uvQuality(tall(1.19f)).stretch.mean, 1.19, kFloats);
+    EXPECT_EQ(lint::uvQuality(tall(1.19f)).stretched, 0);
+    EXPECT_EQ(lint::uvQuality(tall(1.21f)).stretched, 1);
+    EXPECT_EQ(lint::uvQuality(tall(1 / 1.21f)).stretched, 1);
+    for (const auto& [angle, share] : {std::pair(9.0, 0.0), {11.0, 1.0}, {-9.0, 0.0}, {-11.0, 1.0}}) {
+        auto corners = rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1});
+        for (Corner& c : corners) // u + s v: its gradient leans towards that of v
+            c.uv.x += float(std::tan(glm::radians(angle))) * c.uv.y;
+        const UvQuality q = lint::uvQuality(surfaceOf(corners));
+        EXPECT_NEAR(q.shear.mean, std::abs(angle), 1e-4);
+        EXPECT_EQ(q.sheared, share) << angle;
+    }
+}
+
+TEST(UvQuality, sharesAreOfTheArea)
+{
+    // Areas 1 mirrored, 3 stretched threefold along v, 4 a line in uv, 8 square: 16 in all.
+    const auto mirrored = rectangle({0, 0}, {1, 1}, {1, 0}, {0, 1}), stretched = rectangle({2, 0}, {1, 3}, {0, 0}, {1, 1}),
+               line = rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1}), square = rectangle({8, 0}, {2, 4}, {0, 0}, {2, 4});
+    const UvQuality q = lint::uvQuality(surfaceOf(mirrored + stretched + line + square));
+    EXPECT_NEAR(q.area, 16, kFloats);
+    EXPECT_NEAR(q.mirrored, 1.0 / 16, kFloats);
+    EXPECT_NEAR(q.stretched, 3.0 / 16, kFloats);
+    EXPECT_NEAR(q.degenerate, 4.0 / 16, kFloats);
+    EXPECT_NEAR(q.stretch.mean, (1 + 3 * 3 + 8) / 12.0, kFloats); // the line has none
+    EXPECT_NEAR(q.stretch.maximum, 3, kFloats);
+    EXPECT_EQ(q.stretch.count, 6u); // triangles
+    EXPECT_EQ(q.largestUv, 4);
+}
+
+TEST(UvQuality, uvAreALineFromTenThousandToOneOn)
+{
+    EXPECT_EQ(lint::uvQuality(tall(9000)).degenerate, 0);
+    EXPECT_NEAR(lint::uvQuality(tall(9000)).stretch.mean, 9000, 1);
+    EXPECT_EQ(lint::uvQuality(tall(11000)).degenerate, 1);
+}
+
+TEST(UvQuality, withoutAreaThereAreNoShares)
+{
+    const UvQuality none = lint::uvQuality(surfaceOf(rectangle({0, 0}, {1, 0}, {0, 0}, {1, 1})));
+    EXPECT_EQ(none.area, 0);
+    EXPECT_TRUE(std::isnan(none.mirrored) && std::isnan(none.degenerate) && std::isnan(none.stretched));
+    EXPECT_EQ(none.stretch.count, 0u);
+    EXPECT_TRUE(std::isnan(none.stretch.mean) && std::isnan(none.shear.maximum));
+    EXPECT_EQ(none.largestUv, 1);
+}
+
+// ---- edges ----------------------------------------------------------------------------------
+
+// Two triangles that meet in x = 0, from y = 0 to 1; v runs down along both. u = x on the left; on the right u = x times
+// `across`, and v gains `along` times x.
+std::vector<Corner> meeting(float across, float along, float right = 1)
+{
+    return {{{0, 0, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}}, {{-1, 0, 0}, {-1, 1}},
+            {{0, 0, 0}, {0, 1}}, {{right, 0, 0}, {right * across, 1 + right * along}}, {{0, 1, 0}, {0, 0}}};
+}
+
+// The steps of a texel tilted by 35 degrees, in eight directions, when its slopes along u and v shrink.
+std::vector<double> stepsWhen(double u, double v)
+{
+    std::vector<double> steps;
+    for (int k = 0; k < 8; ++k) {
+        const double s = std::tan(glm::radians(35.0)), a = glm::radians(45.0 * k);
+        steps.push_back(angleBetween({s * std::cos(a), s * std::sin(a), 1}, {u * s * std::cos(a), v * s * std::sin(a), 1}));
+    }
+    return steps;
+}
+
+double meanOf(const std::vector<double>& values)
+{
+    double sum = 0;
+    for (double v : values)
+        sum += v;
+    return sum / double(values.size());
+}
+
+TEST(EdgeSteps, ofUvThatAreHalfAsDenseBeyondTheEdgeAreThoseOfHalvedSlopes)
+{
+    const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(0.5f, 0)));
+    const std::vector<double> expected = stepsWhen(0.5, 1); // the gradient of v is the longer one on both sides
+    EXPECT_EQ(s.edges, 1u);
+    EXPECT_EQ(s.cotangent.count, 8u);
+    EXPECT_NEAR(s.cotangent.mean, meanOf(expected), 1e-4);
+    EXPECT_NEAR(s.cotangent.maximum, *std::max_element(expected.begin(), expected.end()), 1e-4);
+    EXPECT_NEAR(s.orthonormal.maximum, 0, 1e-4); // does not see lengths
+}
+
+TEST(EdgeSteps, ofUvThatAreDenserBeyondTheEdgeScaleTheOther)
+{
+    const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(2, 0))); // there, v has half the gradient
+    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(1, 0.5)), 1e-4);
+}
+
+TEST(EdgeSteps, areWeightedByTheAreasOnBothSides)
+{
+    // Two pairs apart, of areas 1/2 + 1/2 and 1/2 + 3/2; steps only at the second.
+    auto far = meeting(0.5f, 0, 3);
+    for (Corner& c : far)
+        c.position.y += 10;
+    const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(1, 0) + far));
+    EXPECT_EQ(s.edges, 2u);
+    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(0.5, 1)) * 2 / 3, 1e-4);
+}
+
+TEST(EdgeSteps, orthonormalStepsWhereTheLinesOfEqualVTurn)
+{
+    // Along this edge u = y and v = x; beyond it u = y + x: the lines of equal v stay, and t along them.
+    EXPECT_NEAR(lint::edgeSteps(surfaceOf({{{0, 0, 0}, {0, 0}}, {{0, 1, 0}, {1, 0}}, {{-1, 0, 0}, {0, -1}},
+                                           {{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 1}}, {{0, 1, 0}, {1, 0}}})).orthonormal.maximum, 0, 1e-4);
+    // v gains x beyond the edge: its lines turn by 45 degrees, and the whole frame with them.
+    const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(1, 1)));
+    const double c = std::cos(glm::radians(35.0)), expected = glm::degrees(std::acos(c * c + (1 - c * c) * std::sqrt(0.5)));
+    EXPECT_EQ(s.edges, 1u);
+    EXPECT_NEAR(s.orthonormal.mean, expected, 1e-4);
+    EXPECT_NEAR(s.orthonormal.maximum, expected, 1e-4);
+}
+
+TEST(EdgeSteps, onlyInteriorEdgesOfOneOrientationCount)
+{
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(meeting(-1, 0))).edges, 0u); // mirrored beyond: a seam
+    auto apart = meeting(1, 0), hard = apart, split = apart;
+    apart[3].position.y = -1e-3f;
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(apart)).edges, 0u);
+    hard[3].normal = glm::normalize(glm::vec3(0.1f, 0, 1));
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(hard)).edges, 0u);
+    split[3].uv.y = 1.25f;
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(split)).edges, 0u);
+    // A third triangle at the edge: which of the three would be beyond?
+    auto third = meeting(1, 0);
+    third.insert(third.end(), {{{0, 0, 0}, {0, 1}}, {{0.5f, 0, 1}, {0.5f, 1}}, {{0, 1, 0}, {0, 0}}});
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(third)).edges, 0u);
+    EXPECT_EQ(lint::edgeSteps(surfaceOf(third)).cotangent.count, 0u);
+}
+
+// ---- stored tangents ------------------------------------------------------------------------
+
+// Areas 1 and 3; the stored tangents are those of the uv but for what `change` does to the first rectangle's.
+template<class Change> StoredTangents storedWith(const Change& change, bool mirroredUv = false)
+{
+    const float left = mirroredUv ? 1.0f : 0.0f;
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {left, 0}, {1 - left, 1}) + rectangle({2, 0}, {1, 3}, {left, 0}, {1 - left, 3}));
+    mesh.tangents.assign(mesh.vertexCount(), mirroredUv ? glm::vec4(-1, 0, 0, -1) : glm::vec4(1, 0, 0, 1));
+    for (std::size_t i = 0; i < 6; ++i)
+        change(mesh.tangents[i]);
+    return lint::storedTangents(makeSurface(mesh, Texture{}));
+}
+
+TEST(StoredTangents, sharesAreOfTheAreaAndMirroredUvAskForTheOtherW)
+{
+    for (bool mirrored : {false, true}) {
+        const StoredTangents right = storedWith([](glm::vec4&) {}, mirrored);
+        EXPECT_TRUE(right.present);
+        EXPECT_EQ(right.reversedW, 0) << mirrored;
+        EXPECT_NEAR(right.angle.maximum, 0, kFloats) << mirrored;
+        const StoredTangents reversed = storedWith([](glm::vec4& t) { t.w = -t.w; }, mirrored);
+        EXPECT_NEAR(reversed.reversedW, 0.25, kFloats) << mirrored;
+        EXPECT_EQ(reversed.turned, 0);
+    }
+}
+
+TEST(StoredTangents, aNodeThatMirrorsTurnsWOverWithTheUv)
+{
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1));
+    for (const glm::dvec3 scale : {glm::dvec3(-1, 1, 1), {1, -2, 1}, {1, 1, -1}, {-3, -1, -1}}) {
+        const MappedSurface s = makeSurface(mesh, Texture{}, {{scale.x, 0, 0}, {0, scale.y, 0}, {0, 0, scale.z}});
+        const StoredTangents stored = lint::storedTangents(s);
+        EXPECT_EQ(stored.reversedW, 0) << scale.x << " " << scale.y << " " << scale.z;
+        EXPECT_NEAR(stored.angle.maximum, 0, kFloats);
+        EXPECT_NEAR(lint::uvQuality(s).mirrored, 1, kFloats);
+    }
+}
+
+TEST(StoredTangents, turnedMeansByOver45Degrees)
+{
+    for (const auto& [degrees, share] : {std::pair(44.0, 0.0), {46.0, 0.25}, {-46.0, 0.25}, {180.0, 0.25}}) {
+        const auto turn = [d = degrees](glm::vec4& t) { t = {float(std::cos(glm::radians(d))), float(std::sin(glm::radians(d))), 0, t.w}; };
+        const StoredTangents s = storedWith(turn);
+        EXPECT_NEAR(s.turned, share, kFloats) << degrees;
+        EXPECT_NEAR(s.angle.mean, std::abs(degrees) / 4, 1e-4);
+        EXPECT_NEAR(s.angle.maximum, std::abs(degrees), 1e-4);
+    }
+    EXPECT_NEAR(storedWith([](glm::vec4& t) { t = {0, 0, 0, 1}; }).turned, 0.25, kFloats); // no direction at all
+    // The part along the normal does not count.
+    EXPECT_NEAR(storedWith([](glm::vec4& t) { t = {0.5f, 0, 0.8f, 1}; }).angle.maximum, 0, kFloats);
+}
+
+TEST(StoredTangents, whereUvHaveNoAreaNothingIsCompared)
+{
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0.5f, 0.5f}, {0.5f, 0.5f}));
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1));
+    const StoredTangents s = lint::storedTangents(makeSurface(mesh, Texture{}));
+    EXPECT_TRUE(s.present);
+    EXPECT_EQ(s.angle.count, 0u);
+    EXPECT_TRUE(std::isnan(s.reversedW) && std::isnan(s.turned));
+}
+
+// ---- readings -------------------------------------------------------------------------------
+
+TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
+{
+    const glm::dvec3 m(0.4, 0.3, 1);
+    Material material;
+    material.normalMap.image = 0;
+    material.normalFormat = {2, 0, true};
+    const Image map = floatMap(4, 4, [&](int, int) { return m; });
+    const auto read = lint::readings(tall(2), material, map);
+    ASSERT_EQ(read.size(), 4u);
+    EXPECT_EQ(read[0].name, "cotangent");
+    EXPECT_NEAR(read[0].error.mean, angleBetween(m, {0.4, 0.15, 1}), 1e-4);
+    EXPECT_EQ(read[1].name, "orthonormal");
+    EXPECT_NEAR(read[1].error.maximum, 0, 1e-4);
+    EXPECT_EQ(read[1].error.count, 4096u);
+    material.normalScale = 2; // the slopes that are read
+    EXPECT_NEAR(lint::readings(tall(2), material, map)[0].error.mean, angleBetween({0.8, 0.6, 1}, {0.8, 0.3, 1}), 1e-4);
+}
+
+TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
+{
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1)); // green the other way
+    Material material;
+    material.normalFormat = {2, 0, true};
+    const auto read = lint::readings(makeSurface(mesh, Texture{}), material, floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
+    ASSERT_EQ(read.size(), 5u);
+    EXPECT_EQ(read[4].name, "stored");
+    EXPECT_NEAR(read[4].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
+}
+
+// ---- overlap --------------------------------------------------------------------------------
+
+// Overlap of surfaces at 64 texels a side, exact for uv in 64ths.
+std::vector<UvQuality> overlapsOf(const std::vector<MappedSurface>& surfaces, int side = 64)
+{
+    std::vector<UvQuality> qualities(surfaces.size());
+    std::vector<const MappedSurface*> in;
+    std::vector<UvQuality*> out;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        qualities[i] = lint::uvQuality(surfaces[i]);
+        in.push_back(&surfaces[i]);
+        out.push_back(&qualities[i]);
+    }
+    lint::countOverlaps(in, out, side);
+    return qualities;
+}
+
+TEST(Overlap, isTheShareOfTheAreaOnSharedTexels)
+{
+    // A covers v from 0 to 1, B from 3/4 to 5/4: its lower half wraps to the top, so B shares all of itself, A half.
+    const MappedSurface a = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
+                        b = surfaceOf(rectangle({5, 0}, {1, 1}, {0, 0.75f}, {1, 1.25f})),
+                        c = surfaceOf(rectangle({9, 0}, {1, 1}, {0, 0}, {1, 0.25f})), // A's uppermost quarter
+                        turned = surfaceOf(rectangle({9, 0}, {1, 1}, {1, 0}, {0, 0.25f}));
+    const auto ab = overlapsOf({a, b}), ac = overlapsOf({a, c}), at = overlapsOf({a, turned}), alone = overlapsOf({a});
+    EXPECT_NEAR(ab[0].overlapping, 0.5, kFloats);
+    EXPECT_NEAR(ab[1].overlapping, 1, kFloats);
+    EXPECT_EQ(ab[0].overlappingMirrored, 0);
+    // A's two triangles have 2016 and 2080 texels: a quarter to 0.3 %.
+    EXPECT_NEAR(ac[0].overlapping, 0.25, 0.005);
+    EXPECT_NEAR(ac[1].overlapping, 1, kFloats);
+    EXPECT_NEAR(at[0].overlapping, 0.25, 0.005);
+    EXPECT_NEAR(at[0].overlappingMirrored, 0.25, 0.005);
+    EXPECT_NEAR(at[1].overlappingMirrored, 1, kFloats);
+    EXPECT_EQ(alone[0].overlapping, 0);
+}
+
+TEST(Overlap, countsTheAreaOnTheSurfaceNotInTheUv)
+{
+    // Two rectangles of one surface on the same quarter of the map, of areas 1 and 7, and a third of area 8 elsewhere.
+    const auto corners = rectangle({0, 0}, {1, 1}, {0, 0}, {0.5f, 0.5f}) + rectangle({2, 0}, {1, 7}, {0, 0}, {0.5f, 0.5f})
+        + rectangle({4, 0}, {1, 8}, {0.5f, 0}, {1, 1});
+    EXPECT_NEAR(overlapsOf({surfaceOf(corners)})[0].overlapping, 0.5, kFloats);
+}
+
+TEST(Overlap, uvThatRepeatTheImageTooOftenCountAsOverlapping)
+{
+    const auto often = [](float copies) { return overlapsOf({surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {copies, copies}))}, 2)[0].overlapping; };
+    EXPECT_EQ(often(1), 0);
+    EXPECT_NEAR(often(2), 1, 1e-9); // repeated: each texel four times
+    EXPECT_EQ(often(3000), 1); // beyond what is drawn
+    EXPECT_EQ(often(1e7f), 0); // out of range: not drawn at all
+}
+
+// ---- texels ---------------------------------------------------------------------------------
+
+TEST(Texels, areFoundByColumnThenRowInEveryType)
+{
+    Image bytes = makeImage(3, 2, PixelType::unorm8, ""), words = makeImage(3, 2, PixelType::unorm16, "");
+    for (std::size_t i = 0; i < 24; ++i) {
+        bytes.bytes8()[i] = std::uint8_t(10 * i);
+        words.words()[i] = std::uint16_t(1000 * i);
+    }
+    EXPECT_EQ(storedTexel(bytes, 2, 1), glm::dvec3(200, 210, 220) / 255.0);
+    EXPECT_EQ(storedTexel(bytes, 1, 0), glm::dvec3(40, 50, 60) / 255.0);
+    EXPECT_EQ(storedTexel(words, 0, 1), glm::dvec3(12000, 13000, 14000) / 65535.0);
+    const Image floats = floatMap(3, 2, [](int x, int y) { return glm::dvec3(x, y, 7); });
+    EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
+    Texture texture;
+    texture.sampler.wrapV = Wrap::clamp;
+    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+}
+
+TEST(Texels, coordinatesWrapAsTheSamplerSays)
+{
+    EXPECT_EQ(wrappedTexel(0.26, 4, Wrap::repeat), 1);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::repeat), 1);
+    EXPECT_EQ(wrappedTexel(-0.1, 4, Wrap::repeat), 3);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::mirror), 2);
+    EXPECT_EQ(wrappedTexel(-0.26, 4, Wrap::mirror), 1);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::clamp), 3);
+    EXPECT_EQ(wrappedTexel(-5, 4, Wrap::clamp), 0);
+    EXPECT_EQ(wrappedTexel(std::nan(""), 4, Wrap::repeat), 0);
+}
+
+TEST(Texels, anImageHasPixelsOnlyWithAllOfThem)
+{
+    Image image = makeImage(2, 2, PixelType::unorm8, "");
+    EXPECT_TRUE(hasPixels(image));
+    image.data.pop_back();
+    EXPECT_FALSE(hasPixels(image));
+    EXPECT_FALSE(hasPixels(Image{}));
+}
+
+TEST(Spreads, weighEveryValue)
+{
+    // 0.94 of the weight is at most 1, 0.96 at most 2.
+    const Spread s = spreadOf({{2, 2}, {1, 94}, {8, 4}, {100, 0}, {NAN, 5}, {5, -1}});
+    EXPECT_EQ(s.count, 3u);
+    EXPECT_NEAR(s.mean, (94 + 4 + 32) / 100.0, 1e-12);
+    EXPECT_EQ(s.percentile95, 2);
+    EXPECT_EQ(s.maximum, 8);
+    EXPECT_EQ(spreadOf({{1, 95}, {2, 5}}).percentile95, 1);
+    EXPECT_EQ(spreadOf({{1, 94}, {2, 6}}).percentile95, 2);
+}
+
+TEST(Spreads, ofNothingAreNotZero)
+{
+    for (const Spread& s : {spreadOf({}), spreadOf({{1, 0}}), spreadOf({{NAN, 1}})}) {
+        EXPECT_EQ(s.count, 0u);
+        EXPECT_TRUE(std::isnan(s.mean) && std::isnan(s.percentile95) && std::isnan(s.maximum));
+    }
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,273 @@
+// What lint advises, on reports made by hand: each limit from both sides.
+#include <gtest/gtest.h>
+
+#include "cotan/lint/lint.hpp"
+#include "cotan/lint/map_fit.hpp"
+#include "parts.hpp"
+
+namespace cotan {
+namespace {
+
+Spread spreadAt(double mean, double percentile95) { return {100, mean, percentile95, 2 * percentile95}; }
+
+// A primitive with a normal map that orthonormal reads so far off.
+PrimitiveLint judgedAs(double mean, double percentile95, double area = 1)
+{
+    PrimitiveLint p;
+    p.mesh = "some mesh";
+    p.image = 0;
+    p.triangles = 2;
+    p.hasUv = true;
+    p.uv.area = area;
+    p.steps.edges = 1;
+    p.steps.cotangent = spreadAt(0.1, 0.2);
+    p.readings = {{"cotangent", spreadAt(7.25, 9)}, {"orthonormal", spreadAt(mean, percentile95)}};
+    return p;
+}
+
+MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
+{
+    return {0, "map", spreadAt(0, orthonormal95), spreadAt(0, cotangent95), spreadAt(0, smooth95)};
+}
+
+LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)}, std::vector<GreenEvidence> maps = {})
+{
+    LintReport report;
+    report.primitives = std::move(primitives);
+    report.fits = std::move(fits);
+    report.maps = std::move(maps);
+    lint::recommend(report);
+    return report;
+}
+
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+TEST(Recommend, orthonormalIsEnoughBelowHalfADegreeOnAverageAndTwoAt95Percent)
+{
+    EXPECT_EQ(advisedOn({judgedAs(0.49, 1.9)}).advice, Advice::readOrthonormal);
+    EXPECT_EQ(advisedOn({judgedAs(0.51, 1.9)}).advice, Advice::convertToCotangent);
+    EXPECT_EQ(advisedOn({judgedAs(0.49, 2.1)}).advice, Advice::convertToCotangent);
+}
+
+TEST(Recommend, largerAreasWeighMore)
+{
+    // 9:1 gives 0.45 on average, 1:9 gives 3.6.
+    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 9), judgedAs(4, 5, 1)}).advice, Advice::readOrthonormal);
+    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 1.9, 9)}).advice, Advice::convertToCotangent);
+    // The 95 %: 0.9 * 1.9 + 0.1 * 5 = 2.2, though the mean is small.
+    EXPECT_EQ(advisedOn({judgedAs(0.1, 1.9, 9), judgedAs(0.1, 5, 1)}).advice, Advice::convertToCotangent);
+}
+
+TEST(Recommend, aPrimitiveOfWhichNothingWasMeasuredDoesNotDiluteTheOthers)
+{
+    PrimitiveLint nothing = judgedAs(0, 0, 1000);
+    for (Reading& r : nothing.readings)
+        r.error = {};
+    nothing.steps.cotangent = spreadAt(0, 0);
+    EXPECT_EQ(advisedOn({nothing, judgedAs(4, 5)}).advice, Advice::convertToCotangent);
+    const LintReport alone = advisedOn({nothing});
+    EXPECT_EQ(alone.advice, Advice::nothing);
+    EXPECT_TRUE(alone.seen.empty());
+    // The same for the steps at edges: a primitive without interior edges says nothing about creases.
+    PrimitiveLint creased = judgedAs(4, 5), without = judgedAs(4, 5, 1000);
+    creased.steps.cotangent = spreadAt(1, 3);
+    without.steps = {};
+    EXPECT_EQ(advisedOn({creased, without}).advice, Advice::convertToSmooth);
+}
+
+TEST(Recommend, stepsAtEdgesOfOverTwoDegreesAskForSmooth)
+{
+    PrimitiveLint p = judgedAs(4, 5);
+    p.steps.cotangent = spreadAt(1, 1.9);
+    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToCotangent);
+    p.steps.cotangent = spreadAt(1, 2.1);
+    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth);
+    EXPECT_TRUE(says(advisedOn({p}).advised, "steps by up to 2 degrees")) << advisedOn({p}).advised;
+    PrimitiveLint plain; // no map: its edges show nothing
+    plain.uv.area = 1000;
+    plain.steps.cotangent = spreadAt(0, 0);
+    EXPECT_EQ(advisedOn({p, plain}).advice, Advice::convertToSmooth);
+    p.steps.orthonormal = spreadAt(0, 0);
+    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth); // the steps of cotangent count
+}
+
+TEST(Recommend, whatIsSeenIsSaidInThreeDegrees)
+{
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.4, 1)}).seen, "nobody sees"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.6, 1)}).seen, "moving highlights"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(4.9, 9)}).seen, "moving highlights"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "from elsewhere"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "5.10 degrees off on average with the frame orthonormal (7.25 with cotangent)"));
+}
+
+TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
+{
+    PrimitiveLint a = judgedAs(0.6, 1), b = judgedAs(0.9, 1.5), c = judgedAs(0.1, 0.2, 1000);
+    a.mesh = "first";
+    b.mesh = "second";
+    c.mesh = "third";
+    EXPECT_TRUE(says(advisedOn({a, b, c}).seen, "most in second: 0.90, and 5 % of it over 1.5"));
+    EXPECT_TRUE(says(advisedOn({b, a, c}).seen, "most in second"));
+    EXPECT_FALSE(says(advisedOn({c}).seen, "most in"));
+    b.readings[1].error = spreadAt(0.4, 2.1); // rarely, but much
+    EXPECT_TRUE(says(advisedOn({b, c}).seen, "most in second"));
+    b.readings[1].error = spreadAt(0.4, 1.9);
+    EXPECT_FALSE(says(advisedOn({b, c}).seen, "most in"));
+}
+
+TEST(Recommend, convertIsAdvisedForTheMapsThatItWouldChangeAndForNoOthers)
+{
+    const LintReport none = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.29)}), one = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.31)});
+    EXPECT_EQ(none.mapsConverted, 0u);
+    EXPECT_EQ(none.mapsKept, 1u);
+    EXPECT_TRUE(says(none.advised, "Nothing has to be changed")) << none.advised;
+    EXPECT_EQ(one.mapsConverted, 1u);
+    EXPECT_EQ(one.mapsKept, 0u);
+    EXPECT_TRUE(says(one.advised, "Convert the maps to the frame orthonormal")) << one.advised;
+    const LintReport two = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.31), fitAs(0.29), fitAs(0.1)});
+    EXPECT_EQ(two.mapsConverted, 1u);
+    EXPECT_EQ(two.mapsKept, 2u);
+    EXPECT_TRUE(says(two.advised, "Convert 1 of 3 maps")) << two.advised;
+    EXPECT_EQ(advisedOn({judgedAs(0.4, 1)}, {MapFit{}}).mapsConverted, 0u); // of what was not judged nothing is known
+}
+
+TEST(Recommend, eachFrameIsJudgedByItsOwnFit)
+{
+    PrimitiveLint creased = judgedAs(4, 5);
+    creased.steps.cotangent = spreadAt(1, 3);
+    EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(0.1, 9, 9)}).mapsConverted, 0u);
+    EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fitAs(9, 0.1, 9)}).mapsConverted, 0u);
+    EXPECT_EQ(advisedOn({creased}, {fitAs(9, 9, 0.1)}).mapsConverted, 0u);
+    EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fitAs(0.1, 9, 0.1)}).mapsConverted, 1u);
+    EXPECT_EQ(advisedOn({creased}, {fitAs(0.1, 0.1, 9)}).mapsConverted, 1u);
+    EXPECT_EQ(frameOf(Advice::readOrthonormal), Frame::orthonormal);
+    EXPECT_EQ(frameOf(Advice::convertToCotangent), Frame::cotangent);
+    EXPECT_EQ(frameOf(Advice::convertToSmooth), Frame::smooth);
+}
+
+TEST(Recommend, tangentsAreDroppedWhereNothingElseReadsThem)
+{
+    PrimitiveLint p = judgedAs(0.1, 0.2);
+    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
+    p.stored.present = true;
+    p.stored.angle = spreadAt(0, 0);
+    const LintReport r = advisedOn({p}, {fitAs(0.1)});
+    EXPECT_TRUE(r.dropsTangents);
+    EXPECT_TRUE(says(r.advised, "as they are; the command drops the tangents")) << r.advised;
+    p.tangentsFor = "KHR_materials_anisotropy";
+    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
+    p.tangentsFor.clear();
+    p.unread = true;
+    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
+    p.unread = false;
+    PrimitiveLint bare = judgedAs(0.1, 0.2);
+    EXPECT_TRUE(advisedOn({p, bare}, {fitAs(0.1)}).dropsTangents);
+    EXPECT_TRUE(advisedOn({bare, p}, {fitAs(0.1)}).dropsTangents);
+}
+
+PrimitiveLint storedAs(double reversedW, double turned, double area = 1)
+{
+    PrimitiveLint p = judgedAs(0.1, 0.2, area);
+    p.stored = {true, reversedW, turned, spreadAt(1, 2)};
+    return p;
+}
+
+GreenEvidence greenAs(bool decided, bool asDeclared, const std::string& name)
+{
+    GreenEvidence g;
+    g.image = 3;
+    g.name = name;
+    g.declaredUp = true;
+    g.verdict.green = !decided ? maps::Green::undecidable : asDeclared ? maps::Green::up : maps::Green::down;
+    return g;
+}
+
+TEST(Recommend, storedTangentsAreDistrustedFromATenthOfTheAreaOn)
+{
+    EXPECT_FALSE(advisedOn({storedAs(0.09, 0)}).distrustStored);
+    EXPECT_TRUE(advisedOn({storedAs(0.11, 0)}).distrustStored);
+    EXPECT_FALSE(advisedOn({storedAs(0, 0.09)}).distrustStored);
+    EXPECT_TRUE(advisedOn({storedAs(0, 0.11)}).distrustStored);
+    // 0.5 on a third of the area is 0.17 of all, on a ninth 0.06.
+    EXPECT_TRUE(advisedOn({storedAs(0.5, 0, 1), storedAs(0, 0, 2)}).distrustStored);
+    EXPECT_FALSE(advisedOn({storedAs(0.5, 0, 1), storedAs(0, 0, 8)}).distrustStored);
+    PrimitiveLint unmapped = storedAs(1, 1, 100);
+    unmapped.image = -1;
+    unmapped.readings.clear();
+    EXPECT_FALSE(advisedOn({storedAs(0, 0), unmapped}).distrustStored);
+    PrimitiveLint unmeasured = storedAs(1, 1, 100);
+    unmeasured.stored.angle = {};
+    EXPECT_FALSE(advisedOn({storedAs(0, 0), unmeasured}).distrustStored);
+}
+
+TEST(Recommend, whatIsWrongWithStoredTangentsIsSaidWithItsShare)
+{
+    EXPECT_TRUE(advisedOn({storedAs(0.09, 0.05)}).defects.empty());
+    EXPECT_TRUE(says(advisedOn({storedAs(0.49, 0.2)}).defects, "contradict the uv: w is reversed on 49 % of the area, the tangent turned by "
+                                                               "over 45 degrees on 20 %"));
+    EXPECT_EQ(advisedOn({storedAs(0.51, 0.2)}).defects, "The stored TANGENT.w is reversed on 51 % of the area.");
+}
+
+TEST(Recommend, aReversedWAndReversedGreenMakeUpForEachOther)
+{
+    const std::vector<GreenEvidence> other = {greenAs(true, false, "bumps")};
+    const LintReport both = advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, other);
+    EXPECT_FALSE(both.distrustStored);
+    EXPECT_TRUE(says(both.defects, "together they are right"));
+    const LintReport less = advisedOn({storedAs(0.49, 0)}, {fitAs(9)}, other);
+    EXPECT_TRUE(less.distrustStored);
+    EXPECT_TRUE(says(less.defects, "contradict the uv") && says(less.defects, "Green seems to point the other way in bumps")) << less.defects;
+    EXPECT_TRUE(advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(false, false, "bumps")}).distrustStored); // undecided
+    EXPECT_TRUE(advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(true, true, "bumps")}).distrustStored);   // as declared
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(9)}, {greenAs(true, false, "")}).defects, "in image 3 "));
+}
+
+TEST(Recommend, ofManyNamesThreeAreSaid)
+{
+    std::vector<GreenEvidence> maps;
+    for (const char* name : {"a", "b", "c", "d", "e"})
+        maps.push_back(greenAs(true, false, name));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c and 2 more "));
+    maps.resize(3);
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c ("));
+}
+
+TEST(Recommend, withoutAMapTangentsCanGoUnlessSomethingElseReadsThem)
+{
+    PrimitiveLint p;
+    EXPECT_TRUE(says(advisedOn({p}, {}).advised, "can be dropped"));
+    EXPECT_TRUE(says(advisedOn({}, {}).advised, "can be dropped"));
+    p.material = "hair";
+    p.tangentsFor = "KHR_materials_anisotropy";
+    const LintReport r = advisedOn({p, p}, {});
+    EXPECT_FALSE(says(r.recommendation, "can be dropped"));
+    EXPECT_TRUE(says(r.otherReaders, "stay for it: hair (KHR_materials_anisotropy).")) << r.otherReaders; // once
+    EXPECT_EQ(r.advice, Advice::nothing);
+}
+
+TEST(Recommend, aMapThatWasNotJudgedIsNamedAndNothingIsConcludedFromIt)
+{
+    PrimitiveLint p;
+    p.mesh = "door";
+    p.image = 0;
+    p.hasUv = true;
+    p.unread = true;
+    p.notJudged = "door.webp (WebP) was not read";
+    const LintReport alone = advisedOn({p}, {MapFit{}});
+    EXPECT_FALSE(says(alone.recommendation, "can be dropped")) << alone.recommendation;
+    EXPECT_TRUE(says(alone.notJudged, "door (door.webp (WebP) was not read)")) << alone.notJudged;
+    const LintReport both = advisedOn({p, judgedAs(4, 5)});
+    EXPECT_EQ(both.advice, Advice::convertToCotangent);
+    EXPECT_TRUE(says(both.recommendation, "could not be judged in door"));
+}
+
+TEST(Recommend, theRecommendationIsAllSentencesTogether)
+{
+    PrimitiveLint p = storedAs(0.6, 0);
+    p.tangentsFor = "KHR_materials_clearcoat";
+    const LintReport r = advisedOn({p});
+    EXPECT_EQ(r.recommendation, r.defects + " " + r.seen + " " + r.advised + " " + r.otherReaders);
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,364 @@
+// Maps of charts: which way green points on islands, whatever lies between them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <tuple>
+#include <limits>
+
+#include "cotan/maps/green.hpp"
+#include "cotan/maps/patches.hpp"
+#include "map_cases.hpp"
+
+namespace cotan::maps {
+namespace {
+
+using namespace cases;
+
+enum class Between { flat, black, white, transparent, grey, padded };
+constexpr Between kBetween[] = {Between::flat, Between::black, Between::white, Between::transparent, Between::grey, Between::padded};
+
+// Round charts, each with a relief of its own that ends where the chart ends, so that slopes jump there. covered:
+// share of the picture, roughly.
+struct Atlas {
+    int side = 256, across = 4;
+    double covered = 0.4;
+
+    double radius() const { return std::sqrt(covered / 3.14159265358979) * side / across; }
+    // The chart's middle that is nearest, and how far that is.
+    std::pair<glm::dvec2, double> nearest(double x, double y) const
+    {
+        const double step = double(side) / across;
+        const glm::dvec2 middle((std::floor(x / step) + 0.5) * step, (std::floor(y / step) + 0.5) * step);
+        return {middle, glm::length(glm::dvec2(x, y) - middle)};
+    }
+    // Waves of two directions that differ from chart to chart, around a tilt of the chart's own.
+    glm::dvec2 slopes(glm::dvec2 p, glm::dvec2 middle) const
+    {
+        const double k = 0.013 * middle.x + 0.029 * middle.y;
+        const glm::dvec2 d(std::cos(k), std::sin(k)), e(-0.6 * d.y, 0.9 * d.x), tilt(0.4 * std::sin(7 * k), 0.5 * std::cos(5 * k));
+        return tilt + d * (0.5 * std::cos(0.33 * glm::dot(d, p) + k)) + e * (0.4 * std::cos(0.27 * glm::dot(e, p)));
+    }
+};
+
+Image atlasMap(const Atlas& atlas, Between between, bool greenUp, PixelType type)
+{
+    Convention c;
+    c.greenUp = greenUp;
+    Image image = makeImage(atlas.side, atlas.side, type);
+    std::vector<glm::vec4> row(std::size_t(atlas.side), glm::vec4(0));
+    for (int y = 0; y < atlas.side; ++y) {
+        for (int x = 0; x < atlas.side; ++x) {
+            glm::dvec2 p(x + 0.5, y + 0.5);
+            const auto [middle, distance] = atlas.nearest(p.x, p.y);
+            const bool inside = distance <= atlas.radius();
+            if (!inside && between == Between::padded) // the nearest texel of the chart
+                p = glm::floor(middle + (p - middle) * (atlas.radius() / distance)) + 0.5;
+            glm::dvec2 s = atlas.slopes({p.x, -p.y}, middle); // y up
+            if (!inside && between == Between::flat)
+                s = {0, 0};
+            glm::vec4& t = row[std::size_t(x)] = encodeTexel(glm::vec3(float(-s.x), float(-s.y), 1), c, type);
+            if (!inside && between != Between::padded && between != Between::flat)
+                t = between == Between::white ? glm::vec4(1) : between == Between::grey ? glm::vec4(0.5f, 0.5f, 0.5f, 1)
+                    : between == Between::transparent ? glm::vec4(0.3f, 0.9f, 0.2f, 0) : glm::vec4(0, 0, 0, 1);
+        }
+        storeRow(image, y, row);
+    }
+    return image;
+}
+
+TEST(Charts, green_is_told_whatever_lies_between_them)
+{
+    for (const auto& [covered, across, type] : {std::tuple(0.1, 2, PixelType::unorm8), {0.1, 5, PixelType::unorm16}, {0.4, 5, PixelType::unorm8},
+                                                {0.75, 2, PixelType::unorm8}})
+        for (Between between : kBetween)
+            for (bool up : {true, false}) {
+                const GreenVerdict v = greenOf(atlasMap({256, across, covered}, between, up, type));
+                const std::string which = (testing::Message() << covered << ' ' << across << ' ' << int(between) << ' ' << up << ": "
+                                           << v.agreement << ' ' << v.deviations << ' ' << v.reason).GetString();
+                if (v.green == Green::undecidable) // only where padding is most of the picture
+                    EXPECT_TRUE(between == Between::padded && covered < 0.2) << which;
+                else
+                    EXPECT_EQ(v.green, up ? Green::up : Green::down) << which;
+                EXPECT_NE(v.swapped, Swapped::yes) << which;
+            }
+}
+
+TEST(Charts, a_background_of_one_colour_changes_nothing)
+{
+    const double alone = greenOf(atlasMap({256, 5, 0.4}, Between::transparent, true, PixelType::unorm16)).agreement;
+    for (Between between : {Between::flat, Between::black, Between::white, Between::grey})
+        EXPECT_NEAR(greenOf(atlasMap({256, 5, 0.4}, between, true, PixelType::unorm16)).agreement, alone, 1e-6) << int(between);
+}
+
+// Waves along both axes, plus noise of that size, and a tilt of its own for every square.
+Image disturbed(int side, double noiseSize, double tiltSize, int square, unsigned seed, bool up = true)
+{
+    Noise noise(seed);
+    std::vector<glm::dvec2> tilts;
+    for (int i = 0; i < 1024; ++i)
+        tilts.push_back(tiltSize * glm::dvec2(noise.next() - 0.5, noise.next() - 0.5));
+    return floatMap(side, side, [&](int x, int y) {
+        glm::dvec2 s(0.1 * std::cos(0.4 * x) * std::cos(0.3 * y), 0.1 * 0.3 / 0.4 * std::sin(0.4 * x) * std::sin(0.3 * y));
+        s += noiseSize * glm::dvec2(noise.next() - 0.5, noise.next() - 0.5) + tilts[std::size_t(y / square * 32 + x / square)];
+        const glm::vec3 n = ofSlopes(s.x, s.y); // h = 0.25 sin 0.4x cos 0.3y, y down: h_up = 0.075 sin sin
+        return glm::vec3(n.x, up ? n.y : -n.y, n.z);
+    });
+}
+
+TEST(Charts, steps_where_they_meet_do_not_drown_what_is_on_them)
+{
+    const GreenVerdict plain = greenOf(disturbed(256, 0, 0, 16, 1)), stepped = greenOf(disturbed(256, 0, 1.2, 16, 1));
+    EXPECT_GT(plain.agreement, 0.95);
+    EXPECT_GT(stepped.agreement, 0.6); // the steps are ten times as high as the waves, on one texel in eight
+    EXPECT_EQ(stepped.green, Green::up);
+}
+
+TEST(Charts, verdicts_are_as_sure_as_their_figures)
+{
+    for (bool up : {true, false}) {
+        const GreenVerdict sure = greenOf(disturbed(256, 0.01, 0, 16, 1, up)), likely = greenOf(disturbed(256, 0.06, 0, 16, 1, up));
+        for (const GreenVerdict& v : {sure, likely}) {
+            EXPECT_EQ(v.green, up ? Green::up : Green::down);
+            const double size = std::abs(v.agreement);
+            EXPECT_NEAR(v.residualRatio, (1 + size) / (1 - size), 1e-9 * v.residualRatio);
+            EXPECT_GT(v.votes, 0.8);
+            EXPECT_LE(v.votes, 1);
+        }
+        EXPECT_EQ(sure.confidence, Confidence::certain) << sure.agreement;
+        EXPECT_EQ(likely.confidence, Confidence::likely) << likely.agreement; // between 0.12 and 0.5
+    }
+}
+
+TEST(Charts, small_noise_agrees_by_chance_and_is_not_believed)
+{
+    double most = 0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        Noise noise(7919 * seed);
+        const GreenVerdict v = greenOf(floatMap(12, 12, [&](int, int) { return ofSlopes(noise.next() - 0.5, noise.next() - 0.5); }));
+        EXPECT_EQ(v.green, Green::undecidable) << seed << ' ' << v.agreement << ' ' << v.deviations;
+        most = std::max(most, std::abs(v.agreement));
+    }
+    EXPECT_GT(most, 0.12); // which would do, were it not for its uncertainty
+}
+
+TEST(Charts, noise_on_islands_is_undecidable)
+{
+    Noise noise(11);
+    for (Between between : {Between::black, Between::white, Between::transparent}) {
+        Image map = atlasMap({256, 3, 0.5}, between, true, PixelType::unorm8);
+        for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+            std::uint8_t* p = map.bytes8() + 4 * i;
+            if (outsideCharts({p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f}))
+                continue;
+            const glm::vec3 n = ofSlopes(noise.next() - 0.5, noise.next() - 0.5);
+            for (int c = 0; c < 3; ++c)
+                p[c] = std::uint8_t(std::lround(128 + 127 * n[c]));
+        }
+        EXPECT_EQ(greenOf(map).green, Green::undecidable) << int(between);
+    }
+}
+
+TEST(Charts, the_figures_of_a_map_leave_its_background_out)
+{
+    // Half black, half tilted by (0.6, 0, 0.8) as 8 bits hold it.
+    for (const std::array<std::uint8_t, 4>& outside : {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {90, 200, 10, 0}, {128, 128, 128, 255}}) {
+        Image map = makeImage(16, 16, PixelType::unorm8);
+        for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+            const std::array<std::uint8_t, 4> tilted{std::uint8_t(128 + 76 + i % 2), std::uint8_t(128 + i % 5), std::uint8_t(128 + 102 - i % 7), 255};
+            std::ranges::copy(i % 16 < 8 ? outside : tilted, map.bytes8() + 4 * i);
+        }
+        const NormalStatistics s = statisticsOfMap(map);
+        EXPECT_EQ(s.content, Content::tangentSpace) << int(outside[0]);
+        EXPECT_NEAR(s.background, 0.5, 1.0 / 16) << int(outside[0]);
+        EXPECT_EQ(s.invalid, 0);
+        EXPECT_EQ(s.belowHorizon, 0);
+        EXPECT_NEAR(s.meanTilt, 37.7, 0.3); // atan(76.5 / 99)
+        EXPECT_NEAR(s.lowest[2], 224.0 / 255, 1e-6);
+    }
+}
+
+TEST(Charts, what_is_outside_is_told_on_both_sides_of_its_limits)
+{
+    const auto texel = [](float c, float a) { return glm::vec4(c / 255, c / 255, c / 255, a); };
+    EXPECT_TRUE(outsideCharts(texel(8, 1)));
+    EXPECT_FALSE(outsideCharts(texel(9, 1)));
+    EXPECT_TRUE(outsideCharts(texel(247, 1)));
+    EXPECT_FALSE(outsideCharts(texel(246, 1)));
+    EXPECT_TRUE(outsideCharts(texel(100, 0)));
+    EXPECT_FALSE(outsideCharts(texel(100, 1.0f / 255)));
+    EXPECT_FALSE(outsideCharts({0, 0, 1, 1})); // black in two components only
+    EXPECT_FALSE(outsideCharts({-1, -1, -1, 1})); // signed
+    EXPECT_FALSE(outsideCharts({1, 1, 0.5f, 1}));
+}
+
+TEST(Patches, hold_small_pictures_whole_and_overlap_by_one_row_and_column)
+{
+    Noise noise(13);
+    Image picture = makeImage(37, 21, PixelType::unorm8);
+    for (std::byte& b : picture.data)
+        b = std::byte(int(256 * noise.next()));
+    PatchSampler sampler(37, 21, PixelType::unorm8);
+    sampler.add(picture, 0);
+    EXPECT_EQ(sampler.share(), 1);
+    EXPECT_EQ(sampler.patches().size(), 13u * 7u); // squares of 3
+    std::vector<int> seen(37 * 21, 0);
+    for (const Patch& p : sampler.patches()) {
+        EXPECT_EQ(p.texels.width, std::min(4, 37 - p.x));
+        EXPECT_EQ(p.texels.height, std::min(4, 21 - p.y));
+        for (int y = 0; y < p.texels.height; ++y)
+            for (int x = 0; x < p.texels.width; ++x) {
+                seen[std::size_t((p.y + y) * 37 + p.x + x)] += x < 3 && y < 3;
+                ASSERT_EQ(p.texels.bytes8()[4 * (y * p.texels.width + x) + 1], picture.bytes8()[4 * ((p.y + y) * 37 + p.x + x) + 1]);
+            }
+    }
+    EXPECT_EQ(std::ranges::count(seen, 1), 37 * 21); // each texel once
+}
+
+TEST(Patches, do_not_depend_on_the_strips)
+{
+    Noise noise(14);
+    Image picture = makeImage(70, 100, PixelType::unorm16);
+    for (std::byte& b : picture.data)
+        b = std::byte(int(256 * noise.next()));
+    PatchSampler whole(70, 100, PixelType::unorm16), cut(70, 100, PixelType::unorm16);
+    whole.add(picture, 0);
+    for (int y = 0; y < 100; y += 3)
+        cut.add(rowsOf(picture, y, std::min(y + 3, 100)), y);
+    for (std::size_t i = 0; i < whole.patches().size(); ++i)
+        EXPECT_EQ(whole.patches()[i].texels.data, cut.patches()[i].texels.data) << i;
+}
+
+TEST(Patches, of_large_pictures_are_the_middles_of_their_squares)
+{
+    const PatchSampler whole(2048, 100, PixelType::unorm8), part(4096, 2048, PixelType::unorm8);
+    EXPECT_EQ(whole.share(), 1);
+    EXPECT_EQ(part.patches().size(), 16u * 8u);
+    EXPECT_EQ(part.patches()[17].x, 256 + 64);
+    EXPECT_EQ(part.patches()[17].y, 256 + 64);
+    EXPECT_EQ(part.patches()[17].texels.width, 129);
+    EXPECT_NEAR(part.share(), 0.25, 1e-12);
+    EXPECT_LT(PatchSampler(2049, 2049, PixelType::unorm8).share(), 1);
+}
+
+TEST(Surveys, of_one_colour_need_one_pass_and_say_the_same)
+{
+    const auto survey = [](const Image& map, bool second) {
+        MapSurvey s;
+        for (int y = 0; y < map.height; y += 16)
+            s.first(rowsOf(map, y, std::min(y + 16, map.height)));
+        for (int y = 0; y < map.height && second; y += 16)
+            s.second(rowsOf(map, y, std::min(y + 16, map.height)));
+        return std::pair(s.oneColour(), s.finish());
+    };
+    Image map = makeImage(19, 40, PixelType::unorm8);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+        const std::uint8_t tilted[4] = {128 + 76, 128 + 20, 128 + 100, 255};
+        std::copy_n(tilted, 4, map.bytes8() + 4 * i);
+    }
+    const auto [one, quick] = survey(map, false);
+    const auto [same, slow] = survey(map, true);
+    EXPECT_TRUE(one && same);
+    EXPECT_EQ(quick.content, Content::flat);
+    EXPECT_EQ(quick.texels, 19u * 40u);
+    EXPECT_EQ(quick.invalid, 0);
+    EXPECT_NEAR(quick.meanTilt, slow.meanTilt, 1e-9);
+    EXPECT_NEAR(quick.meanLength, slow.meanLength, 1e-9);
+    EXPECT_NEAR(quick.mean[1], slow.mean[1], 1e-9);
+    EXPECT_EQ(quick.tilt, slow.tilt);
+    EXPECT_NEAR(quick.meanTilt, 38.15, 0.05); // atan(hypot(76, 20) / 100)
+    // One texel that differs, first, last or in the middle, is noticed.
+    for (std::size_t i : {std::size_t(0), map.pixelCount() / 2, map.pixelCount() - 1}) {
+        Image other = map;
+        other.bytes8()[4 * i + 1] = 90;
+        EXPECT_FALSE(survey(other, true).first) << i;
+        const NormalStatistics s = survey(other, true).second;
+        EXPECT_NEAR(s.lowest[1], 90 / 255.0, 1e-6);
+    }
+}
+
+NormalStatistics statisticsOf(double mistake, int bits, int seed, float (*curve)(float) = nullptr)
+{
+    // Unit vectors, stored with zero at the middle code less `mistake` of it.
+    Noise noise{unsigned(seed)};
+    Image map = makeImage(64, 64, bits == 8 ? PixelType::unorm8 : PixelType::unorm16);
+    for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+        const glm::vec3 n = ofSlopes(1.6 * noise.next() - 0.8, 1.4 * noise.next() - 0.5);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double top = bits == 8 ? 255 : 65535, middle = (top + 1) / 2 - mistake;
+            double code = c == 3 ? top : middle + (top - middle) * double(n[int(c)]);
+            if (curve && c < 3)
+                code = top * double(curve(float(code / top)));
+            if (bits == 8)
+                map.bytes8()[4 * i + c] = std::uint8_t(std::lround(code));
+            else
+                map.words()[4 * i + c] = std::uint16_t(std::lround(code));
+        }
+    }
+    return statisticsOfMap(map);
+}
+
+TEST(Surveys, tell_128_from_127_and_a_half)
+{
+    for (int seed : {1, 2, 3}) {
+        EXPECT_EQ(statisticsOf(0, 8, seed).centre, Centre::exact);
+        EXPECT_EQ(statisticsOf(0.5, 8, seed).centre, Centre::biased);
+        EXPECT_LT(statisticsOf(0, 8, seed).rmsExact, statisticsOf(0, 8, seed).rmsBiased);
+    }
+    EXPECT_LT(statisticsOf(0, 16, 1).rmsExact, 2e-5); // 16 bits are read with their own middle
+}
+
+float bent(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+float unbent(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float slightlyBent(float c) { return std::pow(c, 0.95f); }
+
+TEST(Surveys, suspect_the_srgb_curve_both_ways_and_nothing_milder)
+{
+    EXPECT_EQ(statisticsOf(0, 8, 1, bent).transfer, Transfer::srgb);
+    EXPECT_EQ(statisticsOf(0, 8, 1, unbent).transfer, Transfer::linearised);
+    EXPECT_EQ(statisticsOf(0, 16, 1, bent).transfer, Transfer::srgb);
+    EXPECT_EQ(statisticsOf(0, 8, 1, slightlyBent).transfer, Transfer::linear);
+    EXPECT_EQ(statisticsOf(0, 8, 1).transfer, Transfer::linear);
+    EXPECT_NEAR(statisticsOf(0, 8, 1, bent).meanLength, 1, 0.02); // read with the curve undone
+}
+
+TEST(Surveys, count_shares_on_both_sides_of_their_limits)
+{
+    // One row each: below the horizon or just not, short or just not, outside the disc or not.
+    const auto counted = [](glm::vec3 n, glm::vec3 rest) {
+        return statisticsOfMap(floatMap(10, 1, [&](int x, int) { return x == 3 ? n : rest; }));
+    };
+    const glm::vec3 up(-0.6f, 0, 0.8f);
+    EXPECT_NEAR(counted({0.6f, 0.8f, -0.03f}, up).belowHorizon, 0.1, 1e-9);
+    EXPECT_EQ(counted({0.6f, 0.8f, -0.01f}, up).belowHorizon, 0);
+    EXPECT_NEAR(counted({0, 0.5f, 0.73f}, up).shortened, 0.1, 1e-9);  // length 0.885
+    EXPECT_EQ(counted({0, 0.55f, 0.75f}, up).shortened, 0);           // 0.93
+    EXPECT_NEAR(counted({0.7f, 0.75f, 0.1f}, up).outsideDisc, 0.1, 1e-9); // 1.0525
+    EXPECT_EQ(counted({0.71f, 0.71f, 0.1f}, up).outsideDisc, 0); // 1.0082
+    EXPECT_NEAR(counted({std::numeric_limits<float>::quiet_NaN(), 0, 1}, up).invalid, 0.1, 1e-9);
+    const NormalStatistics s = counted({0, 0.6f, 0.8f}, up);
+    EXPECT_NEAR(s.mean[0], -0.54, 1e-6);
+    EXPECT_NEAR(s.mean[1], 0.06, 1e-6);
+    EXPECT_NEAR(s.mean[2], 0.8, 1e-6);
+    EXPECT_EQ(s.tilt[3], 1); // 36.87 degrees
+    EXPECT_NEAR(s.lowest[0], -0.6, 1e-6);
+    EXPECT_NEAR(s.highest[1], 0.6, 1e-6);
+}
+
+TEST(Surveys, tell_contents_on_both_sides_of_a_constant_blue)
+{
+    const auto content = [](int blueRange) {
+        Noise noise(8);
+        Image map = makeImage(32, 32, PixelType::unorm8);
+        for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+            const std::uint8_t t[4] = {std::uint8_t(60 + 130 * noise.next()), std::uint8_t(70 + 120 * noise.next()),
+                                       std::uint8_t(255 - (i % 7 == 0 ? blueRange : 0)), 255};
+            std::copy_n(t, 4, map.bytes8() + 4 * i);
+        }
+        return statisticsOfMap(map).content;
+    };
+    EXPECT_EQ(content(3), Content::twoChannel);
+    EXPECT_NE(content(4), Content::twoChannel);
+}
+
+} // namespace
+} // namespace cotan::maps

@@ -1,0 +1,108 @@
+// What it costs which code is zero, in degrees, on real maps: the table of docs/conventions.md.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/maps/compare.hpp"
+#include "cotan/maps/recode.hpp"
+#include "map_cases.hpp"
+
+namespace cotan::maps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Convention kExact{}, kBiased{.expansion = Expansion::biased};
+
+// Mean angles of texels under 2 degrees of tilt, and from 20 degrees on.
+struct Means {
+    double flats = 0, slopes = 0;
+};
+
+Means meansOf(const Image& truth, const std::vector<float>& degrees)
+{
+    std::array<double, 2> sum{}, count{};
+    std::vector<glm::vec3> row(std::size_t(truth.width));
+    for (int y = 0; y < truth.height; ++y) {
+        decodeRow(truth, y, kExact, row);
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            const double tilt = std::atan2(std::hypot(row[x].x, row[x].y), row[x].z) * 180 / 3.14159265358979;
+            const float off = degrees[std::size_t(y) * row.size() + x];
+            if (off < 0 || (tilt >= 2 && tilt < 20))
+                continue;
+            sum[tilt >= 20] += double(off);
+            count[tilt >= 20] += 1;
+        }
+    }
+    return {count[0] > 0 ? sum[0] / count[0] : 0, count[1] > 0 ? sum[1] / count[1] : 0};
+}
+
+Image stored8(const Image& map, const Convention& to)
+{
+    RecodeCounts counts;
+    return recode(map, {.from = kExact, .to = to, .type = PixelType::unorm8}, counts);
+}
+
+Image texture(const std::string& name)
+{
+    auto image = readImage(fs::path(COTAN_SHARED_DATA) / "textures" / name);
+    return image ? *std::move(image) : Image{};
+}
+
+// An engine that expands with 2c - 1 reads a map whose flat texel is 128; the same the other way round.
+TEST(Zero, read_with_the_other_zero_flats_lean_by_a_third_of_a_degree_and_slopes_turn_as_far)
+{
+    if (!fs::exists(fs::path(COTAN_SHARED_DATA) / "textures"))
+        GTEST_SKIP() << "no " << COTAN_SHARED_DATA << "/textures";
+    const std::pair<const char*, Means> documented[] = {{"cube_normal_gl.png", {0.32, 0.31}},
+                                                        {"scratched_gold_normal_dx.png", {0.32, 0.42}},
+                                                        {"ornament_normal_gl.png", {0.32, 0.31}},
+                                                        {"sofa_normal_gl.png", {0.32, 0.31}}};
+    for (const auto& [name, expected] : documented) {
+        const Image map = texture(name);
+        ASSERT_GT(map.width, 0) << name;
+        const Means off = meansOf(map, anglesBetween(map, kExact, map, kBiased));
+        std::printf("%s: flats %.3f, slopes %.3f degrees\n", name, off.flats, off.slopes);
+        EXPECT_NEAR(off.flats, expected.flats, 0.01) << name;
+        EXPECT_NEAR(off.slopes, expected.slopes, 0.01) << name;
+    }
+}
+
+// A map of 16 bits at 8: what rounding costs with either zero, read as it was stored and as it was not.
+TEST(Zero, at_8_bits_only_the_exact_form_holds_flat)
+{
+    if (!fs::exists(fs::path(COTAN_SHARED_DATA) / "textures"))
+        GTEST_SKIP() << "no " << COTAN_SHARED_DATA << "/textures";
+    const Image truth = texture("noise16_normal_gl.png");
+    ASSERT_EQ(truth.type, PixelType::unorm16);
+    struct Case {
+        Convention stored, read;
+        Means expected;
+    };
+    const Case cases[] = {{kExact, kExact, {0.00, 0.19}}, {kBiased, kBiased, {0.32, 0.16}}, {kExact, kBiased, {0.32, 0.34}}, {kBiased, kExact, {0.10, 0.33}}};
+    for (const Case& c : cases) {
+        const Image there = stored8(truth, c.stored);
+        const Means off = meansOf(truth, anglesBetween(truth, kExact, there, c.read));
+        std::printf("stored %s, read %s: flats %.3f, slopes %.3f degrees\n", describe(c.stored).c_str(), describe(c.read).c_str(),
+                    off.flats, off.slopes);
+        EXPECT_NEAR(off.flats, c.expected.flats, 0.01);
+        EXPECT_NEAR(off.slopes, c.expected.slopes, 0.01);
+    }
+}
+
+// 16 bits: read with the zero of 8 bits, as a shader does that does not know better, or with 2c - 1.
+TEST(Zero, sixteen_bits_hardly_differ_from_2c_minus_1_and_lean_when_read_as_8)
+{
+    const glm::vec4 flat(32768 / 65535.0f, 32768 / 65535.0f, 1, 1);
+    const auto lean = [](const glm::vec3& m) { return std::atan2(std::hypot(m.x, m.y), m.z) * 180 / 3.14159265358979; };
+    EXPECT_LT(lean(decodeTexel(flat, kExact, PixelType::unorm16)), 1e-5);
+    EXPECT_NEAR(lean(decodeTexel(flat, kBiased, PixelType::unorm16)), 0.0012, 1e-4);
+    EXPECT_NEAR(lean(decodeTexel(flat, kExact, PixelType::unorm8)), 0.317, 1e-3);
+}
+
+} // namespace
+} // namespace cotan::maps

@@ -1,0 +1,175 @@
+// The line that says how far a long command is, on a terminal and off it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+#include <pty.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "progress.hpp"
+#include "quad_model.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using Words = std::vector<std::string>;
+
+// What `work`, in a process of its own, writes to standard error, which is a terminal of that width.
+template<class Work> std::string onTerminal(unsigned short columns, Work work)
+{
+    int terminal = -1;
+    const winsize size{24, columns, 0, 0};
+    const pid_t child = ::forkpty(&terminal, nullptr, nullptr, &size);
+    if (child == 0) {
+        ::dup2(::open("/dev/null", O_WRONLY), 1);
+        work();
+        ::_exit(0);
+    }
+    std::string text;
+    char bytes[4096];
+    for (ssize_t n; (n = ::read(terminal, bytes, sizeof bytes)) > 0;)
+        text.append(bytes, std::size_t(n));
+    ::close(terminal);
+    ::waitpid(child, nullptr, 0);
+    return text;
+}
+
+// The states of the line; the last is the empty one that it is wiped to.
+std::vector<std::string> states(const std::string& text)
+{
+    const std::string wipe = "\r\033[K";
+    std::vector<std::string> all;
+    for (std::size_t at = 0; (at = text.find(wipe, at)) != std::string::npos;) {
+        at += wipe.size();
+        all.push_back(text.substr(at, text.find(wipe, at) - at));
+    }
+    return all;
+}
+
+std::size_t columnsOf(const std::string& line)
+{
+    return std::size_t(std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+double percentOf(const std::string& line)
+{
+    const std::size_t end = line.find(" %");
+    return end == std::string::npos ? -1 : std::stod(line.substr(line.rfind(": ", end) + 2));
+}
+
+// 500 steps, each of `milliseconds`, by two threads.
+std::vector<std::string> workOf(unsigned short columns, const std::string& name, int milliseconds, int steps)
+{
+    return states(onTerminal(columns, [&] {
+        app::Progress progress({}, std::size_t(2 * steps), name);
+        const auto half = [&] {
+            for (int i = 0; i < steps; ++i) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+                progress.step();
+            }
+        };
+        std::thread other(half);
+        half();
+        other.join();
+    }));
+}
+
+TEST(ProgressLine, isRedrawnTenTimesASecondAtMostAndDoesNotGoBack)
+{
+    const auto lines = workOf(80, "work", 5, 600); // 3 s at least
+    ASSERT_GT(lines.size(), 5u);
+    EXPECT_LT(lines.size(), 10u * 30); // a loaded machine takes longer, but not ten times
+    double before = -1;
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+        EXPECT_GE(percentOf(lines[i]), before) << lines[i];
+        before = percentOf(lines[i]);
+    }
+    EXPECT_EQ(lines.back(), "") << "the line is wiped";
+    EXPECT_LT(lines.size(), 1200u / 2) << "drawn at every step";
+}
+
+// The work is even, so what is left is what was told before, less the time since; a machine that is busy with other
+// things halves or doubles it.
+TEST(ProgressLine, tellsNoTimeBeforeItKnowsAndThenOneThatHolds)
+{
+    const auto lines = workOf(80, "work", 10, 600); // 6 s at least
+    bool told = false;
+    for (const std::string& line : lines) {
+        const std::size_t at = line.find("about ");
+        told = told || at != std::string::npos;
+        if (percentOf(line) >= 0 && percentOf(line) < 3) {
+            EXPECT_EQ(at, std::string::npos) << line;
+        }
+        if (at != std::string::npos) {
+            EXPECT_LE(std::stod(line.substr(at + 6)), 20) << line;
+        }
+    }
+    EXPECT_TRUE(told);
+}
+
+TEST(ProgressLine, fitsTheTerminalWhateverTheNameHolds)
+{
+    const std::string name = "a\nb\033[31m" + std::string(60, 'x') + "\xc3\xa4\xc3\xb6\xc3\xbc" + std::string(200, 'y');
+    for (const unsigned short columns : std::initializer_list<unsigned short>{80, 200, 40, 12})
+        for (const std::string& line : workOf(columns, name, 1, 150)) {
+            EXPECT_LT(columnsOf(line), std::min<std::size_t>(columns, 80)) << line;
+            for (const char c : line)
+                EXPECT_GE(static_cast<unsigned char>(c), 32) << line;
+        }
+}
+
+TEST(ProgressLine, isSilentWhereNobodyLooks)
+{
+    ::testing::internal::CaptureStderr();
+    {
+        app::Progress progress({}, 3, "work");
+        progress.step();
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    app::CommonOptions quiet;
+    quiet.quiet = true;
+    EXPECT_EQ(onTerminal(80, [&] { app::Progress progress(quiet, 3, "work"); }), "");
+}
+
+// The commands that can take over two seconds.
+TEST(ProgressLine, isShownByEveryLongCommandOnATerminalOnly)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    ASSERT_TRUE(writeImage(folder / "n.png", makeReliefMap(Relief::domes, 64)));
+    std::vector<Words> commands = {
+        {"render", "quad.gltf", "-o", "a.png", "--size", "32x32", "--device", "reference"},
+        {"compare", "quad.gltf", "-o", "d", "--size", "32x32", "--device", "reference"},
+        {"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "16x16", "-o", "b.png"},
+        {"convert", "quad.gltf", "--to", "orthonormal", "-o", "c.glb"}, {"lint", "quad.gltf"}, {"tangents", "quad.gltf"},
+        {"accuracy", "--tables", "flat", "--frames", "cotangent"},
+        {"figures", "--only", "mirrored", "--size", "64x48", "--device", "reference", "-o", "f"},
+        {"map", "info", "n.png"}, {"map", "detect", "n.png"}, {"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "e.png"},
+        {"map", "from-height", "n.png", "-o", "g.png"}, {"map", "to-height", "n.png", "-o", "h.png"},
+        {"map", "blend", "n.png", "n.png", "-o", "i.png"}, {"map", "diff", "n.png", "n.png"}, {"map", "mips", "n.png", "-o", "j.dds"}};
+#ifdef COTAN_WITH_VULKAN
+    commands.push_back({"cost", "--frames", "cotangent", "--no-timing", "--family", "NAVI21"});
+#endif
+    for (const Words& words : commands) {
+        const auto lines = states(onTerminal(80, [&] {
+            std::vector<char*> arguments{const_cast<char*>("cotan")};
+            for (const std::string& word : words)
+                arguments.push_back(const_cast<char*>(word.c_str()));
+            arguments.push_back(nullptr);
+            if (::chdir(folder.path().c_str()) == 0)
+                ::execv(COTAN_TOOL, arguments.data());
+        }));
+        const std::string all = ::testing::PrintToString(words);
+        ASSERT_GE(lines.size(), 2u) << all;
+        for (const std::string& line : lines)
+            EXPECT_LT(columnsOf(line.substr(0, line.find("cotan: warning"))), 80u) << all << line;
+        EXPECT_EQ(runTool(words, folder.path()).err.find('\033'), std::string::npos) << all;
+    }
+}
+
+} // namespace
+} // namespace cotan

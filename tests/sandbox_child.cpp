@@ -1,0 +1,216 @@
+// A reader's process as tests need it: it reads, or does what SANDBOX_CHILD_DOES says.
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <new>
+#include <random>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cotan/asset/sandbox.hpp"
+#include "cotan/asset/shapes.hpp"
+#include "reader_confine.hpp"
+#include "reader_request.hpp"
+#include "scene_wire.hpp"
+
+namespace {
+
+using namespace cotan;
+
+bool sendAll(std::span<const std::byte> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t sent = ::send(0, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        if (sent <= 0)
+            return false;
+        bytes = bytes.subspan(std::size_t(sent));
+    }
+    return true;
+}
+
+ReaderRequest takeRequest()
+{
+    WireIn in([](std::span<std::byte> bytes) {
+        return std::size_t(std::max<ssize_t>(::recv(0, bytes.data(), bytes.size(), 0), 0));
+    }, std::uint64_t(1) << 32);
+    ReaderRequest request;
+    exchangeRequest(in, request);
+    return request;
+}
+
+std::vector<std::byte> sceneBytes(const Scene& scene)
+{
+    std::vector<std::byte> bytes;
+    WireOut out([&](std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        return true;
+    });
+    out.choice(ReaderFrame::value, ReaderFrame::error);
+    exchangeScene(out, scene);
+    out.flush();
+    return bytes;
+}
+
+Scene plane()
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(makePlane(1, 4, 1));
+    scene.instances.emplace_back();
+    return scene;
+}
+
+void answerError(const std::string& message)
+{
+    WireOut out(sendAll);
+    out.choice(ReaderFrame::error, ReaderFrame::error);
+    const Error error{ErrorKind::input, message};
+    exchangeError(out, error);
+    out.flush();
+}
+
+void expectFor(std::function<bool()> more)
+{
+    WireOut out(sendAll);
+    do {
+        out.choice(ReaderFrame::expect, ReaderFrame::error);
+        out.number(std::numeric_limits<std::uint64_t>::max());
+    } while (out.flush() && more());
+}
+
+// What a reader that has been taken over could still do. Folder: of the request's file.
+std::string powers(const ReaderRequest& request)
+{
+    const auto folder = std::filesystem::path(request.name).parent_path();
+    std::string found;
+    const auto note = [&](bool possible, const char* what) { found += possible ? fmt::format(" {}", what) : ""; };
+    note(::open((folder / "new").c_str(), O_WRONLY | O_CREAT, 0600) >= 0, "create");
+    note(::open(request.name.c_str(), O_WRONLY) >= 0, "write");
+    note(::unlink(request.name.c_str()) == 0, "remove");
+    note(::rename(request.name.c_str(), (folder / "moved").c_str()) == 0, "rename");
+    note(::mkdir((folder / "d").c_str(), 0700) == 0, "mkdir");
+    note(::chmod(request.name.c_str(), 0777) == 0, "chmod");
+    note(::truncate(request.name.c_str(), 0) == 0, "truncate");
+    note(::socket(AF_INET, SOCK_STREAM, 0) >= 0, "socket");
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(0);
+    note(child > 0, "fork");
+    note(::kill(::getppid(), 0) == 0, "kill");
+    char* const words[] = {nullptr};
+    ::execve("/bin/true", words, words); // ends this process where it works
+    note(::open(request.name.c_str(), O_RDONLY) < 0, "no-reading"); // that it must be able to
+    return found;
+}
+
+std::string openDescriptors()
+{
+    std::string found;
+    for (int i = 0; i < 256; ++i)
+        found += ::fcntl(i, F_GETFD) >= 0 ? fmt::format(" {}", i) : "";
+    return found;
+}
+
+const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
+    {"crash", [](const ReaderRequest&) { ::raise(SIGSEGV); }},
+    {"abort", [](const ReaderRequest&) {
+         std::fputs("expected \x1b[31mcourage\nand more\n", stderr);
+         std::abort();
+     }},
+    {"leave", [](const ReaderRequest&) { std::exit(0); }},
+    {"spin", [](const ReaderRequest& request) {
+         limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
+         for (volatile bool busy = true; busy;)
+             ;
+     }},
+    {"hang", [](const ReaderRequest&) {
+         if (const char* file = std::getenv("SANDBOX_CHILD_PID"))
+             std::ofstream(file) << ::getpid() << std::endl;
+         for (;;)
+             ::pause();
+     }},
+    {"hang-confined", [](const ReaderRequest& request) {
+         dieWith(request.parent);
+         if (const char* file = std::getenv("SANDBOX_CHILD_PID"))
+             std::ofstream(file) << ::getpid() << std::endl;
+         for (;;)
+             ::pause();
+     }},
+    {"deaf", [](const ReaderRequest&) {
+         ::close(0); // and lives on
+         for (;;)
+             ::pause();
+     }},
+    {"eat", [](const ReaderRequest& request) {
+         limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
+         std::set_new_handler([] { ::_exit(kNoMemoryCode); });
+         for (;;)
+             std::memset(new char[1 << 20], 1, 1 << 20);
+     }},
+    {"garbage", [](const ReaderRequest&) {
+         std::mt19937 random(7);
+         std::vector<std::byte> bytes(1 << 20);
+         for (std::byte& b : bytes)
+             b = std::byte(random());
+         sendAll(bytes);
+     }},
+    {"half", [](const ReaderRequest&) {
+         const auto bytes = sceneBytes(plane());
+         sendAll(std::span(bytes).first(bytes.size() / 2));
+     }},
+    {"index", [](const ReaderRequest&) {
+         Scene scene = plane();
+         scene.meshes[0].indices[4] = std::uint32_t(scene.meshes[0].vertexCount());
+         sendAll(sceneBytes(scene));
+     }},
+    {"count", [](const ReaderRequest&) {
+         WireOut out(sendAll);
+         out.choice(ReaderFrame::value, ReaderFrame::error);
+         out.text("scene");
+         out.number(std::uint64_t(0));
+         out.number(std::uint64_t(0));
+         out.number(std::uint64_t(1)); // one mesh of 3 GB of positions, in no bytes
+         out.text("mesh");
+         out.number(int(0));
+         out.number(std::uint64_t(1) << 28);
+         out.flush();
+     }},
+    {"flood", [](const ReaderRequest&) {
+         const std::string line(1000, 'x');
+         for (int i = 0; i < 10'000; ++i)
+             std::fputs(line.c_str(), stderr);
+         sendAll(sceneBytes(plane()));
+     }},
+    {"expect", [](const ReaderRequest&) { expectFor([] { return true; }); }},
+    {"lines", [](const ReaderRequest&) { answerError("two\nlines\x1b[2J" + std::string(100'000, 'x')); }},
+    {"powers", [](const ReaderRequest& request) {
+         confine();
+         answerError("can:" + powers(request) + ".");
+     }},
+    {"descriptors", [](const ReaderRequest&) { answerError("open:" + openDescriptors() + "."); }},
+};
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const char* act = std::getenv("SANDBOX_CHILD_DOES");
+    if (!cotan::isReaderProcess(argc, argv))
+        return 1;
+    if (!act)
+        return cotan::runReaderProcess();
+    if (std::string(act) == "unread")
+        return 0;
+    kActs.at(act)(takeRequest());
+}

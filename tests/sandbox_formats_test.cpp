@@ -1,0 +1,236 @@
+// Every format gives the same in a process of its own; files that once crashed a reader do not crash the tool.
+#include <filesystem>
+#include <fstream>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/image_rows.hpp"
+#include "cotan/asset/load.hpp"
+#include "cotan/files/account.hpp"
+#include "reader_confine.hpp"
+#include "run_tool.hpp"
+#include "scene_wire.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+
+// All of it, to the bit.
+std::vector<std::byte> everyByte(const Scene& scene)
+{
+    std::vector<std::byte> bytes;
+    WireOut out([&](std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        return true;
+    });
+    exchangeScene(out, scene);
+    out.flush();
+    return bytes;
+}
+
+Image gradient(int width, int height, PixelType type)
+{
+    Image image = makeImage(width, height, type);
+    for (std::size_t i = 0; i < image.pixelCount() * 4; ++i) {
+        if (type == PixelType::unorm8)
+            image.bytes8()[i] = std::uint8_t(i * 7);
+        else if (type == PixelType::unorm16)
+            image.words()[i] = std::uint16_t(i * 1117);
+        else
+            image.floats()[i] = float(i) * 0.01f;
+    }
+    return image;
+}
+
+LoadLimits inChild()
+{
+    LoadLimits limits;
+    limits.sandbox = {.program = SANDBOX_CHILD};
+    return limits;
+}
+
+TEST(SandboxFormats, everyModelFormatGivesTheSameSceneToTheBit)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                       "usemtl m\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nKd 0.1 0.5 0.9\nNs 30\nmap_Kd c.png\nmap_Bump n.png\n";
+    ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
+    ASSERT_TRUE(writeImage(folder / "n.png", gradient(4, 4, PixelType::unorm16)));
+    Assimp::Importer importer;
+    const aiScene* source = importer.ReadFile((folder / "m.obj").string(), 0);
+    ASSERT_TRUE(source);
+    const std::pair<const char*, const char*> formats[] = {{"obj", ""},     {"ply", "plyb"}, {"stl", "stlb"},
+                                                           {"dae", "collada"}, {"fbx", "fbxa"}, {"3ds", "3ds"}};
+    for (const auto& [extension, exporterName] : formats) {
+        const auto file = folder / fmt::format("m.{}", extension);
+        if (*exporterName) {
+            Assimp::Exporter exporter;
+            ASSERT_EQ(exporter.Export(source, exporterName, file.string()), aiReturn_SUCCESS) << extension;
+        }
+        const auto here = loadScene(file), there = loadScene(file, inChild());
+        ASSERT_TRUE(here) << here.error().message;
+        ASSERT_TRUE(there) << there.error().message;
+        EXPECT_GE(there->meshes.at(0).triangleCount(), 1u);
+        EXPECT_EQ(everyByte(*there), everyByte(*here)) << extension;
+    }
+    EXPECT_EQ(loadScene(folder / "m.obj", inChild())->images.size(), 2u); // pictures come along
+}
+
+TEST(SandboxFormats, errorsOfAReaderAreTheSameLine)
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.dae", "a.fbx", "a.3ds"}) {
+        std::ofstream(folder / name) << "garbage";
+        const auto here = loadScene(folder / name), there = loadScene(folder / name, inChild());
+        ASSERT_FALSE(here);
+        ASSERT_FALSE(there);
+        EXPECT_EQ(there.error().message, here.error().message);
+        EXPECT_EQ(there.error().kind, here.error().kind);
+    }
+    EXPECT_EQ(loadScene(folder / "none.obj", inChild()).error().message, loadScene(folder / "none.obj").error().message);
+}
+
+TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
+{
+    const TemporaryFolder folder;
+    const std::pair<const char*, PixelType> files[] = {
+        {"a.tif", PixelType::unorm16}, {"a.exr", PixelType::float32}, {"a.tga", PixelType::unorm8}};
+    for (const auto& [name, type] : files) {
+        ASSERT_TRUE(writeImage(folder / name, gradient(70, 50, type)));
+        const auto here = readImage(folder / name), there = readImage(folder / name, inChild());
+        ASSERT_TRUE(here) << here.error().message;
+        ASSERT_TRUE(there) << there.error().message;
+        EXPECT_EQ(there->type, here->type);
+        EXPECT_EQ(there->name, here->name);
+        EXPECT_EQ(there->width, 70);
+        EXPECT_EQ(there->data, here->data) << name;
+
+        auto rows = openRows(folder / name, inChild());
+        ASSERT_TRUE(rows) << rows.error().message;
+        EXPECT_EQ((*rows)->name, (folder / name).string());
+        EXPECT_EQ((*rows)->height, 50);
+        EXPECT_TRUE((*rows)->alpha);
+        std::vector<std::byte> all;
+        for (const int height : {1, 20, 29}) {
+            Image strip = makeImage(70, height, (*rows)->type);
+            const Status read = (*rows)->read(strip);
+            ASSERT_TRUE(read) << read.error().message;
+            all.insert(all.end(), strip.data.begin(), strip.data.end());
+        }
+        EXPECT_EQ(all, here->data) << name;
+    }
+}
+
+TEST(SandboxFormats, aPictureThatEndsEarlyIsAnErrorOfItsRowsToo)
+{
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "a.exr", gradient(64, 256, PixelType::float32)));
+    std::filesystem::resize_file(folder / "a.exr", std::filesystem::file_size(folder / "a.exr") / 2);
+    auto rows = openRows(folder / "a.exr", inChild());
+    Status read = Done{};
+    for (int y = 0; rows && read && y < 256; y += 64) {
+        Image strip = makeImage(64, 64, (*rows)->type);
+        read = (*rows)->read(strip);
+    }
+    const std::string message = rows ? read ? "" : read.error().message : rows.error().message;
+    EXPECT_NE(message.find("a.exr: broken openexr image"), std::string::npos) << message;
+}
+
+std::string colladaTriangle(const std::string& array, const std::string& accessor)
+{
+    return "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" "
+        + array + "</float_array><technique_common><accessor " + accessor
+        + "><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+          "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles "
+          "count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+          "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"n\"><instance_geometry url=\"#g\"/>"
+          "</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+}
+
+TEST(ColladaAccessors, reachNoFurtherThanTheirArray)
+{
+    const TemporaryFolder folder;
+    const std::string nine = "count=\"9\">0 0 0 1 0 0 0 1 0", ten = "count=\"10\">7 0 0 0 1 0 0 0 1 0";
+    const std::tuple<std::string, std::string, std::string> cases[] = {
+        {nine, "source=\"#a\" count=\"3\" stride=\"3\"", ""},
+        {nine, "source='#a'\n count = '3'\tstride='3' ", ""},
+        {ten, "source=\"#a\" count=\"3\" stride=\"3\" offset=\"1\"", ""},
+        {nine, "source=\"#a\" count=\"3\" stride=\"3\" offset=\"1\"", "expected an array of 10 numbers or more, found 9"},
+        {nine, "source=\"#a\" count=\"3\" stride=\"4\"", "accessor of #a: expected an array of 11 numbers or more, found 9"},
+        {nine, "source=\"#a\" count=\"4\" stride=\"3\"", "expected an array of 12 numbers or more, found 9"},
+        {nine, "source=\"#a\" count=\"8\"", "expected an array of 10 numbers or more, found 9"}, // stride 1
+        {"count=\"0\">0 0 0 1 0 0 0 1 0", "source=\"#a\" count=\"3\" stride=\"3\"", "9 numbers or more, found 0"},
+    };
+    for (const auto& [array, accessor, expected] : cases) {
+        std::ofstream(folder / "a.dae") << colladaTriangle(array, accessor);
+        const auto scene = loadScene(folder / "a.dae");
+        const std::string found = scene ? "" : scene.error().message;
+        EXPECT_EQ(found.empty(), expected.empty()) << accessor << ": " << found;
+        EXPECT_NE(found.find(expected), std::string::npos) << accessor << ": " << found;
+    }
+}
+
+TEST(SandboxFormats, filesThatTheReaderOpensCountAsOurInputs)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nmap_Kd c.png\n";
+    ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
+    for (const char* name : {"m.obj", "m.mtl", "c.png"}) {
+        guardInputs(/*overwrite*/ false);
+        ASSERT_TRUE(loadScene(folder / "m.obj", inChild()));
+        EXPECT_FALSE(planOutput("-o", folder / name)) << name;
+        guardInputs(/*overwrite*/ false);
+        ASSERT_TRUE(planOutput("-o", folder / name));
+        const auto scene = loadScene(folder / "m.obj", inChild());
+        ASSERT_FALSE(scene) << name;
+        EXPECT_EQ(scene.error().kind, ErrorKind::usage);
+        EXPECT_NE(scene.error().message.find(std::string(name) + ", which is read"), std::string::npos) << scene.error().message;
+    }
+    guardInputs(/*overwrite*/ true);
+}
+
+TEST(SandboxTool, whatTheReaderOpensIsNotReplaced)
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nmap_Kd c.png\n";
+    ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
+    const std::string before = readWhole(folder / "c.png");
+    const ToolRun run = runTool({"render", "m.obj", "-o", "c.png", "--device", "reference", "--size", "32x32"}, folder.path());
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_NE(run.err.find("-o c.png would replace"), std::string::npos) << run.err;
+    EXPECT_EQ(readWhole(folder / "c.png"), before);
+}
+
+TEST(SandboxTool, filesThatCrashedAReaderAreOneLine)
+{
+    const std::filesystem::path found = std::filesystem::path(COTAN_SHARED_DATA) / "found";
+    if (!std::filesystem::exists(found))
+        GTEST_SKIP() << "no files: " << found << " is missing";
+    const std::pair<const char*, const char*> files[] = {
+        {"cycle.fbx", kSanitized ? "cycle.fbx: the reader of FBX files" : "cycle.fbx: the reader of FBX files crashed (signal 11"},
+        {"accessor_beyond_array.dae", "accessor of #a: expected an array of 9 numbers or more, found 0"},
+        {"statements_before_newmtl.obj", ""}}; // a line in any case
+    for (const auto& [name, expected] : files) {
+        const TemporaryFolder folder;
+        const ToolRun run = runTool({"render", (found / name).string(), "-o", "out.png", "--device", "reference", "--size", "32x32"},
+                                    folder.path(), 20);
+        EXPECT_TRUE(run.code == 2 || (*expected == '\0' && run.code == 0)) << run.code;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find(expected), std::string::npos) << run.err;
+        EXPECT_LT(run.seconds, 5);
+        EXPECT_LT(run.megabytes, 1024);
+        EXPECT_EQ(std::filesystem::exists(folder / "out.png"), run.code == 0);
+    }
+}
+
+} // namespace
+} // namespace cotan

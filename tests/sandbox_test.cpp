@@ -1,0 +1,212 @@
+// Readers in a child process: what may go wrong there, and what is left afterwards. sandbox_child.cpp plays the child.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cotan/asset/image_file.hpp"
+#include "cotan/asset/image_rows.hpp"
+#include "cotan/asset/load.hpp"
+#include "reader_confine.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+
+// Makes the child do something else than reading.
+class Act {
+public:
+    explicit Act(const char* what) { ::setenv("SANDBOX_CHILD_DOES", what, 1); }
+    ~Act() { ::unsetenv("SANDBOX_CHILD_DOES"); }
+};
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+class Sandboxed : public testing::Test {
+protected:
+    TemporaryFolder folder;
+    std::filesystem::path model = folder / "m.obj";
+    LoadLimits limits;
+
+    void SetUp() override
+    {
+        std::ofstream(model) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
+        limits.sandbox = {.program = SANDBOX_CHILD};
+        ::setenv("ASAN_OPTIONS", "handle_segv=0:handle_abort=0", 1); // the child shall crash as it would without
+        ::setenv("TSAN_OPTIONS", "handle_segv=0:handle_abort=0", 1);
+    }
+
+    // The message of loading while the child misbehaves; empty where that succeeds.
+    std::string problem(const char* act) const
+    {
+        const Act acting(act);
+        const auto scene = loadScene(model, limits);
+        if (scene)
+            return "";
+        EXPECT_EQ(scene.error().kind, ErrorKind::input);
+        EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
+        const std::string file = model.string() + ": ";
+        EXPECT_TRUE(scene.error().message.starts_with(file)) << scene.error().message;
+        return scene.error().message.substr(std::min(file.size(), scene.error().message.size()));
+    }
+};
+
+TEST_F(Sandboxed, aReaderThatMisbehavesIsOneLineThatSaysHow)
+{
+    const std::string the = "the reader of OBJ files ";
+    EXPECT_EQ(problem("crash"), the + "crashed (signal 11, Segmentation fault)");
+    EXPECT_EQ(problem("abort"), the + "crashed (signal 6, Aborted): expected  [31mcourage");
+    EXPECT_EQ(problem("leave"), the + "ended without an answer");
+    EXPECT_EQ(problem("unread"), the + "ended without an answer");
+    EXPECT_EQ(problem("half"), the + "ended without an answer");
+    EXPECT_EQ(problem("count"), the + "ended without an answer");
+    EXPECT_EQ(problem("garbage"), the + "gave an answer that makes no sense");
+    EXPECT_EQ(problem("index"), "mesh 0: triangle 1: expected an index below 25, found 25");
+    EXPECT_EQ(problem("flood"), "");
+}
+
+TEST_F(Sandboxed, timeAndMemoryEndAtTheirLimits)
+{
+    const auto start = std::chrono::steady_clock::now();
+    limits.sandbox.seconds = 0.05; // of processor, which counts whole seconds; fifteen times that on the wall
+    EXPECT_EQ(problem("hang"), "the reader of OBJ files took too long; the limit is 0 seconds");
+    EXPECT_NE(problem("deaf").find("took too long"), std::string::npos);
+    EXPECT_NE(problem("expect").find("took too long"), std::string::npos); // however much it announces
+    limits.sandbox.seconds = 1;
+    EXPECT_EQ(problem("spin"), "the reader of OBJ files took too long; the limit is 1 seconds");
+    EXPECT_LT(secondsSince(start), 40);
+    if (kSanitized)
+        return; // memory has no limit
+    limits.sandbox = {.program = SANDBOX_CHILD, .megabytes = 64};
+    EXPECT_EQ(problem("eat"), "the reader of OBJ files takes too much memory; the limit is 64 MiB");
+    rusage used{};
+    ::getrusage(RUSAGE_CHILDREN, &used);
+    EXPECT_LT(used.ru_maxrss, 200 << 10) << "KB; the limit, and what the program itself is";
+}
+
+TEST_F(Sandboxed, aMessageOfTheReaderIsOnePrintableLine)
+{
+    const Act acting("lines");
+    const std::string whole = loadScene(model, limits).error().message;
+    EXPECT_TRUE(whole.starts_with("two lines [2Jxxx")) << whole.substr(0, 40);
+    EXPECT_LT(whole.size(), 5000u);
+}
+
+TEST_F(Sandboxed, theReaderCanReadAndDoNothingElse)
+{
+    if (kSanitized)
+        GTEST_SKIP() << "with sanitizers no call is forbidden";
+    const Act acting("powers");
+    EXPECT_EQ(loadScene(model, limits).error().message, "can:.");
+    EXPECT_TRUE(std::filesystem::exists(model));
+}
+
+TEST_F(Sandboxed, theReaderHasNoDescriptorsOfOurs)
+{
+    const std::ifstream ours(model);
+    const int leaky = ::dup(0); // as other libraries open files: inherited by programs
+    const Act acting("descriptors");
+    EXPECT_EQ(loadScene(model, limits).error().message, "open: 0 1 2.");
+    ::close(leaky);
+}
+
+TEST_F(Sandboxed, aProgramThatCannotBeStartedIsNotTheFilesFault)
+{
+    limits.sandbox.program = folder / "none";
+    const auto scene = loadScene(model, limits);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().kind, ErrorKind::unavailable);
+    EXPECT_NE(scene.error().message.find("none: No such file"), std::string::npos) << scene.error().message;
+}
+
+TEST_F(Sandboxed, twoHundredLoadsLeaveNoZombieAndNoDescriptor)
+{
+    const auto descriptors = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = descriptors();
+    for (int i = 0; i < 200; ++i) {
+        if (i % 4 == 0)
+            EXPECT_NE(problem(i % 8 == 0 ? "crash" : "half"), "");
+        else
+            ASSERT_TRUE(loadScene(model, limits)) << i;
+    }
+    EXPECT_EQ(descriptors(), before);
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+    EXPECT_EQ(errno, ECHILD);
+}
+
+TEST_F(Sandboxed, aProgramThatIgnoresItsChildrenReadsAllTheSame)
+{
+    ::signal(SIGCHLD, SIG_IGN);
+    EXPECT_TRUE(loadScene(model, limits));
+    EXPECT_EQ(problem("crash"), "the reader of OBJ files ended without an answer"); // nobody can say more
+    ::signal(SIGCHLD, SIG_DFL);
+}
+
+TEST_F(Sandboxed, aPictureForNobodyDoesNotEndUs)
+{
+    const Act acting("unread");
+    std::vector<std::byte> bytes(4 << 20, std::byte(0));
+    bytes[0] = std::byte('B'), bytes[1] = std::byte('M');
+    const auto image = decodeImage(bytes, "big.bmp", limits);
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().message, "big.bmp: the reader of BMP pictures ended without an answer");
+}
+
+bool isGone(pid_t process)
+{
+    for (int i = 0; i < 500 && ::kill(process, 0) == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return ::kill(process, 0) != 0;
+}
+
+TEST_F(Sandboxed, theReaderGoesWhenItsParentIsKilledOrInterrupted)
+{
+    const Act acting("hang-confined");
+    const auto note = folder / "pid";
+    ::setenv("SANDBOX_CHILD_PID", note.c_str(), 1);
+    for (const int signal : {SIGKILL, SIGINT}) {
+        std::filesystem::remove(note);
+        const pid_t parent = ::fork();
+        if (parent == 0) {
+            (void)loadScene(model, limits);
+            ::_exit(0);
+        }
+        pid_t reader = 0;
+        for (int i = 0; i < 1000 && reader == 0; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            std::ifstream(note) >> reader;
+        }
+        ASSERT_GT(reader, 0);
+        EXPECT_EQ(::kill(reader, 0), 0);
+        ::kill(parent, signal);
+        ::waitpid(parent, nullptr, 0);
+        EXPECT_TRUE(isGone(reader)) << signal;
+    }
+    ::unsetenv("SANDBOX_CHILD_PID");
+}
+
+TEST(SandboxWord, isRefusedInOneLineWhereNobodyListens)
+{
+    const TemporaryFolder folder;
+    const ToolRun run = runTool({"read-for-parent"}, folder.path());
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,186 @@
+// What is printed for small texts and single options, written down by hand: the parity tests compile and run everything
+// and so take their time, and cannot see what all languages get wrong alike.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cotan/shader_text/shader_text.hpp"
+#include "parse.hpp"
+
+namespace cotan::shader_text {
+namespace {
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+std::string textOf(const Choice& choice)
+{
+    const auto text = makeShaderText(choice);
+    EXPECT_TRUE(text) << (text ? "" : text.error().message);
+    return text ? text->text : "";
+}
+
+// ---- the preprocessor -----------------------------------------------------------------------
+
+TEST(PreprocessedText, oneBranchOfAChainIsRead)
+{
+    const char* const text = "#if defined(COTAN_LANG_GLSL)\nglsl\n#elif defined(COTAN_LANG_CPP)\ncpp\n#else\nother\n#endif\nall\n";
+    EXPECT_EQ(preprocess(text, "COTAN_LANG_GLSL").text, "glsl\nall\n");
+    EXPECT_EQ(preprocess(text, "COTAN_LANG_CPP").text, "cpp\nall\n");
+    EXPECT_EQ(preprocess(text, "COTAN_LANG_HLSL").text, "other\nall\n");
+}
+
+TEST(PreprocessedText, branchesInsideOfUnreadOnesAreNotRead)
+{
+    const char* const text = "#ifndef GUARD\n#if defined(COTAN_LANG_CPP)\n#if defined(COTAN_LANG_GLSL)\ninner\n#endif\n#else\nouter\n#endif\n#endif\n";
+    EXPECT_EQ(preprocess(text, "COTAN_LANG_GLSL").text, "outer\n");
+}
+
+TEST(PreprocessedText, constantsAreThoseOfOurPrefixWithAValue)
+{
+    const auto found = preprocess("#define COTAN_HUGE cotan_real(1e37) // why\n#define COTAN_FUNCTION inline\n#define COTAN_ON\n"
+                                  "#define cotan_mix mix\n",
+                                  "COTAN_LANG_GLSL");
+    ASSERT_EQ(found.constants.size(), 1u);
+    EXPECT_EQ(found.constants.begin()->first, "COTAN_HUGE");
+    EXPECT_EQ(found.constants.begin()->second.substr(0, 16), "cotan_real(1e37)");
+}
+
+// ---- one small function in each language ----------------------------------------------------
+
+const char* const kSmall = "COTAN_FUNCTION cotan_real half_or_less(cotan_real x, cotan_real y)\n{\n"
+                           "    x = x * cotan_real(0.5);\n"
+                           "    cotan_vec2 v = cotan_vec2(x, y);\n"
+                           "    return x < y ? v.x : v.y;\n}\n";
+
+TEST(PrintedText, glslHlslAndMetalDifferInWords)
+{
+    EXPECT_TRUE(has(translate(Language::glsl, kSmall), "float half_or_less(float x, float y)\n{\n    x = x * 0.5;\n"
+                                                       "    vec2 v = vec2(x, y);\n    return x < y ? v.x : v.y;\n}\n"));
+    EXPECT_TRUE(has(translate(Language::hlsl, kSmall), "    float2 v = float2(x, y);\n"));
+    EXPECT_TRUE(has(translate(Language::msl, kSmall), "inline float half_or_less(float x, float y)\n{\n    x = x * 0.5f;\n"));
+}
+
+TEST(PrintedText, wgslCopiesParametersThatChangeAndSelectsTheOtherWayRound)
+{
+    const std::string text = translate(Language::wgsl, kSmall);
+    EXPECT_TRUE(has(text, "fn half_or_less(x_in: f32, y: f32) -> f32 {\n    var x = x_in;\n    x = x * 0.5;\n"
+                          "    let v = vec2f(x, y);\n    return select(v.y, v.x, x < y);\n}\n"))
+        << text;
+}
+
+TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
+{
+    const char* const text = "struct cotan_two {\n    cotan_real a; // first\n    cotan_real b; // second\n};\n"
+                             "COTAN_FUNCTION cotan_real first_of(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    return t.a;\n}\n";
+    EXPECT_TRUE(has(translate(Language::glsl, text), "struct cotan_two"));
+    EXPECT_FALSE(has(translate(Language::glsl, kSmall), "struct")) << "one that nothing uses";
+}
+
+// ---- options --------------------------------------------------------------------------------
+
+TEST(ChosenText, theStoredFormIsWrittenOutAndTheOthersAreGone)
+{
+    Choice choice;
+    choice.frame = Frame::unit;
+    choice.convention.greenUp = true;
+    choice.convention.v = VDirection::up;
+    choice.convention.expansion = Expansion::biased;
+    std::string text = textOf(choice);
+    EXPECT_TRUE(has(text, "float cotan_expand(float c)\n{\n    float x = c * 2.0 - 1.0;\n    return max(x, -1.0);\n}\n")) << text;
+    EXPECT_TRUE(has(text, "    vec3 m = vec3(x, y, z);\n    return vec3(m.x, m.y, m.z);\n}\n"));
+    choice.convention.expansion = Expansion::signedValues;
+    EXPECT_TRUE(has(textOf(choice), "float cotan_expand(float c)\n{\n    float x = c;\n"));
+    choice.convention.channels = Channels::slope;
+    text = textOf(choice);
+    EXPECT_TRUE(has(text, "    float x = cotan_expand(texel.x);\n    float y = cotan_expand(texel.y);\n"
+                          "    vec3 m = vec3(-x, -y, 1.0);\n    return vec3(m.x, m.y, m.z);\n}\n"))
+        << text;
+    EXPECT_FALSE(has(text, "if (")) << text;
+    choice.convention.channels = Channels::orthographic;
+    EXPECT_TRUE(has(textOf(choice), "    vec3 m = vec3(x, y, cotan_orthographic_z(xy));\n"));
+    choice.convention.channels = Channels::stereographic;
+    EXPECT_TRUE(has(textOf(choice), "    vec3 m = cotan_from_stereographic(xy);\n"));
+}
+
+TEST(ChosenText, greenIsTurnedWhereItPointsAgainstV)
+{
+    for (const bool greenUp : {true, false})
+        for (const VDirection v : {VDirection::up, VDirection::down}) {
+            Choice choice;
+            choice.convention.greenUp = greenUp;
+            choice.convention.v = v;
+            const bool against = greenUp == (v == VDirection::down);
+            EXPECT_EQ(has(textOf(choice), "return vec3(m.x, -m.y, m.z);"), against) << greenUp << int(v);
+            EXPECT_EQ(has(textOf(choice), "return vec3(m.x, m.y, m.z);"), !against) << greenUp << int(v);
+        }
+}
+
+TEST(ChosenText, severalUvSetsAreAddedAndCounted)
+{
+    Choice choice;
+    choice.frame = Frame::gradient;
+    for (int sets = 2; sets <= 4; ++sets) {
+        choice.uvSets = sets;
+        std::string sum = "gradient0";
+        for (int k = 1; k < sets; ++k)
+            sum += " + gradient" + std::to_string(k);
+        EXPECT_TRUE(has(textOf(choice), "(frame0.n, " + sum + ");")) << sets;
+    }
+    for (const int wrong : {-1, 0, 5}) {
+        choice.uvSets = wrong;
+        ASSERT_FALSE(makeShaderText(choice)) << wrong;
+        EXPECT_EQ(makeShaderText(choice).error().kind, ErrorKind::usage);
+    }
+    choice.uvSets = 2;
+    for (const Frame from : {Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
+        choice.frame = from;
+        EXPECT_FALSE(makeShaderText(choice)) << name(from);
+    }
+}
+
+TEST(ChosenText, framesThatAskForAUnitNormalGetOne)
+{
+    for (const FrameInfo& f : frames()) {
+        if (f.source != FrameSource::differences)
+            continue;
+        Choice choice;
+        choice.frame = f.frame;
+        choice.form = Form::total;
+        EXPECT_EQ(has(textOf(choice), "normal * inversesqrt(dot(normal, normal))"), !f.total) << f.name;
+    }
+}
+
+TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
+{
+    for (const Language language : kLanguages)
+        for (const bool caller : {false, true}) {
+            Choice choice;
+            choice.language = language;
+            choice.callerDifferences = caller;
+            const auto text = makeShaderText(choice);
+            ASSERT_TRUE(text);
+            EXPECT_EQ(text->functions.back() == "cotan_perturb_normal", !caller && language != Language::cpp) << name(language);
+            choice.frame = Frame::exact; // from edges
+            EXPECT_NE(makeShaderText(choice)->functions.back(), "cotan_perturb_normal") << name(language);
+        }
+}
+
+TEST(ChosenText, setsOfFunctionsComeOnlyWhenAskedFor)
+{
+    const auto functions = [](bool gradients, bool blends, bool lights) {
+        Choice choice;
+        choice.gradients = gradients;
+        choice.blends = blends;
+        choice.lights = lights;
+        return textOf(choice);
+    };
+    EXPECT_FALSE(has(functions(false, true, true), "cotan_gradient_triplanar("));
+    EXPECT_TRUE(has(functions(true, false, false), "cotan_gradient_triplanar("));
+    EXPECT_FALSE(has(functions(true, false, true), "cotan_blend_udn("));
+    EXPECT_TRUE(has(functions(false, true, false), "cotan_blend_udn("));
+    EXPECT_FALSE(has(functions(true, true, false), "cotan_reflect_pbr("));
+    EXPECT_TRUE(has(functions(false, false, true), "cotan_reflect_pbr("));
+}
+
+} // namespace
+} // namespace cotan::shader_text

@@ -1,0 +1,1 @@
+#include "tbb_by_threads.hpp" // see there
