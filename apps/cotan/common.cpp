@@ -39,7 +39,7 @@ void addCommonOptions(CLI::App& command, CommonOptions& options, const std::stri
     CLI::Option* output = command.add_option("-o,--output", options.output, outputHelp)->type_name("PATH");
     if (outputHelp.empty())
         output->group("")->each([&command](const std::string&) {
-            throw CLI::ValidationError(command.get_name() + " writes no files but --json FILE; leave out -o");
+            throw CLI::ArgumentMismatch(command.get_name() + " writes no files but --json FILE; leave out -o");
         });
     command.add_option("--json", options.json, "machine-readable report; - is standard output")
         ->type_name("FILE");
