@@ -1,5 +1,6 @@
-// Models other than glTF: OBJ with its MTL, PLY, COLLADA, STL, FBX and 3DS, all in this process. Which format it is, is told
-// from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it.
+// Models other than glTF: OBJ with its MTL, PLY, COLLADA, STL and 3DS, all in this process. Which format it is, is told
+// from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it. FBX is left out: nothing is
+// checked in front of Assimp's reader, which can overflow the stack; the tool reads it in a process of its own.
 #include <string_view>
 
 #include "scene_checks.hpp"
@@ -19,8 +20,6 @@ const char* nameOf(std::span<const std::uint8_t> bytes)
         return "model.stl";
     if (startsWith(bytes, "MM"))
         return "model.3ds";
-    if (startsWith(bytes, "; FBX") || startsWith(bytes, "Kaydara"))
-        return "model.fbx";
     return "model.obj";
 }
 

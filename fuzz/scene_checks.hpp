@@ -65,7 +65,8 @@ inline MeshView viewOf(const Mesh& mesh)
 // Tangents of meshes whose coordinates floats can square and multiply: finite, one a corner.
 inline void checkTangents(const MeshView& mesh)
 {
-    const std::size_t corners = mesh.texcoords.size() == mesh.positions.size() ? mesh.indices.size() : 0;
+    const bool complete = mesh.texcoords.size() == mesh.positions.size() && mesh.normals.size() == mesh.positions.size();
+    const std::size_t corners = complete ? mesh.indices.size() : 0;
     const auto ordinary = [](const auto& v) { return glm::dot(v, v) < 1e12f; };
     const bool all = std::ranges::all_of(mesh.positions, ordinary) && std::ranges::all_of(mesh.texcoords, ordinary);
     for (const auto& tangents : {mikktspaceTangents(mesh, 1), vertexTangents(mesh)}) {

@@ -6,6 +6,8 @@
 
 #include "cotan/shader_text/shader_text.hpp"
 #include "parse.hpp"
+#include "print.hpp"
+#include "specialise.hpp"
 
 namespace cotan::shader_text {
 namespace {
@@ -74,6 +76,35 @@ TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
                              "COTAN_FUNCTION cotan_real first_of(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    return t.a;\n}\n";
     EXPECT_TRUE(has(translate(Language::glsl, text), "struct cotan_two"));
     EXPECT_FALSE(has(translate(Language::glsl, kSmall), "struct")) << "one that nothing uses";
+}
+
+// ---- simplified functions -------------------------------------------------------------------
+
+// The body of a function f(cotan_real x), simplified, in GLSL.
+std::string simplified(const std::string& body)
+{
+    Module module;
+    std::map<std::string, Expression> constants;
+    parsePart(module, constants, "test", "COTAN_FUNCTION cotan_real f(cotan_real x)\n{\n" + body + "}\n", "COTAN_LANG_GLSL");
+    simplify(module.functions.at(0));
+    const std::string text = print(module, Language::glsl);
+    return text.substr(text.find("{\n") + 2);
+}
+
+TEST(SimplifiedText, aDeclarationTakesTheAssignmentBehindItUnlessThatReadsIt)
+{
+    EXPECT_EQ(simplified("    cotan_real a = x;\n    a = x * x;\n    return a * a;\n"),
+              "    float a = x * x;\n    return a * a;\n}\n");
+    const std::string reading = "    float a = x;\n    a = a * x;\n    return a * a;\n}\n";
+    EXPECT_EQ(simplified("    cotan_real a = x;\n    a = a * x;\n    return a * a;\n"), reading);
+}
+
+TEST(SimplifiedText, aVariableThatIsReadAgainKeepsItsName)
+{
+    EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = a;\n    return b * b;\n"),
+              "    float b = x * x;\n    return b * b;\n}\n");
+    EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = a;\n    return a * b;\n"),
+              "    float a = x * x;\n    float b = a;\n    return a * b;\n}\n");
 }
 
 // ---- options --------------------------------------------------------------------------------

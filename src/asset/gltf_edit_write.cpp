@@ -334,8 +334,9 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
     if (Status done = writeTogether(outputs); !done)
         throw done.error();
     std::vector<fs::path> images;
-    for (const auto& [image, path] : imageFiles(*document.source, layout.root))
-        if (std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
+    for (const auto& image : imageFiles(*document.source, layout.root))
+        if (const fs::path& path = image.second;
+            std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
             images.push_back(path);
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)
