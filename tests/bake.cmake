@@ -4,6 +4,6 @@ cotan_test(bake_test SEPARATE
   LIBRARIES cotan_bake cotan_asset cotan_truth cotan_core)
 cotan_test(bake_command_test SEPARATE
   SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp
-  LIBRARIES cotan_asset cotan_core nlohmann_json::nlohmann_json)
+  LIBRARIES cotan_asset cotan_truth cotan_core nlohmann_json::nlohmann_json)
 target_compile_definitions(bake_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_command_test cotan)

@@ -376,7 +376,7 @@ TEST(SeenByHand, everyPixelShowsTheNormalOfThePlaceBehindIt)
     const auto low = makeLowSurface(sceneOfMeshes({unitSquare(0)}), -1, options.frame, TangentSource::generated);
     const auto surface = HighSurface::make({sceneOfMeshes({high})}, 1);
     ASSERT_TRUE(low && surface);
-    const Image image = expectedNormals(*low, *surface, options, view);
+    const Image image = *expectedNormals(*low, *surface, options, view);
     ASSERT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());
     const double halfHeight = std::tan(0.25); // of the picture in the plane, one unit away
     for (int y = 0; y < 20; ++y)

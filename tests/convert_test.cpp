@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "cotan/asset/shapes.hpp"
+#include "cotan/convention.hpp"
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"

@@ -128,7 +128,9 @@ TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat
             const std::string name = i == 0 ? "narrow" : "wide", strength = i == 0 ? "1024" : "1"; // of the width
             ASSERT_EQ(runTool({"map", "from-height", name + ".png", "--wrap", wrap, "--strength", strength, "--kernel", "sobel",
                                "-o", name + "-out.png"}, folder.path()).code, 0);
-            const auto image = readImage(folder / (name + "-out.png"), {.imageSide = 1 << 20});
+            LoadLimits limits;
+            limits.imageSide = 1 << 20;
+            const auto image = readImage(folder / (name + "-out.png"), limits);
             ASSERT_TRUE(image);
             out[i] = *image;
         }
