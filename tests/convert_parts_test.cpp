@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "cotan/convention.hpp"
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
@@ -279,7 +280,9 @@ MapUse unormUse(const std::vector<Corner>& corners)
 
 glm::dvec3 unormTexel(const Image& image, int x, int y)
 {
-    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), kUnorm));
+    f64::cotan_normal_format format = kUnorm;
+    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 
 TEST(Reencode, aTallPatchNeedsTwiceTheSlopeAlongVTexelByTexel)

@@ -99,7 +99,7 @@ TEST(Documents, everyLinkLeadsToAFileAndAHeading)
 std::string wholeSource()
 {
     std::string all;
-    for (const char* folder : {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench"})
+    for (const char* folder : {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench", "fuzz"})
         for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
             if (entry.is_regular_file() && entry.path().extension() != ".md" && entry.path().filename() != "docs_test.cpp"
                 && entry.file_size() < (1u << 20))

@@ -227,8 +227,8 @@ TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
         const GreenEvidence wrong = greenOf(withGreenReversed(makeReliefMap(relief, 256)));
         EXPECT_TRUE(wrong.decided() && !wrong.asDeclared()) << int(relief) << " " << wrong.verdict.agreement;
     }
-    // A smooth height field, but for rounding to 8 bits.
-    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.95);
+    // A smooth height field, but for rounding to 8 bits, and for steps over the detector's limit, which count as that limit.
+    EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.9);
 }
 
 TEST(Lint, givesTheVerdictOfTheMapsOwnDetectorAlsoOnAMapOfCharts)

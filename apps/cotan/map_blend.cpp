@@ -80,6 +80,7 @@ Status run(const Options& o)
     const auto bits = parseBits(o.bits, in.type, o.map.common.output);
     if (!bits)
         return bits.error();
+    warnIfLossy(o.map.common, o.map.common.output);
     if (Status fits = checkSigned(s.to, *bits, o.map.common.output); !fits)
         return fits;
     s.mode = *mode;

@@ -109,6 +109,7 @@ Status run(const Options& o)
     const auto bits = parseBits(o.bits, in.type, o.map.common.output);
     if (!bits)
         return bits.error();
+    warnIfLossy(o.map.common, o.map.common.output);
     if (Status fits = checkSigned(*to, *bits, o.map.common.output); !fits)
         return fits;
     const maps::RecodeSettings settings{.from = *from, .to = *to, .type = bits->type, .strength = float(o.strength),

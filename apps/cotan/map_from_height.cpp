@@ -68,6 +68,7 @@ Status run(const Options& o)
     const auto bits = parseBits(o.bits, in.type, o.map.common.output);
     if (!bits)
         return bits.error();
+    warnIfLossy(o.map.common, o.map.common.output);
     if (Status fits = checkSigned(*to, *bits, o.map.common.output); !fits)
         return fits;
     const auto writer = createRows(o.map.common.output, {in.width, in.height, bits->type, false, bits->half}, o.map.common.threads);

@@ -191,7 +191,6 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 {
     if (options.common.output.empty())
         return usageError(fmt::format("map {}: expected -o FILE; found none", command));
-    warnIfLossy(options.common, options.common.output);
     return planOutputs(options.common, {{"-o", file.empty() ? options.common.output : file}});
 }
 

@@ -153,7 +153,7 @@ void GltfMaterials::decodeImages()
 namespace {
 
 // What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
-void lookAt(const GltfModel& model, int image)
+void lookAt(const GltfModel& model, int image, bool used)
 {
     // Signature, length and type, IHDR's 13 bytes, checksum.
     constexpr std::size_t kPngHeader = 33;
@@ -169,6 +169,8 @@ void lookAt(const GltfModel& model, int image)
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
         failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes) && foreignFormat(source.bytes).empty())
+        failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
 }
 
 } // namespace
@@ -179,12 +181,13 @@ void GltfMaterials::checkUnusedImages() const
     const json& file = model_.file.json;
     const json& images = file.contains("images") ? file["images"] : none;
     for (int i = 0; i < static_cast<int>(images.size()); ++i) {
-        if (slots_.contains(i) && model_.limits.pixels != Pixels::none)
-            continue;
+        const bool used = slots_.contains(i);
+        if (used && model_.limits.pixels != Pixels::none)
+            continue; // it was decoded
         try {
-            lookAt(model_, i);
+            lookAt(model_, i, used);
         } catch (const GltfProblem& problem) {
-            if (scene_.instances.empty()) // then the images are all that there is
+            if (used || scene_.instances.empty()) // or the images are all that there is
                 throw;
             model_.warnings.add(problem.message, "nothing uses this image, it is left out");
         }
