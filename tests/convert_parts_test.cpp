@@ -256,14 +256,15 @@ TEST(UseRaster, beyondAClampedAxisThereIsNothing)
 
 constexpr FramePair kPartsToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated, TangentOrigin::generated};
 // As glTF has it, but for green, which runs along v here.
-constexpr f64::cotan_normal_format kUnorm{0, 0, 1, 1};
+constexpr f64::cotan_normal_format kUnorm{0, 0, 1, 1};   // of a use, as for 8 bits
+constexpr f64::cotan_normal_format kUnorm16{expansionFor(0, 16), 0, 1, 1}; // what that is in pictures of 16
 
 Image unormMap(int width, int height, const std::function<glm::dvec3(int, int)>& texel)
 {
     Image image = makeImage(width, height, PixelType::unorm16, "map");
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const glm::dvec3 stored = f64::cotan_encode_texel(glm::normalize(texel(x, y)), kUnorm);
+            const glm::dvec3 stored = f64::cotan_encode_texel(glm::normalize(texel(x, y)), kUnorm16);
             std::uint16_t* p = image.words() + 4 * (y * width + x);
             for (int k = 0; k < 3; ++k)
                 p[k] = std::uint16_t(std::lround(65535 * stored[k]));
@@ -280,9 +281,7 @@ MapUse unormUse(const std::vector<Corner>& corners)
 
 glm::dvec3 unormTexel(const Image& image, int x, int y)
 {
-    f64::cotan_normal_format format = kUnorm;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
-    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
+    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), kUnorm16));
 }
 
 TEST(Reencode, aTallPatchNeedsTwiceTheSlopeAlongVTexelByTexel)
