@@ -18,3 +18,7 @@ add_dependencies(help_test cotan)
 # A few commands under every fault; the whole table is in docs/testing.md.
 add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
 set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
+# Words as values, without a process.
+cotan_test(words_test
+  SOURCES picture_options_test.cpp
+  LIBRARIES cotan_app fmt::fmt)

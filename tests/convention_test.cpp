@@ -29,6 +29,18 @@ TEST(Convention, greenAlongVFollowsTheTableOfFour)
     }
 }
 
+TEST(Convention, theFormatTurnsGreenByVAndNotByThePicture)
+{
+    Convention c;
+    for (auto [up, v, sign] : {std::tuple(true, VDirection::down, -1.0), std::tuple(false, VDirection::down, 1.0),
+                               std::tuple(true, VDirection::up, 1.0), std::tuple(false, VDirection::up, -1.0)}) {
+        c.greenUp = up;
+        c.v = v;
+        EXPECT_EQ(toFormat<f64::cotan_normal_format>(c).green, sign);
+        EXPECT_EQ(toFormat<f64::cotan_normal_format>(c, 0.5).strength, 0.5);
+    }
+}
+
 TEST(Convention, knownEnginesPointGreenTheirWay)
 {
     EXPECT_FALSE(greenAlongV(*conventionFromName("gltf")));    // green up, v down

@@ -61,6 +61,44 @@ TEST(ReferenceShading, roughWhiteUnderUnitLightReflectsOneOverPiAndTheSpecularPa
     EXPECT_NEAR(pixelOf(rendered(scene, view), 32, 32).x, 2 * expected, 2e-5);
 }
 
+// Light that comes in is intensity times colour, channel by channel; nothing here glares, so all of it shows.
+TEST(ReferenceShading, lightIsItsIntensityTimesItsColour)
+{
+    Scene scene = litScene(meshOf(kSquare));
+    View view = shadedView();
+    view.shadows = false;
+    view.lights.push_back({});
+    view.lights[0].direction = {0, 0, -1};
+    view.lights[0].intensity = 1;
+    const glm::vec4 one = pixelOf(rendered(scene, view), 32, 32);
+    view.lights[0].intensity = 3;
+    view.lights[0].color = {1, 0.5f, 0.25f};
+    const glm::vec4 three = pixelOf(rendered(scene, view), 32, 32);
+    EXPECT_NEAR(three.x, 3 * one.x, 1e-6);
+    EXPECT_NEAR(three.y, 1.5 * one.y, 1e-6);
+    EXPECT_NEAR(three.z, 0.75 * one.z, 1e-6);
+}
+
+// glTF: blue is metallic, green rough. A metal has no diffuse part, so that a black metal reflects nothing head-on.
+TEST(ReferenceShading, blueOfTheMapIsMetallicAndGreenIsRough)
+{
+    Scene scene = sceneOf(meshOf(kSquare));
+    scene.materials[0].baseColor = {0, 0, 0, 1};
+    scene.materials[0].metallicRoughnessMap.image = 0;
+    View view = shadedView();
+    view.shadows = false;
+    view.lights.push_back({});
+    view.lights[0].direction = {0, 0, -1};
+    scene.images.push_back(solidImage({0, 255, 255, 255}, 4)); // metallic, rough
+    const float metal = pixelOf(rendered(scene, view), 32, 32).x;
+    EXPECT_NEAR(metal, 0, 1e-4f); // F0 is the base colour
+    scene.images[0] = solidImage({0, 255, 0, 255}, 4); // not metallic, rough
+    const float rough = pixelOf(rendered(scene, view), 32, 32).x;
+    EXPECT_GT(rough, 0.005f); // F0 is 0.04
+    scene.images[0] = solidImage({0, 64, 0, 255}, 4); // not metallic, smoother: a narrow highlight
+    EXPECT_GT(pixelOf(rendered(scene, view), 32, 32).x, 4 * rough);
+}
+
 TEST(ReferenceShading, pointLightFallsOffWithTheSquareAndSpotsEndAtTheirCone)
 {
     Scene scene = litScene(meshOf(kSquare));

@@ -1,0 +1,97 @@
+// Words of `render` and `compare` as sizes, cameras and views; both sides of every limit.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "common.hpp"
+#include "cotan/asset/shapes.hpp"
+#include "parse.hpp"
+#include "picture.hpp"
+
+namespace cotan::app {
+namespace {
+
+TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
+{
+    EXPECT_EQ(*parseSize("1x16384"), std::pair(1, 16384));
+    EXPECT_EQ(*parseSize("16384x1"), std::pair(16384, 1));
+    for (const char* wrong : {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "5", "5x", "x5", "5x5x5", "5.5x5", " 5x5", "99999999999x5"})
+        EXPECT_FALSE(parseSize(wrong)) << wrong;
+}
+
+TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
+{
+    Scene scene = builtinScene();
+    scene.cameras.resize(2);
+    scene.cameras[0].eye = {1, 2, 3};
+    scene.cameras[1].eye = {4, 5, 6};
+    EXPECT_EQ(parseCamera("0", scene, 10, 10)->eye, glm::vec3(1, 2, 3));
+    EXPECT_EQ(parseCamera("1", scene, 10, 10)->eye, glm::vec3(4, 5, 6));
+    EXPECT_FALSE(parseCamera("2", scene, 10, 10));
+    EXPECT_FALSE(parseCamera("-1", scene, 10, 10));
+}
+
+TEST(PictureWords, aCameraLooksFromAndToWithAnUpThatIsNotItsDirection)
+{
+    const Scene scene;
+    const auto level = parseCamera("1,2,3,4,2,8", scene, 10, 10);
+    EXPECT_EQ(level->eye, glm::vec3(1, 2, 3));
+    EXPECT_EQ(level->target, glm::vec3(4, 2, 8));
+    EXPECT_EQ(level->up, glm::vec3(0, 1, 0));
+    for (const char* straight : {"0,5,0,0,-1,0", "0,-5,0,0,1,0"})
+        EXPECT_GT(glm::length(glm::cross(parseCamera(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f) << straight;
+    EXPECT_FALSE(parseCamera("1,2,3,1,2,3", scene, 10, 10)); // nowhere to look
+    EXPECT_FALSE(parseCamera("1,2,3,4,5", scene, 10, 10));
+    EXPECT_FALSE(parseCamera("1,2,3,4,5,nan", scene, 10, 10));
+}
+
+CommonOptions quiet()
+{
+    CommonOptions common;
+    common.quiet = true;
+    return common;
+}
+
+TEST(PictureWords, rowsRunTheWayThatWasAskedFor)
+{
+    PictureOptions options;
+    EXPECT_FALSE(openPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
+    options.rows = "up";
+    EXPECT_TRUE(openPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
+}
+
+TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
+{
+    const auto picture = openPicture({}, quiet(), {Frame::cotangent});
+    ASSERT_TRUE(picture);
+    ASSERT_FALSE(picture->scene.lights.empty());
+    ASSERT_EQ(picture->view.lights.size(), picture->scene.lights.size());
+    for (std::size_t i = 0; i < picture->view.lights.size(); ++i) {
+        EXPECT_EQ(picture->view.lights[i].direction, picture->scene.lights[i].direction);
+        EXPECT_EQ(picture->view.lights[i].intensity, picture->scene.lights[i].intensity);
+    }
+}
+
+TEST(PictureWords, exposureIsAPositiveNumber)
+{
+    for (const auto& [text, good] : {std::pair("0.001", true), {"1e6", true}, {"0", false}, {"-1", false}, {"nan", false}, {"1e7", false}, {"2x", false}}) {
+        CLI::App app;
+        PictureOptions options;
+        addPictureOptions(app, options);
+        std::vector<std::string> words = {text, "--exposure"}; // CLI11 takes them from the back
+        if (good)
+            EXPECT_NO_THROW(app.parse(words)) << text;
+        else
+            EXPECT_THROW(app.parse(words), CLI::ParseError) << text;
+    }
+}
+
+TEST(Counted, oneIsOneAndAllElseAreMany)
+{
+    EXPECT_EQ(counted(1, "map"), "1 map");
+    EXPECT_EQ(counted(0, "map"), "0 maps");
+    EXPECT_EQ(counted(2, "map"), "2 maps");
+}
+
+} // namespace
+} // namespace cotan::app
