@@ -399,6 +399,17 @@ TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
     EXPECT_FALSE(decodeImage(bytesOf(dx10(0x7fffffff, 0x7fffffff, 83) + std::string(4096, '\0')), "a.dds"));
 }
 
+// One block of zeros: alpha is 0, by which the library would divide. The same block is sound as DXT5.
+TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
+{
+    for (const std::string& name : {std::string("DXT2"), std::string("DXT4"), std::string("DXT5")}) {
+        const std::string file = dx10(4, 4, 0).substr(0, 128).replace(84, 4, name) + std::string(16, '\0');
+        const auto image = decodeImage(bytesOf(file), "a.dds");
+        EXPECT_EQ(bool(image), name == "DXT5") << name;
+        EXPECT_EQ(bool(openRows(write("a.dds", file))), name == "DXT5") << name;
+    }
+}
+
 // ---- JPEG ---------------------------------------------------------------------------------------
 
 std::string makeJpeg(int width, int height, bool progressive)

@@ -312,7 +312,9 @@ DdsFormat ddsFormat(Numbers& numbers)
         return dxgiFormat(numbers.at(128, 4));
     if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
         return {8, 0};
-    return {name.starts_with("DXT") || name == "ATI2" || name == "BC5U" || name == "BC5S" ? std::size_t(16) : 0, 0};
+    // Not DXT2 and DXT4, whose colours are multiplied by alpha: OpenImageIO divides by an alpha of 0, which ends the process.
+    constexpr std::array<std::string_view, 5> kSixteen = {"DXT3", "DXT5", "ATI2", "BC5U", "BC5S"};
+    return {std::ranges::find(kSixteen, name) != kSixteen.end() ? std::size_t(16) : 0, 0};
 }
 
 // Microsoft's DDS_HEADER and DDS_HEADER_DXT10; the first level only.
