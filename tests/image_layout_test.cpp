@@ -410,6 +410,16 @@ TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
     }
 }
 
+TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
+{
+    std::string file = dx10(1, 1, 0).substr(0, 128);
+    file.replace(80, 28, std::string("\x41\0\0\0\0\0\0\0\x20\0\0\0" "\0\0\xff\0" "\0\xff\0\0" "\xff\0\0\0" "\0\0\0\xff", 28));
+    file += "\1\2\3\4";
+    ASSERT_TRUE(decodeImage(bytesOf(file), "a.dds"));
+    for (const std::size_t mask : {92u, 96u, 100u, 104u})
+        EXPECT_FALSE(decodeImage(bytesOf(std::string(file).replace(mask, 4, 4, '\0')), "a.dds")) << mask;
+}
+
 // ---- JPEG ---------------------------------------------------------------------------------------
 
 std::string makeJpeg(int width, int height, bool progressive)

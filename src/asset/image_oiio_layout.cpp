@@ -303,8 +303,16 @@ DdsFormat dxgiFormat(std::uint64_t format)
 DdsFormat ddsFormat(Numbers& numbers)
 {
     constexpr std::uint64_t kFourLetters = 0x4;
-    if (!(numbers.at(80, 4) & kFourLetters))
-        return {0, numbers.at(88, 4) / 8};
+    const std::uint64_t flags = numbers.at(80, 4);
+    if (!(flags & kFourLetters)) {
+        // OpenImageIO does not come back from a channel that is there but has no bits in its mask.
+        const bool alpha = (flags & 0x3) != 0;
+        const std::uint64_t colours = flags & 0x40 ? 3 : flags & 0x20000 ? 1 : 0;
+        bool masks = colours > 0 || alpha;
+        for (std::uint64_t i = 0; i < 4; ++i)
+            masks = masks && ((i < 3 ? i >= colours : !alpha) || numbers.at(92 + 4 * i, 4) != 0);
+        return {0, masks ? std::size_t(numbers.at(88, 4) / 8) : 0};
+    }
     std::string name;
     for (std::uint64_t i = 0; i < 4; ++i)
         name += char(numbers.at(84 + i, 1));
