@@ -32,6 +32,21 @@ void expectRefused(const ToolRun& run, int code, const TemporaryFolder& folder, 
     EXPECT_FALSE(fs::exists(folder / output));
 }
 
+// Black everywhere: background, and nothing besides. What is averaged over nothing is no number.
+TEST(MapCommand, info_gives_no_figures_of_nothing)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "black.png", makeImage(16, 8, PixelType::unorm8)));
+    const ToolRun text = runTool({"map", "info", "black.png"}, folder.path());
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_NE(text.out.find("no direction is left to measure"), std::string::npos) << text.out;
+    EXPECT_EQ(text.out.find("mean"), std::string::npos) << text.out;
+    const ToolRun report = runTool({"map", "info", "black.png", "--json", "-"}, folder.path());
+    const auto j = nlohmann::json::parse(report.out);
+    for (const char* figure : {"mean_length", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})
+        EXPECT_TRUE(j.at(figure).is_null()) << figure;
+}
+
 TEST(MapCommand, detects_every_texture_of_the_collection)
 {
     const fs::path textures = fs::path(COTAN_SHARED_DATA) / "textures";

@@ -52,7 +52,12 @@ void addCommonOptions(CLI::App& command, CommonOptions& options, const std::stri
 
 void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value)
 {
-    command.add_option(older, value)->group("")->excludes(command.get_option(name));
+    // Not by `excludes`: the help would list it at the newer option, without a name.
+    const CLI::Option* newer = command.get_option(name);
+    command.add_option(older, value)->group("")->each([newer, older, name](const std::string&) {
+        if (newer->count() > 0)
+            throw CLI::ArgumentMismatch(older + " is another word for " + name + ": expected one of them, found both");
+    });
 }
 
 void addExamples(CLI::App& command, const std::vector<std::string>& lines)

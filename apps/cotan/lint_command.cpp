@@ -49,7 +49,7 @@ std::string commandFor(const Options& o, const LintReport& report)
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
     if (report.mapsConverted == 0 && !report.dropsTangents)
         return {};
-    return fmt::format("cotan convert {} --from mikktspace --to {}{} -o {} --verify {}", quoted(o.model), to,
+    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{} -o {} --verify {}", quoted(o.model), to,
                        report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"), quoted(stem + "-verify"));
 }
 

@@ -1,6 +1,7 @@
 // `cotan map info` and `detect`: nothing is changed.
 #include "map_command.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -87,6 +88,12 @@ Result<Surveyed> survey(const InspectOptions& o)
     return second;
 }
 
+// Whether any texel has a direction: else means and shares are of nothing.
+bool measured(const maps::NormalStatistics& s)
+{
+    return std::any_of(s.tilt.begin(), s.tilt.end(), [](double share) { return share > 0; });
+}
+
 void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
 {
     const auto line = [&](const std::string& text) { say(o.map.common, text); };
@@ -104,10 +111,14 @@ void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalS
         line("warning: " + transferText(s.transfer));
     if (s.content == maps::Content::grey)
         return;
-    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthSpread,
-                     s.shortened * 100));
     line(fmt::format("invalid (not finite, or no length): {:.2f} %; below the horizon: {:.2f} %; x^2+y^2 over 1: {:.2f} %",
                      s.invalid * 100, s.belowHorizon * 100, s.outsideDisc * 100));
+    if (!measured(s)) {
+        line("no direction is left to measure");
+        return;
+    }
+    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthSpread,
+                     s.shortened * 100));
     std::string tilt;
     for (std::size_t i = 0; i < s.tilt.size(); ++i)
         tilt += fmt::format("  {}{} {:.1f} %", i * 10, i == 8 ? "+" : "", s.tilt[i] * 100);
@@ -117,13 +128,17 @@ void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalS
 
 nlohmann::ordered_json toJson(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
 {
-    return {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
+    nlohmann::ordered_json j = {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
             {"bits", bitsName(image.type)}, {"contents", maps::describe(s.content)},
             {"channels", name(s.swizzle)}, {"centre", name(s.centre)}, {"transfer", name(s.transfer)},
             {"signed", s.signedStored}, {"mean_length", s.meanLength}, {"length_spread", s.lengthSpread},
             {"shortened", s.shortened}, {"background", s.background}, {"invalid", s.invalid}, {"below_horizon", s.belowHorizon},
             {"outside_disc", s.outsideDisc}, {"mean", s.mean}, {"lowest", s.lowest}, {"highest", s.highest},
             {"mean_tilt_degrees", s.meanTilt}, {"tilt_by_10_degrees", s.tilt}};
+    if (!measured(s)) // figures of nothing
+        for (const char* figure : {"mean_length", "length_spread", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})
+            j[figure] = nullptr;
+    return j;
 }
 
 Status runInfo(const InspectOptions& o)
