@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -300,6 +301,72 @@ TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
     EXPECT_FALSE(decodeImage(bytesOf(start), "a.exr"));
 }
 
+// A file of OpenEXR that has only a header: attributes of (name, type, size as stored, bytes).
+std::string exrHeader(const std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>>& attributes)
+{
+    std::string header;
+    for (const auto& [name, type, size, bytes] : attributes) {
+        header += name + '\0' + type + '\0';
+        for (int i = 0; i < 4; ++i)
+            header += char(size >> (8 * i));
+        header += bytes;
+    }
+    return header + '\0';
+}
+
+// The size says that the header ends before what the reader of the type goes on to, an attribute of 1.7 GB.
+TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
+{
+    const std::string scanLines("\x76\x2f\x31\x01\2\0\0\0", 8), tiles("\x76\x2f\x31\x01\2\2\0\0", 8),
+        parts("\x76\x2f\x31\x01\2\x10\0\0", 8);
+    const std::string channel("B\0\1\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 18);
+    const std::string text("\4\0\0\0text", 8), preview = std::string("\1\0\0\0\2\0\0\0", 8) + std::string(8, 'p');
+    const std::string huge = exrHeader({{"x", "none", 0x657c6974, ""}});
+    const std::vector<std::tuple<std::string, std::string>> values = {
+        {"chlist", channel + channel + '\0'}, {"stringvector", text + text}, {"preview", preview}, {"floatvector", std::string(8, 'f')},
+        {"float", std::string(4, 'f')}, {"tiledesc", std::string(9, 't')}, {"v2f", std::string(8, 'v')}, {"m44d", std::string(128, 'm')}};
+    for (const auto& [type, bytes] : values) {
+        const auto size = std::uint32_t(bytes.size());
+        for (const std::string& start : {scanLines, tiles, parts}) {
+            const std::string before = start == parts ? exrHeader({{"first", "unknown", 3, "abc"}}) : "";
+            for (const std::uint32_t stored : {size - 1, size + 1, size}) {
+                const std::string file = start + before
+                    + exrHeader({{"u", "unknown", 2, "ab"}, {"a", type, stored, bytes}}) + std::string(4, '\0') + huge;
+                const auto image = decodeImage(bytesOf(file), "a.exr");
+                ASSERT_FALSE(image);
+                // A true size passes the check, and what is missing is OpenEXR's to say.
+                EXPECT_EQ(image.error().message.find("which its type does not take") != std::string::npos, stored != size)
+                    << type << ' ' << stored << ": " << image.error().message;
+                EXPECT_FALSE(openRows(write("a.exr", file)));
+            }
+        }
+    }
+}
+
+TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
+{
+    const Tiff t{.width = 5, .height = 6, .channels = 3, .bits = 8, .rowsPerStrip = 2};
+    const std::string sound = TiffWriter(t).make();
+    const auto refused = [&](const std::string& file, const std::string& why) {
+        const auto image = decodeImage(bytesOf(file), "a.tif");
+        ASSERT_FALSE(image) << why;
+        EXPECT_NE(image.error().message.find(why), std::string::npos) << image.error().message;
+        const auto rows = openRows(write("a.tif", file));
+        ASSERT_FALSE(rows) << why;
+        EXPECT_NE(rows.error().message.find(why), std::string::npos) << rows.error().message;
+    };
+    const std::size_t count = sound.find(std::string("\x1e\0\0\0\x1e\0\0\0\x1e\0\0\0", 12)); // 5 x 2 x 3 bytes, three times
+    ASSERT_NE(count, std::string::npos);
+    std::string none = sound;
+    none.replace(count + 4, 4, 4, '\0');
+    refused(none, "strip 1 has no bytes");
+    std::string taller = sound; // 7 rows are four strips; the list has three
+    const std::size_t height = taller.find(std::string("\x01\x01\x04\0\1\0\0\0\6", 9));
+    ASSERT_NE(height, std::string::npos);
+    taller[height + 8] = 7;
+    refused(taller, "its directory lists 3 strips, expected 4");
+}
+
 // ---- DDS ----------------------------------------------------------------------------------------
 
 std::string dx10(int width, int height, std::uint32_t format)
@@ -330,6 +397,27 @@ TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
     }
     EXPECT_FALSE(decodeImage(bytesOf(dx10(4, 4, 999) + std::string(4096, '\0')), "a.dds"));
     EXPECT_FALSE(decodeImage(bytesOf(dx10(0x7fffffff, 0x7fffffff, 83) + std::string(4096, '\0')), "a.dds"));
+}
+
+// One block of zeros: alpha is 0, by which the library would divide. The same block is sound as DXT5.
+TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
+{
+    for (const std::string& name : {std::string("DXT2"), std::string("DXT4"), std::string("DXT5")}) {
+        const std::string file = dx10(4, 4, 0).substr(0, 128).replace(84, 4, name) + std::string(16, '\0');
+        const auto image = decodeImage(bytesOf(file), "a.dds");
+        EXPECT_EQ(bool(image), name == "DXT5") << name;
+        EXPECT_EQ(bool(openRows(write("a.dds", file))), name == "DXT5") << name;
+    }
+}
+
+TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
+{
+    std::string file = dx10(1, 1, 0).substr(0, 128);
+    file.replace(80, 28, std::string("\x41\0\0\0\0\0\0\0\x20\0\0\0" "\0\0\xff\0" "\0\xff\0\0" "\xff\0\0\0" "\0\0\0\xff", 28));
+    file += "\1\2\3\4";
+    ASSERT_TRUE(decodeImage(bytesOf(file), "a.dds"));
+    for (const std::size_t mask : {92u, 96u, 100u, 104u})
+        EXPECT_FALSE(decodeImage(bytesOf(std::string(file).replace(mask, 4, 4, '\0')), "a.dds")) << mask;
 }
 
 // ---- JPEG ---------------------------------------------------------------------------------------

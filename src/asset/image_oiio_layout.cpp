@@ -54,6 +54,27 @@ struct Tag {
     std::size_t size = 0;
 };
 
+// Bytes of the whole numbers of TIFF 6.0, section 2, and of BigTIFF, with and without sign; 0: another type.
+std::size_t wholeNumberBytes(std::uint64_t type)
+{
+    switch (type) {
+    case 1:
+    case 6:
+        return 1;
+    case 3:
+    case 8:
+        return 2;
+    case 4:
+    case 9:
+        return 4;
+    case 16:
+    case 17:
+        return 8;
+    default:
+        return 0;
+    }
+}
+
 class TiffDirectory {
 public:
     explicit TiffDirectory(File& file) : numbers_(file, startsWithM(file))
@@ -64,12 +85,10 @@ public:
         const std::uint64_t entries = numbers_.at(start, large ? 8 : 2);
         for (std::uint64_t i = 0; i < entries && !numbers_.past; ++i) {
             const std::uint64_t entry = start + (large ? 8 : 2) + i * (large ? 20 : 12);
-            const std::uint64_t type = numbers_.at(entry + 2, 2);
-            Tag tag{numbers_.at(entry + 4, word), entry + 4 + word,
-                    type == 1 ? 1u : type == 3 ? 2u : type == 4 ? 4u : type == 16 ? 8u : 0u};
+            Tag tag{numbers_.at(entry + 4, word), entry + 4 + word, wholeNumberBytes(numbers_.at(entry + 2, 2))};
             if (tag.size == 0)
-                continue; // no whole numbers
-            if (tag.count > word / tag.size)
+                tag = {}; // still the one that counts: the library passes over a second tag of the same number
+            else if (tag.count > word / tag.size)
                 tag.offset = numbers_.at(tag.offset, word);
             tags_.emplace_back(numbers_.at(entry, 2), tag);
         }
@@ -114,6 +133,14 @@ std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
     return (width * std::min<std::uint64_t>(bits, 0xffffff) + 7) / 8;
 }
 
+// Parts of `each` that cover `whole`, at least 1.
+std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
+{
+    constexpr std::uint64_t kMost = 0xffffffff;
+    each = std::clamp<std::uint64_t>(each, 1, kMost);
+    return std::max<std::uint64_t>(1, (std::min(whole, kMost) + each - 1) / each);
+}
+
 // TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
 Problem checkTiff(File& file)
 {
@@ -123,17 +150,24 @@ Problem checkTiff(File& file)
     const std::uint64_t height = tiff.valueOr(257, 0);
     const std::uint64_t rows = std::max<std::uint64_t>(
         1, std::min(tiled ? tiff.valueOr(323, 0) : tiff.valueOr(278, height), std::uint64_t(0xffffffff)));
-    const std::uint64_t strips = std::max<std::uint64_t>(1, (std::min(height, std::uint64_t(0xffffffff)) + rows - 1) / rows);
+    const std::uint64_t strips = partsOf(height, rows);
+    const std::uint64_t plane = strips * (tiled ? partsOf(tiff.valueOr(256, 0), tiff.valueOr(322, 0)) : 1);
+    const std::uint64_t samples = planes ? std::clamp<std::uint64_t>(tiff.valueOr(277, 1), 1, 0xffff) : 1;
+    const std::uint64_t expected = std::min(plane, std::uint64_t(1) << 40) * samples;
     const std::uint64_t rowBytes = plainRowBytes(tiff, tiled, planes);
     const char* const part = tiled ? "tile" : "strip";
     if (tiff.past())
         return "its directory lies behind the end of the file";
+    if (offsets.count < expected)
+        return fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected);
     for (std::uint64_t i = 0; i < offsets.count; ++i) {
         const std::uint64_t offset = tiff.value(offsets, i), stored = i < counts.count ? tiff.value(counts, i) : 0;
         const std::uint64_t rowsHere = tiled ? rows : std::min(rows, height - std::min(height, i % strips * rows));
         const std::uint64_t plain = std::min(rowBytes * rowsHere, std::uint64_t(1) << 62);
         if (tiff.past())
             return "the list of its strips or tiles lies behind the end of the file";
+        if (counts.count > 0 && stored == 0) // without any list the sizes follow from the picture's
+            return fmt::format("{} {} has no bytes", part, i);
         if (stored > 0 && stored < plain)
             return fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain);
         const std::uint64_t needed = std::max<std::uint64_t>({stored, plain, 1});
@@ -146,34 +180,83 @@ Problem checkTiff(File& file)
 
 // ---- OpenEXR --------------------------------------------------------------------------------
 
+// Text up to its zero, at most 256 bytes: a name of that length has no end. `at` moves behind it.
+constexpr std::size_t kNoEnd = 256;
+
+std::string nameAt(Numbers& numbers, std::uint64_t& at)
+{
+    std::string name;
+    while (name.size() < kNoEnd && !numbers.past)
+        if (const auto c = char(numbers.at(at++, 1)))
+            name += c;
+        else
+            break;
+    return name;
+}
+
+// Bytes from `at` that OpenEXR takes for a value of this type. It keeps to `size` for unknown types and text only; where the
+// two differ, the next attribute is not where the size says.
+std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view type, std::uint64_t size)
+{
+    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 24> kFixed = {
+        {{"box2f", 16},         {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
+         {"double", 8},         {"envmap", 1}, {"float", 4},           {"int", 4},         {"keycode", 28},
+         {"lineOrder", 1},      {"m33d", 72},  {"m33f", 36},           {"m44d", 128},      {"m44f", 64},
+         {"rational", 8},       {"tiledesc", 9}, {"timecode", 8},      {"v2d", 16},        {"v2f", 8},
+         {"v2i", 8},            {"v3d", 24},   {"v3f", 12},            {"v3i", 12}}};
+    if (type == "chlist") {
+        std::uint64_t end = at;
+        while (!nameAt(numbers, end).empty() && !numbers.past)
+            end += 16; // pixel type, linearity, two samplings
+        return end - at;
+    }
+    if (type == "stringvector") {
+        std::uint64_t taken = 0;
+        while (taken < size && !numbers.past)
+            taken += 4 + numbers.at(at + taken, 4);
+        return taken;
+    }
+    if (type == "floatvector")
+        return size / 4 * 4;
+    if (type == "preview") {
+        const std::uint64_t pixels = numbers.at(at, 4) * numbers.at(at + 4, 4);
+        return pixels > size ? size + 1 : 8 + 4 * pixels;
+    }
+    const auto fixed = std::ranges::find(kFixed, type, &std::pair<std::string_view, std::uint64_t>::first);
+    return fixed == kFixed.end() ? size : fixed->second;
+}
+
+// One attribute behind its name; `at` moves behind it.
+Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
+{
+    const std::string type = nameAt(numbers, at);
+    const std::uint64_t size = numbers.at(at, 4);
+    at += 4;
+    if (numbers.past || type.size() >= kNoEnd || size > numbers.size() - at)
+        return fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
+                           numbers.size() - std::min(at, numbers.size()));
+    const std::uint64_t taken = exrValueBytes(numbers, at, type, size);
+    if (numbers.past || taken != size)
+        return fmt::format("an attribute of its header has {} bytes, which its type does not take", size);
+    at += size;
+    return std::nullopt;
+}
+
 // "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
 // empty header the headers of several parts.
 Problem checkExr(File& file)
 {
     constexpr std::uint64_t kSeveralParts = 0x1000;
-    constexpr std::size_t kLongest = 256; // of a name with its end
     Numbers numbers(file, /*bigEndian*/ false);
     std::uint64_t at = 8;
-    const auto text = [&] {
-        std::string name;
-        while (name.size() < kLongest && !numbers.past)
-            if (const auto c = char(numbers.at(at++, 1)))
-                name += c;
-            else
-                break;
-        return name;
-    };
     const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
     for (bool first = true, more = true; more; first = false) {
         bool empty = true;
-        for (std::string name = text(); !name.empty(); name = text(), empty = false) {
-            text(); // its type
-            const std::uint64_t size = numbers.at(at, 4);
-            at += 4;
-            if (numbers.past || name.size() >= kLongest || size > numbers.size() - at)
-                return fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
-                                   numbers.size() - std::min(at, numbers.size()));
-            at += size;
+        for (std::string name = nameAt(numbers, at); !name.empty(); name = nameAt(numbers, at), empty = false) {
+            if (name.size() >= kNoEnd)
+                return "an attribute of its header has a name without an end";
+            if (const Problem problem = checkExrAttribute(numbers, at))
+                return problem;
         }
         if (numbers.past)
             return "its header goes on behind the end of the file";
@@ -220,8 +303,16 @@ DdsFormat dxgiFormat(std::uint64_t format)
 DdsFormat ddsFormat(Numbers& numbers)
 {
     constexpr std::uint64_t kFourLetters = 0x4;
-    if (!(numbers.at(80, 4) & kFourLetters))
-        return {0, numbers.at(88, 4) / 8};
+    const std::uint64_t flags = numbers.at(80, 4);
+    if (!(flags & kFourLetters)) {
+        // OpenImageIO does not come back from a channel that is there but has no bits in its mask.
+        const bool alpha = (flags & 0x3) != 0;
+        const std::uint64_t colours = flags & 0x40 ? 3 : flags & 0x20000 ? 1 : 0;
+        bool masks = colours > 0 || alpha;
+        for (std::uint64_t i = 0; i < 4; ++i)
+            masks = masks && ((i < 3 ? i >= colours : !alpha) || numbers.at(92 + 4 * i, 4) != 0);
+        return {0, masks ? std::size_t(numbers.at(88, 4) / 8) : 0};
+    }
     std::string name;
     for (std::uint64_t i = 0; i < 4; ++i)
         name += char(numbers.at(84 + i, 1));
@@ -229,7 +320,9 @@ DdsFormat ddsFormat(Numbers& numbers)
         return dxgiFormat(numbers.at(128, 4));
     if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
         return {8, 0};
-    return {name.starts_with("DXT") || name == "ATI2" || name == "BC5U" || name == "BC5S" ? std::size_t(16) : 0, 0};
+    // Not DXT2 and DXT4, whose colours are multiplied by alpha: OpenImageIO divides by an alpha of 0, which ends the process.
+    constexpr std::array<std::string_view, 5> kSixteen = {"DXT3", "DXT5", "ATI2", "BC5U", "BC5S"};
+    return {std::ranges::find(kSixteen, name) != kSixteen.end() ? std::size_t(16) : 0, 0};
 }
 
 // Microsoft's DDS_HEADER and DDS_HEADER_DXT10; the first level only.
