@@ -177,6 +177,19 @@ TEST(ColladaAccessors, reachNoFurtherThanTheirArray)
     }
 }
 
+// What a file says goes into a message without its line breaks.
+TEST(ColladaAccessors, areNamedInOneLine)
+{
+    const TemporaryFolder folder;
+    std::string text = colladaTriangle("count=\"9\">0 0 0 1 0 0 0 1 0", "source=\"#a\nb\" count=\"4\" stride=\"3\"");
+    text.replace(text.find("id=\"a\""), 6, "id=\"a\nb\"");
+    std::ofstream(folder / "a.dae") << text;
+    const auto scene = loadScene(folder / "a.dae");
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("12 numbers or more, found 9"), std::string::npos) << scene.error().message;
+    EXPECT_EQ(scene.error().message.find('\n'), std::string::npos) << scene.error().message;
+}
+
 TEST(SandboxFormats, filesThatTheReaderOpensCountAsOurInputs)
 {
     const TemporaryFolder folder;
