@@ -3,9 +3,12 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include <unistd.h>
+
+#include "ending.hpp"
 
 namespace cotan {
 
@@ -24,15 +27,26 @@ Slot slots[kMostParts];
 
 std::atomic<int> holds = 0;
 std::atomic<int> waiting = 0; // the signal that came while it was held; 0: none
+std::atomic<bool> ending = false; // the program is about to end by a signal: no more parts are begun
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// Only what a signal's handler may do.
-void end(int signal)
+void unlinkParts()
 {
     for (Slot& slot : slots)
         if (slot.state.load() == slotArmed)
             ::unlink(slot.name);
+}
+
+// Only what a signal's handler may do. Another thread may be about to open a part that it has begun: what it made in
+// between goes, too.
+void end(int signal)
+{
+    constexpr timespec kOpening{0, 5'000'000};
+    ending = true;
+    unlinkParts();
+    ::nanosleep(&kOpening, nullptr);
+    unlinkParts();
     struct sigaction action {};
     action.sa_handler = SIG_DFL;
     ::sigaction(signal, &action, nullptr);
@@ -51,6 +65,12 @@ void onSignal(int signal)
 }
 
 } // namespace
+
+void stayWhereEnding()
+{
+    while (ending)
+        ::pause();
+}
 
 void removePartsOnInterrupt()
 {
@@ -79,6 +99,7 @@ InterruptsHeld::~InterruptsHeld()
 
 GuardedPart::GuardedPart(const std::filesystem::path& file) : slot_(-1)
 {
+    stayWhereEnding();
     if (file.empty() || file.native().size() >= sizeof Slot::name)
         return;
     for (std::size_t i = 0; i < kMostParts && slot_ < 0; ++i) {

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "cotan/files/account.hpp"
+#include "ending.hpp"
 
 namespace cotan {
 
@@ -140,8 +141,11 @@ Result<OutputFile> OutputFile::begin(const fs::path& file)
 
 Status OutputFile::commit()
 {
-    if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0)
-        return cannotWrite(file_, errno);
+    if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0) {
+        const int number = errno;
+        stayWhereEnding();
+        return cannotWrite(file_, number);
+    }
     gone_ = true;
     endOutput(file_);
     return Done{};
@@ -149,6 +153,7 @@ Status OutputFile::commit()
 
 Error OutputFile::failed(const Error& error) const
 {
+    stayWhereEnding();
     if (error.kind != ErrorKind::output)
         return error;
     if (!special_)
