@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "cotan/convention.hpp"
 #include "cotan/convert/reencode.hpp"
@@ -43,19 +44,23 @@ TEST(SolveTexel, twoPlacesMeetInTheMiddleWhateverTheirOrder)
     EXPECT_LT(angleBetween(solveTexel(three, {0, 0, 1}), a + 2.0 * b), 1e-5);
 }
 
+// What solveTexel makes least: the squared distances of all normals from what their places want.
+double costOf(std::span<const Demand> demands, glm::dvec3 texel)
+{
+    double sum = 0;
+    for (const Demand& d : demands) {
+        const glm::dvec3 r = glm::normalize(d.frame * texel) - d.target;
+        sum += glm::dot(r, r);
+    }
+    return sum;
+}
+
 TEST(SolveTexel, theLeastSumOfSquaresIsNotTheSumOfTheTexels)
 {
     // The first place sees slopes along x a tenth: it hardly minds, the second decides.
     const Demand demands[] = {{glm::dmat3({0.1, 0, 0}, {0, 1, 0}, {0, 0, 1}), glm::normalize(glm::dvec3(0.06, 0.2, 1))},
                               {glm::dmat3(1), glm::normalize(glm::dvec3(0, 0.2, 1))}};
-    const auto cost = [&](glm::dvec3 m) {
-        double sum = 0;
-        for (const Demand& d : demands) {
-            const glm::dvec3 r = glm::normalize(d.frame * m) - d.target;
-            sum += glm::dot(r, r);
-        }
-        return sum;
-    };
+    const auto cost = [&](glm::dvec3 m) { return costOf(demands, m); };
     const glm::dvec3 solved = solveTexel(demands, {0, 0, 1});
     EXPECT_LT(solved.x / solved.z, 0.02); // the texels alone would give 0.3
     for (double x : {-1e-3, 1e-3})
@@ -68,14 +73,7 @@ TEST(SolveTexel, throughSkewFramesNoNeighbourIsBetter)
     const Demand demands[] = {{glm::dmat3({1, 0.8, 0}, {-0.1, 0.5, 0.2}, {0, 0, 1}), glm::normalize(glm::dvec3(0.5, 0.2, 1))},
                               {glm::dmat3({0.3, 0, 0.1}, {0.9, 1, 0}, {0.2, 0, 1}), glm::normalize(glm::dvec3(-0.3, 0.6, 1))},
                               {glm::dmat3({0.2, 1, 0}, {1, 0.1, -0.3}, {0, 0.1, 1}), glm::normalize(glm::dvec3(0.1, -0.4, 1))}};
-    const auto cost = [&](glm::dvec3 m) {
-        double sum = 0;
-        for (const Demand& d : demands) {
-            const glm::dvec3 r = glm::normalize(d.frame * m) - d.target;
-            sum += glm::dot(r, r);
-        }
-        return sum;
-    };
+    const auto cost = [&](glm::dvec3 m) { return costOf(demands, m); };
     const glm::dvec3 solved = solveTexel(demands, {0, 0, 1});
     constexpr double kStep = 1e-5; // 0.0006 degrees; the cost rises by its square, 1e-10, and is good to 1e-15
     for (const glm::dvec3 step : {glm::dvec3(kStep, 0, 0), {-kStep, 0, 0}, {0, kStep, 0}, {0, -kStep, 0}})

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/asset/extension.hpp"
 #include "cotan/asset/image_file.hpp"
 #include "cotan/maps/texels.hpp"
 #include "map_stream.hpp"
@@ -12,13 +13,6 @@
 namespace cotan::app {
 
 namespace {
-
-std::string extensionOf(const std::filesystem::path& file)
-{
-    std::string e = file.extension().string();
-    std::ranges::transform(e, e.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    return e;
-}
 
 struct Word {
     const char* name;
@@ -140,7 +134,7 @@ std::string bitsName(const Bits& bits) { return bits.half ? "half" : bitsName(bi
 
 Result<Bits> parseBits(const std::string& bits, PixelType input, const std::filesystem::path& file)
 {
-    const std::string extension = extensionOf(file);
+    const std::string extension = lowerExtension(file);
     const bool floats = extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
     const bool only8 = extension == ".jpg" || extension == ".jpeg" || extension == ".tga";
     const bool onlyFloat = extension == ".exr" || extension == ".hdr";
@@ -168,7 +162,7 @@ Result<Bits> parseBits(const std::string& bits, PixelType input, const std::file
 
 Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file)
 {
-    const std::string extension = extensionOf(file);
+    const std::string extension = lowerExtension(file);
     if (to.expansion == Expansion::signedValues && (bits.type != PixelType::float32 || extension == ".hdr"))
         return usageError(fmt::format("--to: signed values need a .exr or .tif of floats; found {}, {}", extension,
                                       bitsName(bits)));

@@ -21,10 +21,6 @@ namespace {
 constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx",
                                                                ".3ds"};
 
-} // namespace
-
-namespace {
-
 Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
     if (const auto size = usableFileSize(file, limits.fileBytes); !size)
