@@ -66,17 +66,6 @@ bool usedStoredTangents(const BakeCommandOptions& o, const Scene& low)
     });
 }
 
-// Whether something below reads the texture: glTF's slots for textures all end in "Texture".
-bool reads(const Json& json, std::size_t texture)
-{
-    if (!json.is_structured())
-        return false;
-    for (const auto& [key, value] : json.items())
-        if ((key.ends_with("exture") && value.is_object() && value.value("index", Json()) == texture) || reads(value, texture))
-            return true;
-    return false;
-}
-
 // Makes the materials read the image; the uv set and transform of a map that was there stay, since the bake read them.
 void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std::vector<std::byte> png)
 {
@@ -91,8 +80,9 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
         slot["index"] = texture;
         slot.erase("scale");
     }
+    const std::set<std::size_t> used = texturesReadBy(root["materials"]);
     for (const std::size_t t : old) // textures cannot go, but what nobody reads need not keep its picture in the file
-        if (!reads(root["materials"], t))
+        if (!used.contains(t))
             root["textures"][t] = Json{{"source", image}};
 }
 

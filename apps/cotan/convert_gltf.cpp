@@ -188,6 +188,13 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
 
 } // namespace
 
+std::set<std::size_t> texturesReadBy(const Json& object)
+{
+    std::set<std::size_t> textures;
+    collectOther(object, /*top*/ false, textures);
+    return textures;
+}
+
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
 {
     const Json& root = document.root;

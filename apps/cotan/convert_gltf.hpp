@@ -2,6 +2,7 @@
 // how what comes out goes back in.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 // Puts a job's new image in place of the old one where normal maps read it. Other forms of the old one
 // (EXT_texture_webp, KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes);
+
+// Indices of the textures that slots of an object, or of anything below it, read. glTF's slots all end in "Texture".
+std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);
 
 struct TangentBytes {
     std::size_t vertices = 0; // that had TANGENT
