@@ -160,7 +160,8 @@ TEST(FitCamera, emptyPointAndEndlessBoxesGiveAFiniteCamera)
     const float inf = std::numeric_limits<float>::infinity();
     for (const Bounds& box :
          {Bounds{}, Bounds{{3, 3, 3}, {3, 3, 3}}, Bounds{glm::vec3(1e30f), glm::vec3(1e30f)},
-          Bounds{{-inf, 0, 0}, {inf, 1, 1}}, Bounds{glm::vec3(-1e37f), glm::vec3(1e37f)}}) {
+          Bounds{{-inf, 0, 0}, {inf, 1, 1}}, Bounds{glm::vec3(-1e37f), glm::vec3(1e37f)},
+          Bounds{{-1, -1, -1}, {1, 1, 3e38f}}, Bounds{{-1e38f, -1e38f, 0}, {1.7e38f, 1.7e38f, 1}}}) {
         for (const int size : {0, 100}) {
             const Camera camera = fitCamera(box, size, size);
             for (int c = 0; c < 3; ++c)

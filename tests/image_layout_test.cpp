@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+template<class T> std::string messageOf(const Result<T>& result) { return result ? "accepted" : result.error().message; }
+
 std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
 // ---- TIFF from first principles (TIFF 6.0) ------------------------------------------------------
@@ -314,6 +316,39 @@ std::string exrHeader(const std::vector<std::tuple<std::string, std::string, std
     return header + '\0';
 }
 
+std::string words(const std::vector<std::uint32_t>& numbers)
+{
+    std::string bytes;
+    for (const std::uint32_t n : numbers)
+        for (int i = 0; i < 4; ++i)
+            bytes += char(n >> (8 * i));
+    return bytes;
+}
+
+TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
+{
+    const std::string magic("\x76\x2f\x31\x01\2\0\0\0", 8);
+    const std::string channels = std::string("R\0", 2) + words({1, 0, 1, 1}) + '\0';
+    const auto refused = [&](std::uint32_t right, std::uint32_t bottom, char compression, const std::string& tiles) {
+        std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
+            {"channels", "chlist", 19, channels},
+            {"compression", "compression", 1, std::string(1, compression)},
+            {"dataWindow", "box2i", 16, words({0, 0, right, bottom})},
+            {"displayWindow", "box2i", 16, words({0, 0, right, bottom})},
+            {"lineOrder", "lineOrder", 1, std::string(1, '\0')}};
+        if (!tiles.empty())
+            attributes.emplace_back("tiles", "tiledesc", 9, tiles);
+        const std::string file = magic + exrHeader(attributes) + std::string(64, '\0');
+        for (const auto& message : {messageOf(decodeImage(bytesOf(file), "a.exr", {})),
+                                    messageOf(openRows(write("a.exr", file)))})
+            EXPECT_NE(message.find("the limit is"), std::string::npos) << message;
+    };
+    refused(0x1000000, 0, 0, "");                                       // 16.8 million pixels beside each other
+    refused(0, 0x1000000, 0, "");
+    refused(3, 3, 0, words({0x4000, 0x8000}) + '\0');                   // tiles of 2 GB
+    refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0');     // beyond 64 bits, were it not stopped
+}
+
 // The size says that the header ends before what the reader of the type goes on to, an attribute of 1.7 GB.
 TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
 {
@@ -341,6 +376,22 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
             }
         }
     }
+}
+
+TEST_F(PictureFile, tiffThatDoesNotStateItsBitsIsRefusedWholeAndByRows)
+{
+    // By the format these are 1 bit; OpenImageIO takes them for 8 and finds other pixels by rows than whole.
+    std::string file = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
+    const std::size_t bits = file.find(std::string("\x02\x01\x03\0", 4)); // tag 258, a short
+    ASSERT_NE(bits, std::string::npos);
+    file[bits] = '\xff'; // tag 511, which nobody knows
+    const auto image = decodeImage(bytesOf(file), "a.tif");
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find("bits per sample"), std::string::npos) << image.error().message;
+    const auto rows = openRows(write("a.tif", file));
+    ASSERT_FALSE(rows);
+    EXPECT_EQ(rows.error().message.substr(rows.error().message.find("broken")),
+              image.error().message.substr(image.error().message.find("broken")));
 }
 
 TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)

@@ -57,8 +57,11 @@ Camera fitCamera(const Bounds& box, int width, int height)
         const glm::vec3 size = glm::abs(centre);
         distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
     }
+    const glm::vec3 eye = centre + back * distance;
+    if (!finite(eye)) // a box of nearly the largest floats
+        return camera;
     camera.target = centre;
-    camera.eye = centre + back * distance;
+    camera.eye = eye;
     return camera;
 }
 

@@ -174,7 +174,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
     OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    if (const auto problem = checkFileLayout(memory, format))
+    if (const auto problem = checkFileLayout(memory, format, limits))
         return broken(*problem);
     const auto input = OIIO::ImageInput::create(format);
     if (!input)

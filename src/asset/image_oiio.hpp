@@ -31,9 +31,10 @@ OIIO::TypeDesc typeDesc(PixelType type);
 void completeChannels(Image& image, int channels);
 
 // Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
-// strip, tile, attribute and level that will be read. Their readers take memory by those numbers,
+// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory by those numbers,
 // or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
-std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format);
+std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format,
+                                           const LoadLimits& limits);
 
 // What a header may claim beside its size.
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name);

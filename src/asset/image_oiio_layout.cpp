@@ -158,6 +158,8 @@ Problem checkTiff(File& file)
     const char* const part = tiled ? "tile" : "strip";
     if (tiff.past())
         return "its directory lies behind the end of the file";
+    if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO takes it for 8
+        return "its directory does not state the bits per sample";
     if (offsets.count < expected)
         return fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected);
     for (std::uint64_t i = 0; i < offsets.count; ++i) {
@@ -242,9 +244,52 @@ Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
     return std::nullopt;
 }
 
+// What a header says about its blocks of rows or tiles. OpenEXR takes memory for one as soon as it opens a file.
+struct ExrBlocks {
+    std::int64_t width = 0, height = 0;
+    std::uint64_t rows = 1; // in a block
+    std::uint64_t channels = 0;
+    std::uint64_t tileWidth = 0, tileHeight = 0;
+};
+
+// An attribute whose value ends at `end`.
+void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start, std::uint64_t end, ExrBlocks& blocks)
+{
+    const auto number = [&](std::uint64_t at) { return std::int64_t(std::int32_t(numbers.at(at, 4))); };
+    if (name == "dataWindow") {
+        blocks.width = number(end - 8) - number(end - 16) + 1;
+        blocks.height = number(end - 4) - number(end - 12) + 1;
+    } else if (name == "compression") {
+        constexpr std::array<std::uint64_t, 10> kRows = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+        const std::uint64_t method = numbers.at(end - 1, 1);
+        blocks.rows = method < kRows.size() ? kRows[method] : 1;
+    } else if (name == "tiles") {
+        blocks.tileWidth = numbers.at(end - 9, 4);
+        blocks.tileHeight = numbers.at(end - 5, 4);
+    } else if (name == "channels") {
+        while (start < end && !nameAt(numbers, start).empty()) {
+            start += 16;
+            ++blocks.channels;
+        }
+    }
+}
+
+Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
+{
+    if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
+        return fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide);
+    const std::uint64_t row = std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * blocks.rows;
+    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight; // of 32 bits each
+    const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
+    if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
+        return fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes", std::max(row, tile), bytes,
+                           limits.imageBytes);
+    return std::nullopt;
+}
+
 // "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
 // empty header the headers of several parts.
-Problem checkExr(File& file)
+Problem checkExr(File& file, const LoadLimits& limits)
 {
     constexpr std::uint64_t kSeveralParts = 0x1000;
     Numbers numbers(file, /*bigEndian*/ false);
@@ -252,12 +297,19 @@ Problem checkExr(File& file)
     const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
     for (bool first = true, more = true; more; first = false) {
         bool empty = true;
+        ExrBlocks blocks;
         for (std::string name = nameAt(numbers, at); !name.empty(); name = nameAt(numbers, at), empty = false) {
             if (name.size() >= kNoEnd)
                 return "an attribute of its header has a name without an end";
+            const std::uint64_t start = at;
+            std::uint64_t value = start;
             if (const Problem problem = checkExrAttribute(numbers, at))
                 return problem;
+            nameAt(numbers, value); // its type
+            readExrBlocks(numbers, name, value + 4, at, blocks);
         }
+        if (const Problem problem = checkExrBlocks(blocks, limits))
+            return problem;
         if (numbers.past)
             return "its header goes on behind the end of the file";
         more = several && !(empty && !first);
@@ -348,12 +400,12 @@ Problem checkDds(File& file)
 
 } // namespace
 
-Problem checkFileLayout(File& file, const std::string& format)
+Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
 {
     if (format == "tiff")
         return checkTiff(file);
     if (format == "openexr")
-        return checkExr(file);
+        return checkExr(file, limits);
     if (format == "dds")
         return checkDds(file);
     return std::nullopt;

@@ -149,7 +149,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
     };
     try {
         OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
-        if (const auto problem = checkFileLayout(layout, format))
+        if (const auto problem = checkFileLayout(layout, format, limits))
             return broken(*problem);
         Input input = OIIO::ImageInput::create(format);
         if (!input)
