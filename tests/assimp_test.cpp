@@ -477,6 +477,7 @@ TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
     EXPECT_NE(problem("i.ply", text + "7 3 0 1\n2 7 3 2 1 0\n").find("3 values are promised, their line has 2"), std::string::npos);
     EXPECT_NE(problem("j.ply", text + "7 -3 0 1 2\n7 3 0 1 2\n").find("expected the count of a list"), std::string::npos);
     EXPECT_NE(problem("k.ply", text + "7 3 0 1 2\n").find("the file ends"), std::string::npos);
+    EXPECT_NE(problem("m.ply", text + "7 3" + std::string(8, '\0') + " 0 1 2\n7 3 2 1 0\n").find("found a byte of value 0 at"), std::string::npos);
     EXPECT_NE(problem("l.ply", plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n")), "");
 }
 

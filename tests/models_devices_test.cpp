@@ -50,7 +50,7 @@ TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
     // Filtered maps differ by what an anisotropic sampler is free to choose (docs/testing.md has the
     // measured parts): reported, and bounded loosely so that a broken mip chain would show.
     const AngleStatistics t = difference(scene, *gpu, *reference, false);
-    EXPECT_LT(t.median, 2);
+    EXPECT_LT(t.median, 0.5);
     RecordProperty("trilinear", toText(t));
     std::cout << GetParam().name << ": point sampled " << toText(s) << "\n    trilinear " << toText(t) << "\n";
 }

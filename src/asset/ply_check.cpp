@@ -230,6 +230,9 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
             return inputError(fmt::format("{}: header line {}: {}", name, number, *problem));
     }
     std::string_view rest = text.substr(at);
+    // Assimp takes a 0 for the end of the file, and leaves the faces behind it as memory was.
+    if (header.ascii && rest.find('\0') != std::string_view::npos)
+        return inputError(fmt::format("{}: expected text, found a byte of value 0 at {}", name, at + rest.find('\0')));
     for (std::size_t e = 0; e < header.elements.size(); ++e)
         if (Problem problem = header.ascii ? walkText(header.elements[e], rest)
                                            : walkBinary(header.elements[e], header.bigEndian, rest))

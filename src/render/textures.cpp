@@ -121,6 +121,9 @@ void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
     r.kind = kind;
     r.normalFormat = format;
     r.format = texelFormat(image.type, kind, device_->filterable16, device_->filterable32);
+    // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal.
+    if (kind == TextureKind::normal && r.format == TexelFormat::unorm8 && device_->cpu && device_->filterable16)
+        r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
     requests_.push_back(r);
 }
