@@ -394,6 +394,22 @@ TEST_F(PictureFile, tiffThatDoesNotStateItsBitsIsRefusedWholeAndByRows)
               image.error().message.substr(image.error().message.find("broken")));
 }
 
+TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAndByRows)
+{
+    const std::string sound = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
+    const auto with = [&](const std::string& entry, const std::string& value, const std::string& why) {
+        std::string file = sound;
+        const std::size_t at = file.find(entry);
+        ASSERT_NE(at, std::string::npos);
+        file.replace(at + 8, value.size(), value);
+        for (const auto& message : {messageOf(decodeImage(bytesOf(file), "a.tif")), messageOf(openRows(write("a.tif", file)))})
+            EXPECT_NE(message.find(why), std::string::npos) << message;
+    };
+    with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2), "compression 14337"); // once zeros, or whatever was there
+    with(std::string("\x16\x01\x04\0", 4), std::string("\0\0\0\x1d", 4), "strips have 486539264 rows"); // once 3.9 GB
+    with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip, however high
+}
+
 TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
 {
     const Tiff t{.width = 5, .height = 6, .channels = 3, .bits = 8, .rowsPerStrip = 2};

@@ -141,8 +141,15 @@ std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
     return std::max<std::uint64_t>(1, (std::min(whole, kMost) + each - 1) / each);
 }
 
+// What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.
+bool knownTiffCompression(std::uint64_t method)
+{
+    constexpr std::array<std::uint64_t, 12> kKnown = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
+    return std::ranges::find(kKnown, method) != kKnown.end();
+}
+
 // TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
-Problem checkTiff(File& file)
+Problem checkTiff(File& file, const LoadLimits& limits)
 {
     TiffDirectory tiff(file);
     const bool tiled = tiff.find(324).count > 0, planes = tiff.valueOr(284, 1) == 2;
@@ -160,6 +167,13 @@ Problem checkTiff(File& file)
         return "its directory lies behind the end of the file";
     if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO takes it for 8
         return "its directory does not state the bits per sample";
+    if (!knownTiffCompression(tiff.valueOr(259, 1)))
+        return fmt::format("its compression {} is not read here", tiff.valueOr(259, 1));
+    // OpenImageIO takes memory for all rows of a strip, 4 channels each. The largest number means: all in one strip.
+    const std::uint64_t sampleBytes = 4 * std::clamp<std::uint64_t>(tiff.valueOr(258, 1) / 8, 1, 16);
+    const std::uint64_t width = std::clamp<std::uint64_t>(tiff.valueOr(256, 0), 1, 0xffffffff);
+    if (!tiled && rows > height && rows != 0xffffffff && rows > limits.imageBytes / sampleBytes / width)
+        return fmt::format("its strips have {} rows, the picture {}", rows, height);
     if (offsets.count < expected)
         return fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected);
     for (std::uint64_t i = 0; i < offsets.count; ++i) {
@@ -403,7 +417,7 @@ Problem checkDds(File& file)
 Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
 {
     if (format == "tiff")
-        return checkTiff(file);
+        return checkTiff(file, limits);
     if (format == "openexr")
         return checkExr(file, limits);
     if (format == "dds")
