@@ -6,6 +6,15 @@ target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
   $<$<BOOL:${COTAN_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# Several files of a target compiled as one: what they include is read, and what they instantiate is made, once.
+function(cotan_unity target batch)
+  if(COTAN_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    # Files that are included look like headers, whose types must not hold types of one file.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 function(cotan_part name)
   cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(PART_SOURCES)
@@ -15,6 +24,7 @@ function(cotan_part name)
     target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC}
       PRIVATE ${PART_PRIVATE} $<BUILD_INTERFACE:cotan_warnings>)
     set_target_properties(cotan_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    cotan_unity(cotan_${name} 8)
   else()
     add_library(cotan_${name} INTERFACE)
     target_include_directories(cotan_${name} INTERFACE

@@ -447,6 +447,20 @@ std::string plyNumber(std::uint64_t value, int bytes, bool bigEndian)
     return text;
 }
 
+TEST_F(AssimpFile, plyElementsOfOtherNamesAreReadBehindTheGeometryAndRefusedBeforeIt)
+{
+    const std::string geometry = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                                 "property list uchar int vertex_indices\n";
+    const std::string camera = "element camera 1\nproperty float a\n", rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const std::string start = "ply\nformat ascii 1.0\n", end = "end_header\n";
+    EXPECT_EQ(problem("a.ply", start + geometry + camera + end + rows + "9\n"), "");
+    EXPECT_NE(problem("b.ply", start + camera + geometry + end + "9\n" + rows).find("\"vertex\" before the element \"camera\""), std::string::npos);
+    EXPECT_EQ(problem("c.ply", start + "element camera 0\nproperty float a\n" + geometry + end + rows), ""); // no rows
+    // Assimp takes the name for the count: once 103 GB.
+    EXPECT_NE(problem("d.ply", start + geometry + "element 9999999999face 1\nproperty float a\n" + end + rows + "9\n").find("starts with a letter"),
+              std::string::npos);
+}
+
 TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
 {
     const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";

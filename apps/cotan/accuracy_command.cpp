@@ -20,7 +20,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct AccuracyCommandOptions {
     CommonOptions common;
     std::string tables, frames, scene, csv;
     std::string device = "auto";
@@ -64,7 +64,7 @@ Result<ChosenTables> chooseTables(const std::string& text)
     return chosen;
 }
 
-Result<AccuracySelection> chooseRows(const Options& o)
+Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
 {
     AccuracySelection selection;
     selection.scene = o.scene;
@@ -79,7 +79,7 @@ Result<AccuracySelection> chooseRows(const Options& o)
 }
 
 // The tables side by side on some threads; their rows in the order of the tables.
-std::vector<Measurement> measure(const Options& o, const std::vector<const AccuracyTable*>& tables,
+std::vector<Measurement> measure(const AccuracyCommandOptions& o, const std::vector<const AccuracyTable*>& tables,
                                  const AccuracySelection& selection)
 {
     std::vector<std::vector<Measurement>> results(tables.size());
@@ -123,7 +123,7 @@ Result<std::vector<Measurement>> readCsv(const std::filesystem::path& file)
 }
 
 // Says what has become worse than in the file --against names.
-Status compareWith(const Options& o, const std::vector<Measurement>& rows)
+Status compareWith(const AccuracyCommandOptions& o, const std::vector<Measurement>& rows)
 {
     const auto before = readCsv(o.against);
     if (!before)
@@ -142,7 +142,7 @@ Status compareWith(const Options& o, const std::vector<Measurement>& rows)
     return Done{};
 }
 
-Status listTables(const Options& o)
+Status listTables(const AccuracyCommandOptions& o)
 {
     auto tables = nlohmann::ordered_json::array();
     const auto add = [&](std::string_view name, std::string_view summary) {
@@ -155,7 +155,7 @@ Status listTables(const Options& o)
     return writeReport(o.common, {{"command", "accuracy"}, {"tables", tables}});
 }
 
-Status run(const Options& o)
+Status run(const AccuracyCommandOptions& o)
 {
     if (Status planned = planOutputs(o.common, {{"-o", o.common.output}, {"--csv", o.csv}}); !planned)
         return planned;
@@ -197,7 +197,7 @@ Status run(const Options& o)
 
 Command addAccuracyCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<AccuracyCommandOptions>();
     CLI::App* command = app.add_subcommand("accuracy", "every frame against analytic truth, in degrees");
     addCommonOptions(*command, options->common, "write the tables (Markdown) there instead of printing them");
     command->add_option("--tables", options->tables, "names, separated by commas (default: all; see --list)")

@@ -16,7 +16,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct CompareCommandOptions {
     CommonOptions common;
     PictureOptions picture;
     std::string frames = "cotangent,mikktspace";
@@ -68,7 +68,7 @@ std::string tangentVerdict(double tOpposed, double bOpposed)
                        tOpposed * 100, bOpposed * 100);
 }
 
-Status run(const Options& o)
+Status run(const CompareCommandOptions& o)
 {
     if (o.common.output.empty())
         return usageError("compare: expected -o FOLDER; found none");
@@ -141,7 +141,7 @@ Status run(const Options& o)
 
 Command addCompareCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareCommandOptions>();
     CLI::App* command = app.add_subcommand("compare", "draw a model with two frames and measure the difference in degrees");
     addCommonOptions(*command, options->common, "folder for both pictures and the heat map");
     addPictureOptions(*command, options->picture);

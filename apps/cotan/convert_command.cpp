@@ -23,7 +23,7 @@ namespace {
 constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
 constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
-struct Options {
+struct ConvertCommandOptions {
     CommonOptions common;
     std::string model;
     std::string from = "mikktspace", to;
@@ -48,7 +48,7 @@ Result<Frame> frameFor(const char* option, const std::string& text)
     return *frame;
 }
 
-Result<FramePair> checkUsage(const Options& o)
+Result<FramePair> checkUsage(const ConvertCommandOptions& o)
 {
     if (o.to.empty())
         return usageError("convert: expected --to-frame FRAME; found none");
@@ -76,7 +76,7 @@ Result<FramePair> checkUsage(const Options& o)
 }
 
 // What is to be said of a map that stays.
-std::string whyKept(const Options& o, const MapJob& job, const Spread& off)
+std::string whyKept(const ConvertCommandOptions& o, const MapJob& job, const Spread& off)
 {
     if (off.count == 0)
         return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it", job.name);
@@ -84,7 +84,7 @@ std::string whyKept(const Options& o, const MapJob& job, const Spread& off)
                        o.to, toText(off), counted(job.uses.size(), "surface"));
 }
 
-void sayMap(const Options& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
+void sayMap(const ConvertCommandOptions& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
 {
     const double texels = double(r.image.pixelCount());
     say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", job.name, r.image.width,
@@ -127,7 +127,7 @@ Spread errorAsItIs(const Image& map, const MapJob& job, const FramePair& frames)
 }
 
 // Converts one image and puts it back.
-Status convertMap(const Options& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
+Status convertMap(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
                   std::vector<std::string>& notes, nlohmann::ordered_json& report)
 {
     const auto bytes = gltfImageBytes(document, job.image);
@@ -167,7 +167,7 @@ Status convertMap(const Options& o, const FramePair& frames, GltfDocument& docum
     return Done{};
 }
 
-Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& document, std::vector<std::string>& notes,
+Status handleTangents(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, std::vector<std::string>& notes,
                       nlohmann::ordered_json& report)
 {
     if (needsTangents(frames.to)) {
@@ -196,7 +196,7 @@ Status handleTangents(const Options& o, const FramePair& frames, GltfDocument& d
     return Done{};
 }
 
-Status writeModel(const Options& o, const GltfDocument& document, nlohmann::ordered_json& report)
+Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, nlohmann::ordered_json& report)
 {
     const auto written = writeGltf(document, o.common.output);
     if (!written)
@@ -214,7 +214,7 @@ Status writeModel(const Options& o, const GltfDocument& document, nlohmann::orde
     return Done{};
 }
 
-Status run(const Options& o)
+Status run(const ConvertCommandOptions& o)
 {
     const auto frames = checkUsage(o);
     if (!frames)
@@ -273,7 +273,7 @@ Status run(const Options& o)
 
 Command addConvertCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ConvertCommandOptions>();
     CLI::App* command = app.add_subcommand("convert", "make a glTF model's normal maps for another frame, and drop the tangents");
     addCommonOptions(*command, options->common, "the converted model, .glb or .gltf");
     command->add_option("MODEL", options->model, "glTF or GLB file")->required();

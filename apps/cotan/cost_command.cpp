@@ -15,7 +15,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct CostCommandOptions {
     CommonOptions common;
     std::vector<std::string> frames;
     std::vector<std::string> devices;
@@ -79,7 +79,7 @@ Status writeTables(const std::filesystem::path& file, const std::string& tables)
 }
 
 // Machine code and times; the error says why Vulkan cannot be used at all.
-Status measure(const Options& o, CostReport& report)
+Status measure(const CostCommandOptions& o, CostReport& report)
 {
     Status usable = Done{};
     const std::vector<std::string> families = !o.families.empty() ? o.families
@@ -115,7 +115,7 @@ Status measure(const Options& o, CostReport& report)
     return usable;
 }
 
-Status run(const Options& o)
+Status run(const CostCommandOptions& o)
 {
     auto rows = chosenRows(o.frames);
     if (!rows)
@@ -153,7 +153,7 @@ Status run(const Options& o)
 
 Command addCostCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CostCommandOptions>();
     CLI::App* command =
         app.add_subcommand("cost", "what each frame costs: operations, SPIR-V, machine code, time");
     addCommonOptions(

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kSize = "480x360";
 
-struct Options {
+struct FiguresCommandOptions {
     CommonOptions common;
     std::string size = kSize;
     std::string device = "auto";
@@ -59,7 +59,7 @@ Result<std::vector<FigureInfo>> chosen(const std::string& only)
     return figures;
 }
 
-std::string commandOf(const Options& o, std::string_view name)
+std::string commandOf(const FiguresCommandOptions& o, std::string_view name)
 {
     std::string command = fmt::format("cotan figures --only {} -o figures", name);
     if (o.size != kSize)
@@ -100,7 +100,7 @@ nlohmann::ordered_json reportOf(std::string_view name, const Figure& figure)
 }
 
 // Writes a figure's pictures and describes it for the page.
-Result<PageFigure> written(const Options& o, std::string_view name, const Figure& figure)
+Result<PageFigure> written(const FiguresCommandOptions& o, std::string_view name, const Figure& figure)
 {
     PageFigure page;
     page.name = name;
@@ -131,7 +131,7 @@ Page emptyPage(const std::string& device)
     return page;
 }
 
-Status run(const Options& o)
+Status run(const FiguresCommandOptions& o)
 {
     if (o.common.output.empty())
         return usageError("figures: expected -o FOLDER; found none");
@@ -199,7 +199,7 @@ std::span<const FigureInfo> figureTable() { return kFigures; }
 
 Command addFiguresCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<FiguresCommandOptions>();
     CLI::App* command = app.add_subcommand("figures", "draw the figures, with their errors in degrees, as one HTML page and PNGs");
     addCommonOptions(*command, options->common, "folder for index.html and the pictures");
     command->add_option("--size", options->size, "width and height of a panel in pixels; square panels take the height")

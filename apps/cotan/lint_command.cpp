@@ -14,7 +14,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct LintCommandOptions {
     CommonOptions common;
     std::string model;
     int memory = kDefaultMemory;
@@ -39,7 +39,7 @@ std::string quoted(const std::string& path)
 }
 
 // What does what is advised; empty where that would do nothing.
-std::string commandFor(const Options& o, const LintReport& report)
+std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
     if (report.advice == Advice::nothing || !o.normalMap.file.empty()) // convert reads the model's own maps
         return {};
@@ -55,7 +55,7 @@ std::string commandFor(const Options& o, const LintReport& report)
 
 // What is over the limits, one sentence each. A limit in degrees does not hold for maps whose pixels were not read, nor
 // where no map at all was judged.
-std::vector<std::string> exceeded(const Options& o, const LintReport& report)
+std::vector<std::string> exceeded(const LintCommandOptions& o, const LintReport& report)
 {
     std::vector<std::string> lines;
     bool anyMap = false, anyJudged = false;
@@ -84,7 +84,7 @@ std::vector<std::string> exceeded(const Options& o, const LintReport& report)
     return lines;
 }
 
-Status checkUsage(const Options& o)
+Status checkUsage(const LintCommandOptions& o)
 {
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
@@ -98,7 +98,7 @@ Status checkUsage(const Options& o)
     return Done{};
 }
 
-Status run(const Options& o)
+Status run(const LintCommandOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
@@ -160,7 +160,7 @@ Status run(const Options& o)
 
 Command addLintCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<LintCommandOptions>();
     CLI::App* command = app.add_subcommand("lint", "what to expect of a model's normal maps without stored tangents, in degrees");
     addCommonOptions(*command, options->common, "");
     command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used

@@ -17,7 +17,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct MapBlendCommandOptions {
     MapOptions map;
     std::string base, detail, from = "gltf", detailFrom, to, mode = "reoriented", mask, tiles = "1", bits = "auto";
     double strength = 1;
@@ -45,7 +45,7 @@ Result<std::pair<int, int>> parseTiles(const std::string& text)
     return std::pair(int(x), int(y));
 }
 
-Status run(const Options& o)
+Status run(const MapBlendCommandOptions& o)
 {
     if (Status given = needOutput(o.map, "blend"); !given)
         return given;
@@ -122,7 +122,7 @@ Status run(const Options& o)
 
 Command addMapBlend(CLI::App& map)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapBlendCommandOptions>();
     CLI::App* command = map.add_subcommand("blend", "a base and a detail map as one");
     addMapOptions(*command, options->map, "the blend, of the base's size");
     command->add_option("BASE", options->base, "the base map")->required();

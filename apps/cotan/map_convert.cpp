@@ -16,7 +16,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct MapConvertCommandOptions {
     MapOptions map;
     std::string file, from, to, bits = "auto";
     double strength = 1;
@@ -24,7 +24,7 @@ struct Options {
     MeshOptions mesh;
 };
 
-Status checkSpaces(const Options& o, const Convention& from, const Convention& to)
+Status checkSpaces(const MapConvertCommandOptions& o, const Convention& from, const Convention& to)
 {
     const bool turns = from.kind != to.kind;
     if (turns == o.mesh.file.empty())
@@ -36,7 +36,7 @@ Status checkSpaces(const Options& o, const Convention& from, const Convention& t
 }
 
 // Reads, turns and writes a whole picture.
-Result<maps::RecodeCounts> byMesh(const Options& o, const maps::RecodeSettings& settings, const Bits& bits)
+Result<maps::RecodeCounts> byMesh(const MapConvertCommandOptions& o, const maps::RecodeSettings& settings, const Bits& bits)
 {
     const auto map = openMap(o.file, o.map, settings.from);
     if (!map)
@@ -57,7 +57,7 @@ Result<maps::RecodeCounts> byMesh(const Options& o, const maps::RecodeSettings& 
 }
 
 // Strip by strip.
-Result<maps::RecodeCounts> byRows(const Options& o, RowReader& in, const maps::RecodeSettings& settings,
+Result<maps::RecodeCounts> byRows(const MapConvertCommandOptions& o, RowReader& in, const maps::RecodeSettings& settings,
                                   maps::Swizzle swizzle, const Bits& bits)
 {
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
@@ -84,7 +84,7 @@ Result<maps::RecodeCounts> byRows(const Options& o, RowReader& in, const maps::R
     return maps::RecodeCounts{invalid, clamped};
 }
 
-Status run(const Options& o)
+Status run(const MapConvertCommandOptions& o)
 {
     const auto from = parseConvention(o.from, "--from");
     const auto to = parseConvention(o.to, "--to");
@@ -136,7 +136,7 @@ Status run(const Options& o)
 
 Command addMapConvert(CLI::App& map)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapConvertCommandOptions>();
     CLI::App* command = map.add_subcommand("convert", "the same directions, stored another way");
     addMapOptions(*command, options->map, "the new map: .png .exr .tif .tga .jpg .hdr");
     command->add_option("FILE", options->file, "the map")->required();

@@ -14,7 +14,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct MapFromHeightCommandOptions {
     MapOptions map;
     std::string file, convention = "gltf", bits = "auto", size, kernel = "central", wrap = "repeat";
     double range = 0, strength = 1;
@@ -31,7 +31,7 @@ std::optional<maps::Wrap> wrapFromName(const std::string& name)
 }
 
 // Slope per unit of stored height and texel, across and along.
-Result<std::pair<double, double>> scaleOf(const Options& o, int width, int height)
+Result<std::pair<double, double>> scaleOf(const MapFromHeightCommandOptions& o, int width, int height)
 {
     if (o.size.empty() != (o.range == 0))
         return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
@@ -45,7 +45,7 @@ Result<std::pair<double, double>> scaleOf(const Options& o, int width, int heigh
     return std::pair(o.range * width / metres->first, o.range * height / metres->second);
 }
 
-Status run(const Options& o)
+Status run(const MapFromHeightCommandOptions& o)
 {
     if (Status given = needOutput(o.map, "from-height"); !given)
         return given;
@@ -113,7 +113,7 @@ Status run(const Options& o)
 
 Command addMapFromHeight(CLI::App& map)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapFromHeightCommandOptions>();
     CLI::App* command = map.add_subcommand("from-height", "a normal map from a height picture");
     addMapOptions(*command, options->map, "the normal map");
     command->add_option("FILE", options->file, "heights: grey, or the red channel")->required();

@@ -18,7 +18,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct MapMipsCommandOptions {
     MapOptions map;
     std::string file, from = "gltf", to, model = "lean", bits = "auto";
     double roughness = 0.3;
@@ -58,9 +58,9 @@ std::filesystem::path numbered(const std::filesystem::path& file, const std::str
     return file.parent_path() / fmt::format("{}{}_{}{}", file.stem().string(), mark, level, file.extension().string());
 }
 
-bool isDds(const Options& o) { return o.map.common.output.extension() == ".dds"; }
+bool isDds(const MapMipsCommandOptions& o) { return o.map.common.output.extension() == ".dds"; }
 
-Status writeChain(const Options& o, const std::vector<maps::MipLevel>& chain, const Bits& bits)
+Status writeChain(const MapMipsCommandOptions& o, const std::vector<maps::MipLevel>& chain, const Bits& bits)
 {
     if (isDds(o))
         return writeFileWhole(o.map.common.output, ddsBytes(chain));
@@ -89,7 +89,7 @@ Result<maps::SpreadModel> parseModel(const std::string& name)
     return usageError(fmt::format("--model: expected toksvig, vmf or lean; found '{}'", name));
 }
 
-Result<Bits> typeOf(const Options& o, PixelType input)
+Result<Bits> typeOf(const MapMipsCommandOptions& o, PixelType input)
 {
     if (!isDds(o))
         return parseBits(o.bits, input, o.map.common.output);
@@ -98,7 +98,7 @@ Result<Bits> typeOf(const Options& o, PixelType input)
     return Bits{};
 }
 
-Status run(const Options& o)
+Status run(const MapMipsCommandOptions& o)
 {
     if (Status given = needOutput(o.map, "mips", isDds(o) ? o.map.common.output : numbered(o.map.common.output, "", 0)); !given)
         return given;
@@ -146,7 +146,7 @@ Status run(const Options& o)
 
 Command addMapMips(CLI::App& map)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapMipsCommandOptions>();
     CLI::App* command = map.add_subcommand("mips", "smaller levels, filtered as vectors, and the roughness they need");
     addMapOptions(*command, options->map,
                   "OUT.dds (all levels, roughness in alpha), or OUT.png and others: OUT_0.png, OUT_roughness_0.png, ...");

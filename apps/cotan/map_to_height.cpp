@@ -13,7 +13,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct MapToHeightCommandOptions {
     MapOptions map;
     std::string file, convention = "gltf", bits = "auto", size, kernel = "spectral";
     bool free = false;
@@ -40,7 +40,7 @@ Image picture(const maps::Heights& heights, const Image& map, PixelType type, do
     return image;
 }
 
-Status checkMemory(const Options& o, const Image& image)
+Status checkMemory(const MapToHeightCommandOptions& o, const Image& image)
 {
     const std::size_t bytes = maps::heightWorkBytes(image.width, image.height,
                                                     o.free ? maps::Boundary::free : maps::Boundary::periodic);
@@ -50,7 +50,7 @@ Status checkMemory(const Options& o, const Image& image)
     return Done{};
 }
 
-Status run(const Options& o)
+Status run(const MapToHeightCommandOptions& o)
 {
     if (Status given = needOutput(o.map, "to-height"); !given)
         return given;
@@ -114,7 +114,7 @@ Status run(const Options& o)
 
 Command addMapToHeight(CLI::App& map)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapToHeightCommandOptions>();
     CLI::App* command = map.add_subcommand("to-height", "the height whose slopes are nearest to a normal map's");
     addMapOptions(*command, options->map, "the heights; floats keep their unit, others go from black to white");
     command->add_option("FILE", options->file, "the map")->required();

@@ -15,7 +15,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct RenderCommandOptions {
     CommonOptions common;
     PictureOptions picture;
     std::string frame = "cotangent";
@@ -45,7 +45,7 @@ Image asColor(const std::string& show, const Image& image)
 }
 
 // Angles between the normals of this frame and those of exact per-triangle gradients.
-Result<Image> drawError(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawError(Painter& painter, View view, bool mapped, const RenderCommandOptions& o, nlohmann::ordered_json& report)
 {
     auto normals = painter.draw(view);
     if (!normals)
@@ -63,7 +63,7 @@ Result<Image> drawError(Painter& painter, View view, bool mapped, const Options&
     return heatMap(degrees, view.width, view.height);
 }
 
-Result<Image> drawPicture(Painter& painter, View view, bool mapped, const Options& o, nlohmann::ordered_json& report)
+Result<Image> drawPicture(Painter& painter, View view, bool mapped, const RenderCommandOptions& o, nlohmann::ordered_json& report)
 {
     if (o.show == "error")
         return drawError(painter, view, mapped, o, report);
@@ -74,7 +74,7 @@ Result<Image> drawPicture(Painter& painter, View view, bool mapped, const Option
     return image;
 }
 
-Status run(const Options& o)
+Status run(const RenderCommandOptions& o)
 {
     Stopwatch total;
     if (o.common.output.empty())
@@ -128,7 +128,7 @@ Status run(const Options& o)
 
 Command addRenderCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderCommandOptions>();
     CLI::App* command = app.add_subcommand("render", "draw a model, or the built-in scene, to a picture");
     addCommonOptions(*command, options->common, "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats");
     addPictureOptions(*command, options->picture);

@@ -13,7 +13,7 @@ namespace {
 using shader_text::Choice;
 using shader_text::Form;
 
-struct Options {
+struct ShaderCommandOptions {
     CommonOptions common;
     std::string language;
     std::string frame = "cotangent";
@@ -40,7 +40,7 @@ Result<Value> valueOf(std::string_view option, const std::string& word, const Wo
     return usageError(fmt::format("{}: expected one of {}; found '{}'", option, known, word));
 }
 
-Result<Convention> conventionOf(const Options& o)
+Result<Convention> conventionOf(const ShaderCommandOptions& o)
 {
     Words<Convention> presets{{"", Convention{}}};
     for (const ConventionPreset& p : conventionPresets())
@@ -80,7 +80,7 @@ Result<Convention> conventionOf(const Options& o)
     return c;
 }
 
-Result<Choice> choiceOf(const Options& o)
+Result<Choice> choiceOf(const ShaderCommandOptions& o)
 {
     Choice choice;
     Words<shader_text::Language> languages;
@@ -123,7 +123,7 @@ Result<Choice> choiceOf(const Options& o)
     return choice;
 }
 
-Status run(const Options& o)
+Status run(const ShaderCommandOptions& o)
 {
     const Result<Choice> choice = choiceOf(o);
     if (!choice)
@@ -155,7 +155,7 @@ Status run(const Options& o)
 
 Command addShaderCommand(CLI::App& app)
 {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ShaderCommandOptions>();
     CLI::App* command = app.add_subcommand("shader", "the text of a frame for your shader, self-contained");
     addCommonOptions(*command, o->common, "file for the text instead of standard output");
     command->get_option("--threads")->group(""); // accepted by all commands, listed where it is used

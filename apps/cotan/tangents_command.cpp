@@ -13,7 +13,7 @@ namespace cotan::app {
 
 namespace {
 
-struct Options {
+struct TangentsCommandOptions {
     CommonOptions common;
     std::string model;
     std::string frame = "mikktspace";
@@ -66,7 +66,7 @@ Result<std::vector<Entry>> readEntries(const GltfDocument& document)
     return entries;
 }
 
-std::vector<glm::vec4> generate(const Options& o, const Entry& entry)
+std::vector<glm::vec4> generate(const TangentsCommandOptions& o, const Entry& entry)
 {
     return o.frame == "vertex" ? vertexTangents(entry.view()) : mikktspaceTangents(entry.view(), o.common.threads);
 }
@@ -80,13 +80,13 @@ nlohmann::ordered_json describe(const Entry& entry)
             {"stored", !entry.geometry.tangents.empty()}};
 }
 
-std::string referenceName(const Options& o)
+std::string referenceName(const TangentsCommandOptions& o)
 {
     return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
 }
 
 // Compares what is stored.
-void compare(const Options& o, const std::vector<Entry>& entries, nlohmann::ordered_json& report)
+void compare(const TangentsCommandOptions& o, const std::vector<Entry>& entries, nlohmann::ordered_json& report)
 {
     TangentDifference all;
     std::size_t without = 0;
@@ -123,7 +123,7 @@ void compare(const Options& o, const std::vector<Entry>& entries, nlohmann::orde
 }
 
 // Generates and writes.
-Status write(const Options& o, GltfDocument& document, const std::vector<Entry>& entries,
+Status write(const TangentsCommandOptions& o, GltfDocument& document, const std::vector<Entry>& entries,
              nlohmann::ordered_json& report)
 {
     std::vector<GltfCornerTangents> tangents;
@@ -173,7 +173,7 @@ Status write(const Options& o, GltfDocument& document, const std::vector<Entry>&
     return Done{};
 }
 
-Status checkUsage(const Options& o)
+Status checkUsage(const TangentsCommandOptions& o)
 {
     if (o.frame != "mikktspace" && o.frame != "vertex" && o.frame != "smooth")
         return usageError(fmt::format(
@@ -188,7 +188,7 @@ Status checkUsage(const Options& o)
     return planOutputs(o.common, {{"-o", o.common.output}});
 }
 
-Status run(const Options& o)
+Status run(const TangentsCommandOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
@@ -227,7 +227,7 @@ Status run(const Options& o)
 
 Command addTangentsCommand(CLI::App& app)
 {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TangentsCommandOptions>();
     CLI::App* command = app.add_subcommand(
         "tangents", "write tangents into a glTF model; without -o say of those in it whether they equal "
                     "MikkTSpace, w is inverted, half of them are turned, or how far off they are");

@@ -182,8 +182,8 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         addGltfImage(document, std::move(*png), "image/png", image.name);
     }
     for (const Material& material : scene.materials) {
-        OrderedJson json = materialOf(document, material);
-        root["materials"].push_back(std::move(json));
+        OrderedJson made = materialOf(document, material);
+        root["materials"].push_back(std::move(made));
     }
     for (const Mesh& mesh : scene.meshes) {
         OrderedJson primitive = primitiveOf(document, mesh);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -76,11 +77,26 @@ struct Header {
     bool hasFormat = false;
     bool ended = false;
     std::vector<Element> elements;
+    std::string unknownRows; // the first element that has rows and a name that Assimp does not know
 };
 
-Problem checkElement(Header& header, std::string_view word, std::size_t fileBytes,
+// Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so that what
+// comes behind is read in the wrong place.
+Problem checkElementName(const Header& header, std::string_view name)
+{
+    if (name.front() >= '0' && name.front() <= '9')
+        return fmt::format("expected a name that starts with a letter, found \"{}\"", name.substr(0, 40));
+    const bool geometry = name == "vertex" || name == "face" || name == "tristrips";
+    if (geometry && !header.unknownRows.empty())
+        return fmt::format("expected the element \"{}\" before the element \"{}\"", name, header.unknownRows);
+    return std::nullopt;
+}
+
+Problem checkElement(Header& header, std::string_view name, std::string_view word, std::size_t fileBytes,
                      const LoadLimits& limits)
 {
+    if (Problem problem = checkElementName(header, name))
+        return problem;
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc{} || end != word.data() + word.size())
@@ -88,6 +104,9 @@ Problem checkElement(Header& header, std::string_view word, std::size_t fileByte
     if (count > fileBytes || count > limits.vertices)
         return fmt::format("it counts {} elements, more than the file can hold or the limit allows",
                            count);
+    constexpr std::array<std::string_view, 5> kRead = {"vertex", "face", "tristrips", "edge", "material"};
+    if (count > 0 && header.unknownRows.empty() && std::ranges::find(kRead, name) == kRead.end())
+        header.unknownRows = name.substr(0, 40);
     header.elements.push_back({count, {}});
     return std::nullopt;
 }
@@ -127,7 +146,7 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
     if (!header.hasFormat)
         return "expected the format line first";
     if (keyword == "element" && words.size() == 3)
-        return checkElement(header, words[2], fileBytes, limits);
+        return checkElement(header, words[1], words[2], fileBytes, limits);
     if (keyword == "property")
         return checkProperty(header, words);
     if (line == "end_header") {

@@ -78,7 +78,7 @@ constexpr long kForbidden[] = {
 
 constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW, kRefuse = SECCOMP_RET_ERRNO | EPERM;
 
-struct Filter {
+struct SystemCallFilter {
     std::vector<sock_filter> code;
 
     void add(std::uint16_t what, std::uint32_t k, std::uint8_t whenTrue = 0, std::uint8_t whenFalse = 0)
@@ -108,7 +108,7 @@ void forbidCalls()
 {
     if (kArchitecture == 0)
         return;
-    Filter filter;
+    SystemCallFilter filter;
     filter.load(offsetof(seccomp_data, arch));
     filter.add(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0);
     filter.give(SECCOMP_RET_KILL_PROCESS);

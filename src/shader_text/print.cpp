@@ -187,8 +187,10 @@ std::string print(const Module& module, Language language)
     std::string text(prelude(language));
     for (const Struct& s : module.structs)
         text += printer.structure(s) + '\n';
-    for (std::size_t i = 0; i < module.functions.size(); ++i)
-        text += (i ? "\n" : "") + printer.function(module.functions[i]);
+    for (std::size_t i = 0; i < module.functions.size(); ++i) {
+        text += i ? "\n" : "";
+        text += printer.function(module.functions[i]);
+    }
     return text + std::string(postlude(language));
 }
 

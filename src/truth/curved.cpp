@@ -9,7 +9,7 @@ namespace cotan {
 
 namespace {
 
-constexpr int kSamples = 12000;
+constexpr int kCurvedSamples = 12000;
 constexpr int kSegments[] = {8, 16, 32, 64, 128, 256};
 
 // 1800 pixels of focal length, 4 units away, not more grazing than 84 degrees.
@@ -98,7 +98,7 @@ std::vector<Measurement> measureCurved(const AccuracySelection& selection)
                 CurvedRows rows(selection, {"curved", surface.name,
                                             fmt::format("{}{}", segments, irregular ? " irregular" : ""), "", "", ""});
                 Random random(std::uint64_t(1000 + segments));
-                for (int i = 0; i < kSamples; ++i) {
+                for (int i = 0; i < kCurvedSamples; ++i) {
                     const Interpolated x = interpolate(mesh, randomPoint(random, mesh));
                     rows.add(surface, unitsPerUv, x, randomCamera(random, x.position, x.plane.normal));
                 }

@@ -12,7 +12,7 @@ namespace cotan {
 
 namespace {
 
-constexpr int kSamples = 6000;
+constexpr int kFacetSamples = 6000;
 constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,     Frame::orthonormal,
                              Frame::gradient,  Frame::smooth,    Frame::vertex,    Frame::mikktspace};
 
@@ -75,7 +75,7 @@ void measure(const AccuracySelection& selection, const Surface& surface, int seg
     }
     const double unitsPerUv = surface.unitsPerUv();
     Random random(61);
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kFacetSamples; ++i) {
         const glm::dvec3 texel = tiltedTexel(random, 35);
         const glm::dvec3 metric =
             glm::normalize(glm::dvec3(texel.x * unitsPerUv, texel.y * unitsPerUv, texel.z));

@@ -58,11 +58,6 @@ Scene domeScene(Image map, int channels, bool greenAlongV)
     return scene;
 }
 
-Height domeHeight()
-{
-    return [](double u, double v) { return relief(Relief::domes, u, v); };
-}
-
 constexpr std::array<float, 3> kUpright{0, 0, 1};
 
 void addMirrors(Studio& studio, Figure& figure)

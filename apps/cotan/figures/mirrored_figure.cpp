@@ -13,25 +13,25 @@ namespace cotan::app {
 
 namespace {
 
-constexpr float kRepeatU = 4, kRepeatV = 2;
-constexpr int kSegments = 96; // even: a column of vertices lies on the mirror line
+constexpr float kMirrorRepeatU = 4, kMirrorRepeatV = 2;
+constexpr int kMirrorSegments = 96; // even: a column of vertices lies on the mirror line
 
 Scene sphereScene(bool mirrored, const Image& map)
 {
-    Mesh mesh = makeSphere(1, kSegments);
+    Mesh mesh = makeSphere(1, kMirrorSegments);
     if (mirrored)
         for (glm::vec2& uv : mesh.texcoords[0])
             uv.x = std::min(uv.x, 1 - uv.x);
-    scaleTexcoords(mesh, kRepeatU, kRepeatV);
+    scaleTexcoords(mesh, kMirrorRepeatU, kMirrorRepeatV);
     return sceneOf(std::move(mesh), map, dielectric({0.30f, 0.13f, 0.02f}, 0.4f));
 }
 
 // The relief over the sphere's own, unmirrored texcoords: the right half is the left one's image.
 HeightSample mirroredDomes(double u, double v)
 {
-    if (u <= kRepeatU / 2)
+    if (u <= kMirrorRepeatU / 2)
         return relief(Relief::domes, u, v);
-    HeightSample h = relief(Relief::domes, kRepeatU - u, v);
+    HeightSample h = relief(Relief::domes, kMirrorRepeatU - u, v);
     h.hu = -h.hu;
     return h;
 }
@@ -54,7 +54,7 @@ Figure makeMirroredFigure(Studio& studio)
     const Scene plain = sphereScene(false, map);
     studio.show(plain);
     const Image uv = studio.vectors(view, Frame::exact, Output::uv);
-    const Image truth = truthNormals(uv, mirroredDomes, sphereChart({kRepeatU, kRepeatV}));
+    const Image truth = truthNormals(uv, mirroredDomes, sphereChart({kMirrorRepeatU, kMirrorRepeatV}));
 
     const Scene mirrored = sphereScene(true, map);
     Scene signless = withVertexFrames(mirrored, Frame::vertex);

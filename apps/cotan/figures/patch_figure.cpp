@@ -20,11 +20,6 @@ struct Layout {
     bool mirrored;
 };
 
-Height domeHeight()
-{
-    return [](double u, double v) { return relief(Relief::domes, u, v); };
-}
-
 Scene patchScene(const Layout& layout, const Image& map)
 {
     Mesh mesh = makePatch(layout.stretch, layout.shear, layout.mirrored, 1);

@@ -79,6 +79,11 @@ Image truthNormals(const Image& uv, const Height& height, const Chart& chart, do
     return truth;
 }
 
+Height domeHeight()
+{
+    return [](double u, double v) { return relief(Relief::domes, u, v); };
+}
+
 Image heightMap16(const Height& height, int side)
 {
     Image image = makeImage(side, side, PixelType::unorm16, "height");

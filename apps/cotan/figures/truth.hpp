@@ -14,6 +14,9 @@ namespace cotan::app {
 
 using Height = std::function<HeightSample(double u, double v)>;
 
+// That of the map Relief::domes.
+Height domeHeight();
+
 // A point of a surface: its unit normal and the gradients of u and v there, in the world.
 struct SurfaceGradients {
     glm::dvec3 normal{0, 0, 1};
