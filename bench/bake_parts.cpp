@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/bake/bake.hpp"
 
 using namespace cotan;

@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/uv_raster.hpp"
 

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 
 namespace {
 

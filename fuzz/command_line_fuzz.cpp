@@ -6,8 +6,8 @@
 
 #include <fcntl.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/files/account.hpp"
 #include "fuzz.hpp"
 

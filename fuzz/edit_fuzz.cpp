@@ -3,8 +3,8 @@
 #include <bit>
 #include <vector>
 
-#include "cotan/asset/gltf_edit.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/gltf/edit.hpp"
+#include "cotan/image/file.hpp"
 #include "scene_checks.hpp"
 
 using namespace cotan;

@@ -1,7 +1,7 @@
 // Pictures in memory: each format by its first bytes, anything else as TGA. What was read is written as PNG and read again.
 #include <algorithm>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "fuzz.hpp"
 #include "limits.hpp"
 

@@ -1,7 +1,7 @@
 // How much of a file the harnesses of readers take.
 #pragma once
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 
 namespace cotan::fuzz {
 

@@ -2,8 +2,8 @@
 // is refused by the other for a stated limit.
 #include <algorithm>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/image_rows.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/rows.hpp"
 #include "fuzz.hpp"
 #include "limits.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cotan/asset/geometry.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "cotan/scene/scene.hpp"
 #include "cotan/tangents.hpp"
 #include "fuzz.hpp"

@@ -12,9 +12,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "cotan/asset/geometry.hpp"
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/portable.hpp"
 #include "expected_list.hpp"
 

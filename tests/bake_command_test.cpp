@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/truth/quad.hpp"
 #include "run_tool.hpp"
 

@@ -8,9 +8,10 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/truth/quad.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"

@@ -1,13 +1,13 @@
 # The tool itself, run as a user would run it.
 cotan_test(cli_test
   SOURCES cli_test.cpp cli_bad_input_test.cpp normal_map_option_test.cpp
-  LIBRARIES cotan_asset cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_shapes cotan_report nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
 # What is read and what is written: by functions, and by every command.
 cotan_test(files_test
   SOURCES files_test.cpp overwrite_test.cpp
-  LIBRARIES cotan_files cotan_asset nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_files cotan_model cotan_shapes nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(files_test cotan)
 cotan_test(help_test

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

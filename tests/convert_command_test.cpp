@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/gltf_edit.hpp"
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/gltf/edit.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

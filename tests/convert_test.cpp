@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"

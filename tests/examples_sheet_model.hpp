@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::test {
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/report/page.hpp"
 #include "run_tool.hpp"
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
 #include "run_tool.hpp"

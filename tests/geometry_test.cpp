@@ -1,5 +1,5 @@
 // Small geometry: boxes, cameras that show everything, normals from triangles.
-#include "cotan/asset/geometry.hpp"
+#include "cotan/scene/geometry.hpp"
 
 #include <cmath>
 #include <limits>
@@ -10,7 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
 namespace {

@@ -1,10 +1,10 @@
 find_package(ZLIB REQUIRED)
 cotan_test(gltf_bad_test
   SOURCES gltf_bad_test.cpp gltf_hostile_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB)
 cotan_test(gltf_test SEPARATE
   SOURCES gltf_test.cpp gltf_accessor_test.cpp gltf_mesh_test.cpp gltf_scene_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB)
 cotan_test(gltf_models_test
   SOURCES gltf_models_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB)

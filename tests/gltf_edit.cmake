@@ -6,10 +6,10 @@ set_tests_properties(npm_packages PROPERTIES
   FIXTURES_SETUP npm SKIP_RETURN_CODE 3 TIMEOUT 300)
 cotan_test(gltf_edit_test
   SOURCES gltf_edit_test.cpp gltf_edit_split_test.cpp gltf_edit_write_test.cpp gltf_from_scene_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB)
 cotan_test(tangents_command_test SEPARATE FIXTURE npm
   SOURCES tangents_command_test.cpp tangents_written_test.cpp
-  LIBRARIES cotan_asset cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_shapes cotan_report nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(tangents_command_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(tangents_command_test cotan)

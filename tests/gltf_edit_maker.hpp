@@ -1,7 +1,7 @@
 // Opening, writing and reading back small models in tests of the glTF editor.
 #pragma once
 
-#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/gltf/edit.hpp"
 #include "gltf_maker.hpp"
 
 namespace cotan::test {

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 #include "png_maker.hpp"
 
 namespace cotan::test {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 
 using namespace cotan;
 using nlohmann::json;

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -16,8 +16,8 @@
 #include <jpeglib.h>
 #include <unistd.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/image_rows.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/rows.hpp"
 
 namespace cotan {
 namespace {

@@ -1,5 +1,5 @@
 // Image files: what is stored comes back, and what is broken is refused.
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 
 #include <array>
 #include <chrono>

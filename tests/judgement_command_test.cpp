@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -1,6 +1,6 @@
 cotan_test(lint_test
   SOURCES lint_test.cpp lint_command_test.cpp
-  LIBRARIES cotan_lint cotan_asset cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_lint cotan_model cotan_shapes cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(lint_test cotan)
 # The parts of lint and convert by themselves: builds and runs in seconds.
@@ -10,6 +10,6 @@ cotan_test(judgement_test SEPARATE
 target_include_directories(judgement_test PRIVATE ${PROJECT_SOURCE_DIR}/src/lint ${PROJECT_SOURCE_DIR}/src/convert)
 cotan_test(judgement_command_test
   SOURCES judgement_command_test.cpp
-  LIBRARIES cotan_asset nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(judgement_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(judgement_command_test cotan)

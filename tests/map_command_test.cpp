@@ -9,8 +9,8 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/normal_statistics.hpp"
 #include "cotan/maps/texels.hpp"

@@ -9,9 +9,9 @@
 #include <jpeglib.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/image_rows.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/rows.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "png_maker.hpp"
 #include "run_tool.hpp"
 
@@ -83,6 +83,9 @@ void writeTall(const fs::path& file, int width, int height)
 
 TEST(MapHostile, memory_does_not_grow_with_the_picture)
 {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the address sanitizer keeps what was freed";
+#endif
     TemporaryFolder folder;
     writeTall(folder / "low.png", 1024, 4096);
     writeTall(folder / "tall.png", 1024, 16384); // 50 MB more when decoded to RGBA

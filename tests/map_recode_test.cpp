@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/global_control.h>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/recode.hpp"
 #include "cotan/maps/texels.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/recode.hpp"
 #include "map_cases.hpp"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/portable.hpp"
 
 namespace {

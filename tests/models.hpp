@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "cotan/asset/geometry.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/report/angles.hpp"
 #include "painter.hpp"
 

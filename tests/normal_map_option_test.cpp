@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

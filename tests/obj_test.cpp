@@ -1,6 +1,6 @@
 // OBJ and MTL files. Expected values come from their text and from geometry.
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 
 namespace cotan {
 namespace {
@@ -142,9 +142,9 @@ TEST_F(ObjFile, manyGroupsAndMaterialsTakeTimeByTheirNumber)
         library << "newmtl m" << i << "\nKd 0 0 1\n";
     }
     write("m.mtl", library.str());
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     const Scene scene = load(text.str());
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
     EXPECT_EQ(scene.meshes.size(), std::size_t(kGroups));
     EXPECT_EQ(scene.materials.size(), std::size_t(kGroups));
 }
@@ -296,9 +296,9 @@ TEST_F(ObjFile, trianglesCoverAPolygonOnceAndNothingElse)
 TEST_F(ObjFile, aPolygonOfFiveThousandCornersIsQuick)
 {
     for (const Polygon& polygon : {star(2500, 0.5), comb(2500), spiral(5000)}) {
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();
         const Scene scene = load(faceText(polygon, 0, 3));
-        EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2.0);
+        EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
         const Mesh& mesh = scene.meshes.at(0);
         double area = 0;
         for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
@@ -314,10 +314,10 @@ TEST_F(ObjFile, aPolygonOfFiveThousandCornersIsQuick)
 
 TEST_F(ObjFile, polygonsThatTakeTheSquareOfTheirCornersAreRefusedInTime)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     EXPECT_NE(problem(faceText(star(100000, 0.5), 0, 0)).find("steps to cut polygons into triangles, here one of 200000"),
               std::string::npos);
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
     EXPECT_EQ(problem(faceText(star(100000, 0.99999999), 0, 0)), ""); // a circle, up to rounding
 }
 

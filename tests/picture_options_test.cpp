@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "common.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <pty.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "progress.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"

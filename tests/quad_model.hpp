@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::test {
 

@@ -18,11 +18,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/asset/sandbox.hpp"
-#include "cotan/asset/shapes.hpp"
-#include "reader_confine.hpp"
-#include "reader_request.hpp"
-#include "scene_wire.hpp"
+#include "cotan/files/sandbox.hpp"
+#include "cotan/model/reader.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "cotan/sandbox/confine.hpp"
+#include "cotan/sandbox/request.hpp"
+#include "cotan/sandbox/scene_wire.hpp"
 
 namespace {
 

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/image_rows.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/rows.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/files/account.hpp"
-#include "reader_confine.hpp"
+#include "cotan/sandbox/confine.hpp"
 #include "run_tool.hpp"
-#include "scene_wire.hpp"
+#include "cotan/sandbox/scene_wire.hpp"
 
 namespace cotan {
 namespace {

@@ -11,10 +11,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/asset/image_file.hpp"
-#include "cotan/asset/image_rows.hpp"
-#include "cotan/asset/load.hpp"
-#include "reader_confine.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/rows.hpp"
+#include "cotan/model/load.hpp"
+#include "cotan/sandbox/confine.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

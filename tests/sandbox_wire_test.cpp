@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/asset/shapes.hpp"
-#include "reader_request.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "cotan/sandbox/request.hpp"
 #include "scene_check.hpp"
-#include "scene_wire.hpp"
+#include "cotan/sandbox/scene_wire.hpp"
 
 namespace cotan {
 namespace {

@@ -1,5 +1,5 @@
 // The built-in shapes against geometry.
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@ cotan_test(tangents_test
   LIBRARIES cotan_core)
 cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
-  LIBRARIES cotan_asset)
+  LIBRARIES cotan_model cotan_shapes)
 
 # Where size_t has 32 bits.
 add_test(NAME Core.isRightWhereSizesHave32Bits

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/gltf/edit.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -4,8 +4,8 @@
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
-#include "cotan/asset/extension.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/files/extension.hpp"
+#include "cotan/image/file.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
 #include "progress.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "parse.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "convert_gltf.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "gltf_open.hpp"
 
 namespace cotan::app {

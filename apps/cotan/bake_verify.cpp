@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/geometry.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "painter.hpp"

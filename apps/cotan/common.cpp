@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/extension.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
 #include "progress.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "convert_gltf.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/lint/texel.hpp"
 #include "gltf_open.hpp"
 #include "memory_limit.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/tangents.hpp"
 #include "gltf_placed.hpp"
 

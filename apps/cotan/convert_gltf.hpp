@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/gltf/edit.hpp"
 #include "cotan/convert/reencode.hpp"
 
 namespace cotan::app {

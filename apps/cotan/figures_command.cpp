@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/files/output.hpp"
 #include "figures/figure.hpp"
 #include "figures/stage.hpp"

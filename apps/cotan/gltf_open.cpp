@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/extension.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/files/extension.hpp"
+#include "cotan/model/load.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/gltf/edit.hpp"
 
 namespace cotan::app {
 

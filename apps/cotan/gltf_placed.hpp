@@ -5,7 +5,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "cotan/asset/gltf_edit.hpp"
+#include "cotan/gltf/edit.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan::app {

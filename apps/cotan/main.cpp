@@ -10,7 +10,8 @@
 
 #include "command_words.hpp"
 #include "commands.hpp"
-#include "cotan/asset/sandbox.hpp"
+#include "cotan/files/sandbox.hpp"
+#include "cotan/model/reader.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
 

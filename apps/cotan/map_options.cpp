@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/extension.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/files/extension.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/maps/texels.hpp"
 #include "map_stream.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common.hpp"
-#include "cotan/asset/image_rows.hpp"
-#include "cotan/asset/load.hpp"
+#include "cotan/image/rows.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/scene/scene.hpp"

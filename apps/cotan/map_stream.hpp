@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cotan/asset/image_rows.hpp"
+#include "cotan/image/rows.hpp"
 #include "cotan/maps/height.hpp"
 #include "map_options.hpp"
 

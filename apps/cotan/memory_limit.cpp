@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 
 namespace cotan::app {
 

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cotan/asset/load.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
 

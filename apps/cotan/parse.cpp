@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/geometry.hpp"
+#include "cotan/scene/geometry.hpp"
 
 namespace cotan::app {
 

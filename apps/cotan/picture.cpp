@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/geometry.hpp"
-#include "cotan/asset/shapes.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "vertex_frames.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/asset/image_file.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/report/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "cotan/asset/geometry.hpp"
-#include "cotan/asset/image_file.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/report/angles.hpp"
 #include "painter.hpp"
 #include "picture.hpp"

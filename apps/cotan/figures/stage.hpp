@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "studio.hpp"
 
 namespace cotan::app {

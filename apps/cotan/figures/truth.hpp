@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/asset/shapes.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "figure.hpp"
 
 namespace cotan::app {

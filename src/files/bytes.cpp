@@ -1,0 +1,53 @@
+#include "cotan/files/bytes.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "cotan/files/account.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
+{
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status))
+        return inputError(fmt::format("{}: no such file", file.string()));
+    if (Status free = noteInput(file); !free)
+        return free.error();
+    if (fs::is_directory(status))
+        return inputError(fmt::format("{}: expected a file, found a folder", file.string()));
+    if (!fs::is_regular_file(status))
+        return inputError(fmt::format("{}: expected a regular file", file.string()));
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error)
+        return inputError(fmt::format("{}: {}", file.string(), error.message()));
+    if (size == 0)
+        return inputError(fmt::format("{}: the file is empty", file.string()));
+    if (size > limit)
+        return inputError(
+            fmt::format("{}: the file has {} bytes, the limit is {}", file.string(), size, limit));
+    return static_cast<std::size_t>(size);
+}
+
+Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
+{
+    const auto size = usableFileSize(file, limit);
+    if (!size)
+        return size.error();
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(
+        std::fopen(file.c_str(), "rb"), [](std::FILE* f) { return std::fclose(f); });
+    if (!handle)
+        return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
+    std::vector<std::byte> bytes(*size);
+    if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
+        return inputError(fmt::format("{}: reading stopped before the end", file.string()));
+    return bytes;
+}
+
+} // namespace cotan

@@ -1,0 +1,21 @@
+#include "cotan/files/sandbox.hpp"
+
+#include <utility>
+
+namespace cotan {
+
+namespace {
+
+Sandbox& ofProcess()
+{
+    static Sandbox sandbox;
+    return sandbox;
+}
+
+} // namespace
+
+void sandboxByDefault(Sandbox sandbox) { ofProcess() = std::move(sandbox); }
+
+Sandbox defaultSandbox() { return ofProcess(); }
+
+} // namespace cotan

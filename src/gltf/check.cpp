@@ -1,0 +1,260 @@
+// Compares the JSON with the tables of gltf_schema.hpp.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "file.hpp"
+#include "schema.hpp"
+
+namespace cotan {
+
+using nlohmann::json;
+
+namespace {
+
+using namespace gltf_schema;
+
+// ---- the walk -------------------------------------------------------------------------------
+
+// A place in the JSON, written out only for a message.
+struct Place {
+    const Place* parent = nullptr;
+    std::string_view name;
+    std::size_t index = 0; // used where name is empty
+};
+
+std::string describe(const Place& place)
+{
+    if (!place.parent)
+        return std::string(place.name);
+    const std::string before = describe(*place.parent);
+    if (place.name.empty())
+        return fmt::format("{}[{}]", before, place.index);
+    return before.empty() ? oneLine(std::string(place.name))
+                          : fmt::format("{}.{}", before, oneLine(std::string(place.name)));
+}
+
+std::string found(const json& value)
+{
+    if (value.is_structured())
+        return value.is_array() ? "an array" : "an object";
+    const std::string text = value.dump(-1, ' ', /*ensure_ascii*/ true);
+    return text.size() > 60 ? text.substr(0, 60) + "..." : text;
+}
+
+[[noreturn]] void wrong(const Place& place, const std::string& expected, const json& value)
+{
+    failGltf("{}: expected {}, found {}", describe(place), expected, found(value));
+}
+
+class Checker {
+public:
+    explicit Checker(const json& root) : root_(root) {}
+
+    void fields(const json& value, Fields expected, const Place& place) const
+    {
+        if (!value.is_object())
+            wrong(place, "an object", value);
+        for (const Field& field : expected) {
+            const Place inner{&place, field.name};
+            const auto member = value.find(field.name);
+            if (member != value.end())
+                check(*member, field, inner);
+            else if (field.required)
+                failGltf("{}: missing", describe(inner));
+        }
+    }
+
+private:
+    std::size_t sizeOf(std::string_view collection) const
+    {
+        const json* list = nullptr;
+        if (collection != "lights")
+            list = root_.contains(collection) ? &root_[std::string(collection)] : nullptr;
+        else if (const json::json_pointer at("/extensions/KHR_lights_punctual/lights");
+                 root_.contains(at))
+            list = &root_[at];
+        return list && list->is_array() ? list->size() : 0;
+    }
+
+    void checkNumber(const json& value, double low, double high, const Place& place) const
+    {
+        if (!value.is_number())
+            wrong(place, "a number", value);
+        if (const auto x = value.get<double>(); !(x >= low && x <= high))
+            wrong(place, fmt::format("a number from {:g} to {:g}", low, high), value);
+    }
+
+    void checkInteger(const json& value, const Field& field, const Place& place) const
+    {
+        if (!value.is_number_integer())
+            wrong(place, "an integer", value);
+        const auto x = value.get<double>();
+        if (!(x >= field.low && x <= field.high))
+            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high),
+                  value);
+        bool allowed = field.integers.empty();
+        for (const int i : field.integers)
+            allowed = allowed || x == i;
+        if (!allowed)
+            wrong(place, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
+    }
+
+    void checkText(const json& value, const Field& field, const Place& place) const
+    {
+        if (!value.is_string())
+            wrong(place, "a string", value);
+        bool allowed = field.texts.empty();
+        for (const std::string_view t : field.texts)
+            allowed = allowed || value.get_ref<const std::string&>() == t;
+        if (!allowed)
+            wrong(place, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
+    }
+
+    void checkIndex(const json& value, std::string_view refers, const Place& place) const
+    {
+        const std::size_t count = sizeOf(refers);
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
+            wrong(place, fmt::format("an index below {}, the number of {}", count, refers), value);
+    }
+
+    void checkIndexMap(const json& value, const Field& field, const Place& place) const
+    {
+        if (!value.is_object())
+            wrong(place, "an object", value);
+        for (const auto& [key, item] : value.items())
+            checkIndex(item, field.refers, Place{&place, key});
+    }
+
+    template<class Check> void each(const json& value, const Place& place, const Check& check) const
+    {
+        if (!value.is_array())
+            wrong(place, "an array", value);
+        for (std::size_t i = 0; i < value.size(); ++i)
+            check(value[i], Place{&place, {}, i});
+    }
+
+    void checkArray(const json& value, const Field& field, const Place& place) const
+    {
+        if (field.length > 0 && value.is_array() && value.size() != field.length)
+            failGltf("{}: expected {} numbers, found {}", describe(place), field.length,
+                     value.size());
+        each(value, place, [&](const json& item, const Place& at) {
+            switch (field.shape) {
+            case Shape::numbers: checkNumber(item, field.low, field.high, at); break;
+            case Shape::indices: checkIndex(item, field.refers, at); break;
+            case Shape::texts: checkText(item, field, at); break;
+            case Shape::indexMaps: checkIndexMap(item, field, at); break;
+            default: fields(item, field.inner, at); break;
+            }
+        });
+    }
+
+    void check(const json& value, const Field& field, const Place& place) const
+    {
+        switch (field.shape) {
+        case Shape::boolean:
+            if (!value.is_boolean())
+                wrong(place, "true or false", value);
+            break;
+        case Shape::integer: checkInteger(value, field, place); break;
+        case Shape::number: checkNumber(value, field.low, field.high, place); break;
+        case Shape::text: checkText(value, field, place); break;
+        case Shape::index: checkIndex(value, field.refers, place); break;
+        case Shape::object: fields(value, field.inner, place); break;
+        case Shape::indexMap: checkIndexMap(value, field, place); break;
+        case Shape::numbers:
+        case Shape::indices:
+        case Shape::texts:
+        case Shape::objects:
+        case Shape::indexMaps: checkArray(value, field, place); break;
+        }
+    }
+
+    const json& root_;
+};
+
+// ---- version and extensions -----------------------------------------------------------------
+
+// Before anything about structure: in version 1 the collections are objects, and the asset may be
+// missing.
+void refuseVersion1(const json& root)
+{
+    const json none = json::object();
+    const json& asset = root.contains("asset") ? root["asset"] : none;
+    if (asset.is_object() && asset.contains("version")) {
+        const json& version = asset["version"];
+        const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+        if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
+            failGltfVersion1("asset.version");
+        return;
+    }
+    for (const char* const collection : {"meshes", "nodes", "scenes", "accessors", "bufferViews"})
+        if (root.contains(collection) && root[collection].is_object())
+            failGltfVersion1(collection);
+}
+
+void checkVersion(const json& asset)
+{
+    const std::string version = asset["version"];
+    if (!version.starts_with("2."))
+        failGltf("asset.version: expected 2.x, found \"{}\"", oneLine(version));
+    const std::string least = asset.value("minVersion", std::string("2.0"));
+    if (least != "2.0")
+        failGltf("asset.minVersion: expected 2.0, found \"{}\"", oneLine(least));
+}
+
+constexpr std::array kSupported{
+    string_view("KHR_texture_transform"), string_view("KHR_materials_unlit"),
+    string_view("KHR_lights_punctual"),   string_view("KHR_materials_emissive_strength"),
+    string_view("KHR_mesh_quantization"), string_view("EXT_mesh_gpu_instancing"),
+};
+
+// These put an image of another format in the place of a texture's; they matter to who needs the pixels.
+constexpr std::array kImageFormats{
+    string_view("KHR_texture_basisu"),
+    string_view("EXT_texture_webp"),
+    string_view("EXT_texture_avif"),
+    string_view("MSFT_texture_dds"),
+};
+
+// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
+// can be drawn without them, if that is said. Any other unknown extension may change what the
+// data mean.
+void checkExtensions(const json& root, Pixels pixels, GltfWarnings& warnings)
+{
+    std::vector<std::string> ignored;
+    for (const char* const list : {"extensionsRequired", "extensionsUsed"}) {
+        for (const json& item : root.value(list, json::array())) {
+            const auto& name = item.get_ref<const std::string&>();
+            const bool known =
+                std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+            const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
+            const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
+            if (!known && !harmless && list == std::string_view("extensionsRequired"))
+                failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));
+            if (!known && std::find(ignored.begin(), ignored.end(), name) == ignored.end())
+                ignored.push_back(name);
+        }
+    }
+    if (!ignored.empty())
+        warnings.add("extensionsUsed", fmt::format("ignored: {}", fmt::join(ignored, ", ")));
+}
+
+} // namespace
+
+void checkGltfShape(const json& root, const LoadLimits& limits, GltfWarnings& warnings)
+{
+    const Place top;
+    if (!root.is_object())
+        failGltf("JSON: expected an object, found {}", found(root));
+    refuseVersion1(root);
+    Checker(root).fields(root, kRoot, top);
+    checkVersion(root["asset"]);
+    checkExtensions(root, limits.pixels, warnings);
+    if (root.contains("nodes") && root["nodes"].size() > limits.nodes)
+        failGltf("nodes: the limit is {}, found {}", limits.nodes, root["nodes"].size());
+}
+
+} // namespace cotan

@@ -1,0 +1,177 @@
+// Cuts bytes that nothing uses any more out of buffer views that others still use.
+#include <algorithm>
+#include <cstring>
+
+#include "edit_state.hpp"
+
+namespace cotan::gltf_edit {
+
+namespace {
+
+// The bytes of an accessor inside its view.
+struct Range {
+    std::size_t accessor = 0;
+    std::size_t begin = 0, end = 0;
+    std::size_t size = 0; // of one element
+};
+
+using Cluster = std::vector<Range>; // ranges that overlap, by `begin`
+
+std::vector<Cluster> clusters(std::vector<Range> ranges)
+{
+    std::sort(ranges.begin(), ranges.end(),
+              [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    std::vector<Cluster> out;
+    std::size_t end = 0;
+    for (const Range& r : ranges) {
+        if (out.empty() || r.begin >= end)
+            out.emplace_back();
+        out.back().push_back(r);
+        end = std::max(end, r.end);
+    }
+    return out;
+}
+
+std::size_t endOf(const Cluster& cluster)
+{
+    std::size_t end = 0;
+    for (const Range& r : cluster)
+        end = std::max(end, r.end);
+    return end;
+}
+
+// Which words of four bytes of a row the cluster uses; empty if it is not a block of rows.
+std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
+{
+    const std::size_t start = cluster.front().begin / 4 * 4;
+    if (stride == 0 || stride % 4 != 0)
+        return {};
+    std::vector<bool> used(stride / 4, false);
+    for (const Range& r : cluster) {
+        const std::size_t column = r.begin - start;
+        if (column + r.size > stride)
+            return {};
+        for (std::size_t w = column / 4; w < (column + r.size + 3) / 4; ++w)
+            used[w] = true;
+    }
+    return used;
+}
+
+// Interleaved attributes without the words that nobody uses, as a view of their own.
+void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster,
+             const std::vector<bool>& used)
+{
+    const std::span<const std::byte> from = viewBytes(document, view);
+    const std::size_t stride = used.size() * 4, start = cluster.front().begin / 4 * 4;
+    std::vector<std::size_t> moved(used.size());
+    std::size_t words = 0;
+    for (std::size_t w = 0; w < used.size(); ++w) {
+        moved[w] = words;
+        words += used[w];
+    }
+    const std::size_t rows = (endOf(cluster) - start + stride - 1) / stride;
+    std::vector<std::byte> bytes(rows * words * 4);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t w = 0; w < used.size(); ++w) {
+            const std::size_t at = start + row * stride + w * 4;
+            if (used[w] && at < from.size())
+                std::memcpy(bytes.data() + (row * words + moved[w]) * 4, from.data() + at,
+                            std::min<std::size_t>(4, from.size() - at));
+        }
+    OrderedJson made = document.root["bufferViews"][view];
+    made["buffer"] = 0;
+    made["byteLength"] = bytes.size();
+    made["byteStride"] = words * 4;
+    made.erase("byteOffset");
+    const std::size_t index = addView(document, std::move(bytes));
+    document.root["bufferViews"][index] = std::move(made);
+    for (const Range& r : cluster) {
+        OrderedJson& accessor = document.root["accessors"][r.accessor];
+        accessor["bufferView"] = index;
+        accessor["byteOffset"] = moved[(r.begin - start) / 4] * 4 + r.begin % 4;
+    }
+}
+
+// The ranges that are left, moved together; what they were modulo four they stay.
+void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Cluster>& kept)
+{
+    const std::span<const std::byte> from = viewBytes(document, view);
+    std::vector<std::byte> bytes;
+    OrderedJson made = document.root["bufferViews"][view];
+    const std::size_t index = addView(document, {});
+    for (const Cluster& cluster : kept) {
+        const std::size_t start = cluster.front().begin / 4 * 4;
+        bytes.resize((bytes.size() + 3) / 4 * 4);
+        for (const Range& r : cluster) {
+            OrderedJson& accessor = document.root["accessors"][r.accessor];
+            accessor["bufferView"] = index;
+            accessor["byteOffset"] = bytes.size() + r.begin - start;
+        }
+        const auto part = from.subspan(start, endOf(cluster) - start);
+        bytes.insert(bytes.end(), part.begin(), part.end());
+    }
+    made["buffer"] = 0;
+    made["byteLength"] = bytes.size();
+    made.erase("byteOffset");
+    document.added.back() = std::move(bytes);
+    document.root["bufferViews"][index] = std::move(made);
+}
+
+// Views that something else than the dense part of an accessor uses.
+std::vector<bool> otherUses(const OrderedJson& root)
+{
+    OrderedJson without = OrderedJson::object();
+    for (const char* const part : {"accessors", "images", "meshes"})
+        if (root.contains(part))
+            without[part] = root[part];
+    if (without.contains("accessors"))
+        for (OrderedJson& accessor : without["accessors"])
+            accessor.erase("bufferView");
+    without["bufferViews"] = root["bufferViews"];
+    return usedItems(without, Collection::bufferViews);
+}
+
+} // namespace
+
+void repackViews(GltfDocument& document, const std::vector<bool>& removed)
+{
+    const std::size_t views = countOf(document.root, "bufferViews");
+    if (views == 0)
+        return;
+    std::vector<std::vector<Range>> kept(views);
+    std::vector<bool> lost(views, false);
+    for (std::size_t a = 0; a < removed.size(); ++a) {
+        const OrderedJson& accessor = document.root["accessors"][a];
+        if (!accessor.contains("bufferView"))
+            continue;
+        const auto view = accessor["bufferView"].get<std::size_t>();
+        if (removed[a]) {
+            lost[view] = true;
+            continue;
+        }
+        const std::size_t size = elementSize(accessor), count = sizeOr(accessor, "count", 0);
+        std::size_t stride = sizeOr(document.root["bufferViews"][view], "byteStride", 0);
+        stride = stride > 0 ? stride : size;
+        const std::size_t begin = sizeOr(accessor, "byteOffset", 0);
+        kept[view].push_back({a, begin, count == 0 ? begin : begin + (count - 1) * stride + size,
+                              size});
+    }
+    const std::vector<bool> other = otherUses(document.root);
+    for (std::size_t view = 0; view < views; ++view) {
+        if (!lost[view] || kept[view].empty() || other[view])
+            continue;
+        const std::size_t stride = sizeOr(document.root["bufferViews"][view], "byteStride", 0);
+        std::vector<Cluster> whole;
+        for (const Cluster& cluster : clusters(kept[view])) {
+            const std::vector<bool> used = usedWords(cluster, stride);
+            if (std::find(used.begin(), used.end(), false) != used.end())
+                squeeze(document, view, cluster, used);
+            else
+                whole.push_back(cluster);
+        }
+        if (!whole.empty())
+            closeGaps(document, view, whole);
+    }
+}
+
+} // namespace cotan::gltf_edit

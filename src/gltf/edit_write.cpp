@@ -1,0 +1,367 @@
+// A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <system_error>
+
+#include "cotan/files/output.hpp"
+#include "cotan/files/bytes.hpp"
+#include "edit_state.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+using namespace gltf_edit;
+
+namespace {
+
+struct Output {
+    fs::path file;
+    std::vector<std::byte> bytes;
+};
+
+bool isExternal(const OrderedJson& image)
+{
+    return image.contains("uri")
+        && !image["uri"].get_ref<const std::string&>().starts_with("data:");
+}
+
+// The image files that the JSON names, by image; those that are missing are left out.
+std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const OrderedJson& root)
+{
+    std::map<std::size_t, fs::path> files;
+    for (std::size_t i = 0; i < countOf(root, "images"); ++i) {
+        const OrderedJson& image = root["images"][i];
+        if (!isExternal(image))
+            continue;
+        GltfResource resource =
+            resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
+                           fmt::format("images[{}].uri", i), /*mayMiss*/ true);
+        if (!resource.file.empty())
+            files.emplace(i, std::move(resource.file));
+    }
+    return files;
+}
+
+std::size_t totalSize(std::vector<fs::path> files)
+{
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    std::size_t total = 0;
+    for (const fs::path& file : files) {
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        total += error ? 0 : static_cast<std::size_t>(size);
+    }
+    return total;
+}
+
+std::size_t sizeBefore(const GltfSource& source)
+{
+    std::vector<fs::path> files;
+    for (const auto& [file, bytes] : source.file.bufferFiles)
+        files.push_back(file);
+    for (const auto& [image, file] : imageFiles(source, source.root))
+        files.push_back(file);
+    return source.bytes + totalSize(std::move(files));
+}
+
+std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits)
+{
+    Result<std::vector<std::byte>> bytes = readFileBytes(file, limits.fileBytes);
+    if (!bytes)
+        throw bytes.error();
+    return std::move(*bytes);
+}
+
+// Empty: no picture that glTF knows.
+std::string mimeTypeOf(std::span<const std::byte> bytes)
+{
+    const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
+    if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
+        return "image/png";
+    if (bytes.size() > 3 && at(0) == 0xff && at(1) == 0xd8)
+        return "image/jpeg";
+    if (bytes.size() > 12 && at(0) == 'R' && at(8) == 'W' && at(9) == 'E')
+        return "image/webp";
+    if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
+        return "image/ktx2";
+    return {};
+}
+
+// An image file used twice is embedded once.
+void embedImages(GltfDocument& document, const LoadLimits& limits)
+{
+    std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
+    for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
+        if (!embedded.contains(file)) {
+            std::vector<std::byte> bytes = readOrFail(file, limits);
+            const std::string type = mimeTypeOf(bytes);
+            embedded[file] = nullptr;
+            if (!type.empty())
+                embedded[file] = {{"mimeType", type}, {"bufferView", addView(document, std::move(bytes))}};
+        }
+        if (embedded[file].is_null())
+            continue;
+        document.root["images"][i].erase("uri");
+        document.root["images"][i].update(embedded[file]);
+    }
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+        if (isExternal(document.root["images"][i]))
+            document.notes.push_back(fmt::format(
+                "images[{}]: \"{}\" is missing or no picture and stays a reference", i,
+                oneLine(document.root["images"][i]["uri"].get<std::string>())));
+}
+
+// ---- GLB ------------------------------------------------------------------------------------
+
+void appendWord(std::vector<std::byte>& bytes, std::size_t word)
+{
+    for (int shift = 0; shift < 32; shift += 8)
+        bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+}
+
+void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type,
+                 std::span<const std::byte> content, char padding)
+{
+    const std::size_t padded = (content.size() + 3) / 4 * 4;
+    appendWord(bytes, padded);
+    appendWord(bytes, type);
+    bytes.insert(bytes.end(), content.begin(), content.end());
+    bytes.resize(bytes.size() + padded - content.size(), static_cast<std::byte>(padding));
+}
+
+std::vector<std::byte> makeGlb(const Layout& layout)
+{
+    constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
+    const std::string text = layout.root.dump();
+    const std::size_t padded[2] = {(text.size() + 3) / 4 * 4, (layout.buffer.size() + 3) / 4 * 4};
+    const std::size_t total = 12 + 8 + padded[0] + (layout.buffer.empty() ? 0 : 8 + padded[1]);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        failGltf("a .glb of {} bytes cannot be written, the limit is 4 GiB; write .gltf", total);
+    std::vector<std::byte> bytes;
+    bytes.reserve(total);
+    appendWord(bytes, 0x46546C67);
+    appendWord(bytes, 2);
+    appendWord(bytes, total);
+    appendChunk(bytes, kJson, std::as_bytes(std::span(text)), ' ');
+    if (!layout.buffer.empty())
+        appendChunk(bytes, kBinary, layout.buffer, '\0');
+    return bytes;
+}
+
+// ---- glTF with files beside -----------------------------------------------------------------
+
+std::string encodePercent(const std::string& name)
+{
+    std::string uri;
+    for (const char c : name) {
+        const auto u = static_cast<unsigned char>(c);
+        if (std::isalnum(u) || c == '-' || c == '_' || c == '.' || c == '~')
+            uri += c;
+        else
+            uri += fmt::format("%{:02X}", u);
+    }
+    return uri;
+}
+
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
+fs::path binaryBeside(const GltfSource& source, const fs::path& file)
+{
+    fs::path binary = file;
+    binary.replace_extension(".bin");
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(binary, error);
+    if (source.file.bufferFiles.contains(canonical) && !fs::equivalent(file, source.path, error))
+        binary.replace_filename(file.stem().string() + "_data.bin");
+    return binary;
+}
+
+// ---- images that are new --------------------------------------------------------------------
+
+std::string plainName(const std::string& name)
+{
+    constexpr std::size_t kMost = 64;
+    std::string plain;
+    for (const char c : name.substr(0, kMost))
+        plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    return plain;
+}
+
+// What an image is called: by its name, or by the file that it was in.
+std::string nameOfImage(const GltfSource& source, const OrderedJson& root, std::size_t i)
+{
+    std::string name = root["images"][i].value("name", std::string());
+    if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
+        name = fs::path(source.root["images"][i]["uri"].get<std::string>()).stem().string();
+    return name.empty() ? fmt::format("image{}", i) : plainName(name);
+}
+
+// The image files that a model of that name, about to be replaced, calls its own.
+std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limits)
+{
+    std::vector<std::string> uris;
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > limits.fileBytes)
+        return uris;
+    std::ifstream stream(file, std::ios::binary); // no input of ours: it goes
+    const OrderedJson root = OrderedJson::parse(stream, nullptr, false);
+    if (root.is_object() && root.contains("images") && root["images"].is_array())
+        for (const OrderedJson& image : root["images"])
+            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+                uris.push_back(image["uri"].get<std::string>());
+    return uris;
+}
+
+// Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
+// already is taken only if that file belongs to the model that is replaced; else it gets a number.
+void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits, std::vector<Output>& outputs)
+{
+    const GltfSource& source = *document.source;
+    const std::size_t old = countOf(source.root, "bufferViews");
+    const std::vector<std::string> own = ownImages(file, limits);
+    std::vector<fs::path> read;
+    for (const auto& [i, path] : imageFiles(source, source.root))
+        read.push_back(path);
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i) {
+        OrderedJson& image = document.root["images"][i];
+        if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
+            continue;
+        const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
+        const std::string ending = image.value("mimeType", std::string()) == "image/jpeg" ? ".jpg" : ".png";
+        const auto taken = [&](const fs::path& target) {
+            std::error_code error;
+            const bool here = std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
+            const bool input = std::find(read.begin(), read.end(), fs::weakly_canonical(target, error)) != read.end();
+            const bool ours = std::find(own.begin(), own.end(), encodePercent(target.filename().string())) != own.end();
+            return here || input || (fs::exists(target, error) && !ours);
+        };
+        fs::path target = folderOf(file) / (stem + ending);
+        for (int n = 2; taken(target); ++n)
+            target = folderOf(file) / fmt::format("{}-{}{}", stem, n, ending);
+        const auto bytes = viewBytes(document, image["bufferView"].get<std::size_t>());
+        outputs.push_back({target, {bytes.begin(), bytes.end()}});
+        image.erase("bufferView");
+        image["uri"] = encodePercent(target.filename().string());
+    }
+}
+
+// Image files go to the same place relative to the new folder; what is there already has to be the
+// same.
+void copyImages(const GltfSource& source, const OrderedJson& root, const fs::path& folder,
+                const LoadLimits& limits, std::vector<Output>& outputs)
+{
+    std::error_code error;
+    if (fs::equivalent(folder, source.file.folder, error))
+        return;
+    for (const auto& [i, file] : imageFiles(source, root)) {
+        const fs::path target = folder / file.lexically_relative(source.file.folder);
+        const auto same = [&](const Output& o) { return o.file == target; };
+        if (std::any_of(outputs.begin(), outputs.end(), same))
+            continue;
+        std::vector<std::byte> bytes = readOrFail(file, limits);
+        if (fs::exists(target, error)) {
+            const auto there = readFileBytes(target, limits.fileBytes);
+            if (!there || *there != bytes)
+                throw outputError(
+                    fmt::format("{}: a different file is in the way of an image to be copied",
+                                target.string()));
+            continue;
+        }
+        outputs.push_back({target, std::move(bytes)});
+    }
+}
+
+// All or none: each file is written beside its place, and none is put there before the last is written. The first, the
+// model, comes last.
+Status writeTogether(std::span<const Output> outputs)
+{
+    std::vector<OutputFile> files;
+    for (std::size_t i = outputs.size(); i-- > 0;) {
+        const Output& output = outputs[i];
+        std::error_code error;
+        fs::create_directories(folderOf(output.file), error);
+        auto file = OutputFile::begin(output.file);
+        if (!file)
+            return file.error();
+        files.push_back(*std::move(file));
+        if (Status written = writeBytes(files.back().path(), output.bytes); !written)
+            return files.back().failed(written.error());
+    }
+    return commitTogether(files);
+}
+
+GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits& limits)
+{
+    const bool binary = file.extension() == ".glb";
+    std::error_code error;
+    if (!fs::is_directory(folderOf(file), error))
+        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(),
+                                      folderOf(file).string()));
+    GltfWritten written;
+    written.bytesBefore = sizeBefore(*document.source);
+    std::vector<Output> outputs(1);
+    outputs[0].file = file;
+    if (binary)
+        embedImages(document, limits);
+    else
+        putImagesBeside(document, file, limits, outputs);
+    Layout layout = layOut(document);
+    if (binary) {
+        outputs[0].bytes = makeGlb(layout);
+    } else {
+        if (!layout.buffer.empty()) {
+            const fs::path beside = binaryBeside(*document.source, file);
+            layout.root["buffers"][0]["uri"] = encodePercent(beside.filename().string());
+            outputs.push_back({beside, std::move(layout.buffer)});
+        }
+        const std::string text = layout.root.dump(2) + "\n";
+        const auto bytes = std::as_bytes(std::span(text));
+        outputs[0].bytes.assign(bytes.begin(), bytes.end());
+    }
+    for (const Output& output : outputs)
+        written.bytesAfter += output.bytes.size();
+    if (!binary)
+        copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
+    if (Status done = writeTogether(outputs); !done)
+        throw done.error();
+    std::vector<fs::path> images;
+    for (const auto& image : imageFiles(*document.source, layout.root))
+        if (const fs::path& path = image.second;
+            std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
+            images.push_back(path);
+    written.bytesAfter += totalSize(images);
+    for (const Output& output : outputs)
+        written.files.push_back(output.file);
+    written.notes = std::move(document.notes);
+    return written;
+}
+
+} // namespace
+
+Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file,
+                              const LoadLimits& limits)
+{
+    if (file.extension() != ".glb" && file.extension() != ".gltf")
+        return usageError(
+            fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
+    try {
+        return write(document, file, limits);
+    } catch (const Error& failure) {
+        return failure;
+    } catch (const GltfProblem& problem) {
+        return inputError(document.source->path.string() + ": " + oneLine(problem.message));
+    } catch (const std::bad_alloc&) {
+        return unavailableError(file.string() + ": not enough memory to write it");
+    }
+}
+
+} // namespace cotan

@@ -1,0 +1,61 @@
+// A glTF file up to the point where its JSON is known to have the right shape and its buffers are
+// in memory. Nothing here interprets the model.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cotan/files/limits.hpp"
+#include "problem.hpp"
+
+namespace cotan {
+
+// Where the bytes of a resource come from: a file in the model's folder, or decoded bytes.
+struct GltfResource {
+    std::filesystem::path file; // canonical; empty if the bytes are here
+    std::vector<std::byte> bytes;
+};
+
+struct GltfFile {
+    std::filesystem::path folder;      // canonical; nothing outside is opened
+    std::vector<std::byte> bytes;      // the whole file, where it is a GLB
+    std::span<const std::byte> text;   // its JSON, until that is parsed
+    std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
+    bool isBinary = false;
+    std::size_t size = 0;              // bytes of the model and, once they are loaded, of its buffer files
+    nlohmann::json json;
+    nlohmann::ordered_json ordered; // the same in the order of the file, where it was asked for
+    std::vector<std::span<const std::byte>> buffers; // one for each buffer, exactly byteLength long
+    std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
+    std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
+};
+
+// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
+// the file; JSON nested deeper than kGltfDepth is refused before it is parsed, because the
+// parsers behind this recurse. keepOrder: fills `ordered` too.
+inline constexpr int kGltfDepth = 128;
+GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits,
+                  GltfWarnings& warnings, bool keepOrder = false);
+
+// Fills GltfFile::buffers. The JSON must have passed checkGltfShape.
+void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
+
+// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's
+// folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
+// symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
+// not exist gives an empty resource instead of a failure.
+GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const std::string& field,
+                            bool mayMiss = false);
+
+// Checks that every member the reader uses has the type, range and length that the glTF 2.0
+// specification asks for, and that every index points at something; tinygltf takes the default
+// where it dislikes a type, which hides damage. Also the version and the required extensions.
+void checkGltfShape(const nlohmann::json& root, const LoadLimits& limits, GltfWarnings& warnings);
+
+} // namespace cotan

@@ -1,0 +1,197 @@
+// Finds and decodes the images of a model.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <optional>
+
+#include <tbb/parallel_for.h>
+
+#include "cotan/image/file.hpp"
+#include "cotan/files/bytes.hpp"
+#include "material.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct ImageSource {
+    std::string name; // for messages and Image::name
+    GltfResource resource;
+    std::span<const std::byte> bytes; // empty where the image is a file
+};
+
+std::string imageField(int image) { return fmt::format("images[{}]", image); }
+
+ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
+{
+    const json& entry = model.file.json["images"][static_cast<std::size_t>(image)];
+    const std::string field = imageField(image);
+    ImageSource source;
+    source.name = oneLine(entry.value("name", std::string()));
+    if (entry.contains("uri") == entry.contains("bufferView"))
+        failGltf("{}: expected either uri or bufferView", field);
+    if (entry.contains("bufferView")) {
+        source.bytes = gltfView(model, entry["bufferView"].get<int>());
+    } else {
+        const auto& uri = entry["uri"].get_ref<const std::string&>();
+        source.resource = resolveGltfUri(model.file, uri, field + ".uri", mayMiss);
+        source.bytes = source.resource.bytes;
+        if (!source.resource.file.empty())
+            source.name = source.resource.file.filename().string();
+    }
+    if (source.name.empty())
+        source.name = fmt::format("image {}", image);
+    return source;
+}
+
+bool beginsWith(std::span<const std::byte> bytes, std::initializer_list<int> head)
+{
+    return bytes.size() >= head.size()
+        && std::equal(head.begin(), head.end(), bytes.begin(),
+                      [](int h, std::byte b) { return h == std::to_integer<int>(b); });
+}
+
+bool isPng(std::span<const std::byte> bytes)
+{
+    return beginsWith(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
+}
+
+bool isJpeg(std::span<const std::byte> bytes) { return beginsWith(bytes, {0xff, 0xd8, 0xff}); }
+
+std::vector<std::byte> readImageFile(const fs::path& file, const LoadLimits& limits)
+{
+    Result<std::vector<std::byte>> bytes = readFileBytes(file, limits.fileBytes);
+    if (!bytes)
+        throw GltfProblem{bytes.error().message};
+    return std::move(*bytes);
+}
+
+// glTF allows PNG and JPEG alone; the many other formats that the image library can read are kept
+// away from data that come with a model. foreign: set to the format of an image that stays without pixels.
+Image decode(ImageSource source, const LoadLimits& limits, std::string& foreign)
+{
+    std::vector<std::byte> held;
+    if (!source.resource.file.empty()) {
+        held = readImageFile(source.resource.file, limits);
+        source.bytes = held;
+    }
+    if (limits.pixels == Pixels::whereReadable)
+        foreign = foreignFormat(source.bytes);
+    if (!foreign.empty()) {
+        Image image;
+        image.name = fmt::format("{} ({})", source.name, foreign);
+        return image;
+    }
+    if (!isPng(source.bytes) && !isJpeg(source.bytes))
+        failGltf("expected PNG or JPEG data in {}", source.name);
+    Result<Image> image = decodeImage(source.bytes, source.name, limits);
+    if (!image)
+        throw GltfProblem{image.error().message};
+    return std::move(*image);
+}
+
+// The bytes that the images of one model may take together.
+class Budget {
+public:
+    explicit Budget(const LoadLimits& limits) : limits_(limits), left_(limits.allImageBytes) {}
+
+    // The limits for the next image: no more than what is left. Images that are decoded at the
+    // same time see the same rest, so the total may be overdrawn by one image a thread until
+    // `take` notices.
+    LoadLimits next() const
+    {
+        LoadLimits limits = limits_;
+        limits.imageBytes = std::min(limits.imageBytes, left_.load());
+        return limits;
+    }
+
+    void take(std::size_t bytes)
+    {
+        std::size_t left = left_.load();
+        do {
+            if (bytes > left)
+                failGltf("all images together take more than the limit of {} bytes",
+                         limits_.allImageBytes);
+        } while (!left_.compare_exchange_weak(left, left - bytes));
+    }
+
+private:
+    const LoadLimits& limits_;
+    std::atomic<std::size_t> left_;
+};
+
+} // namespace
+
+void GltfMaterials::decodeImages()
+{
+    if (model_.limits.pixels == Pixels::none)
+        return;
+    const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
+    std::vector<std::string> problems(jobs.size()), foreign(jobs.size());
+    Budget budget(model_.limits);
+    tbb::parallel_for(std::size_t(0), jobs.size(), [&](std::size_t i) {
+        const auto [image, slot] = jobs[i];
+        try {
+            Image decoded = decode(findImage(model_, image), budget.next(), foreign[i]);
+            budget.take(decoded.data.size());
+            scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
+        } catch (const GltfProblem& problem) {
+            problems[i] = imageField(image) + ": " + problem.message;
+        }
+    });
+    for (const std::string& problem : problems) // the first in the file, whichever came first
+        if (!problem.empty())
+            throw GltfProblem{problem};
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+        if (!foreign[i].empty())
+            model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
+}
+
+namespace {
+
+// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
+void lookAt(const GltfModel& model, int image, bool used)
+{
+    // Signature, length and type, IHDR's 13 bytes, checksum.
+    constexpr std::size_t kPngHeader = 33;
+    ImageSource source = findImage(model, image, /*mayMiss*/ true);
+    std::vector<std::byte> held;
+    if (!source.resource.file.empty()) {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(source.resource.file, error);
+        if (error || size == 0 || size >= kPngHeader)
+            return;
+        held = readImageFile(source.resource.file, model.limits);
+        source.bytes = held;
+    }
+    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
+        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes) && foreignFormat(source.bytes).empty())
+        failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
+}
+
+} // namespace
+
+void GltfMaterials::checkUnusedImages() const
+{
+    const json none = json::array();
+    const json& file = model_.file.json;
+    const json& images = file.contains("images") ? file["images"] : none;
+    for (int i = 0; i < static_cast<int>(images.size()); ++i) {
+        const bool used = slots_.contains(i);
+        if (used && model_.limits.pixels != Pixels::none)
+            continue; // it was decoded
+        try {
+            lookAt(model_, i, used);
+        } catch (const GltfProblem& problem) {
+            if (used || scene_.instances.empty()) // or the images are all that there is
+                throw;
+            model_.warnings.add(problem.message, "nothing uses this image, it is left out");
+        }
+    }
+}
+
+} // namespace cotan

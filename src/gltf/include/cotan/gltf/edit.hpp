@@ -1,0 +1,139 @@
+// Changing a glTF file and leaving alone what is not meant: names, extras, extensions that we do not
+// know, attributes of any type, images, animations.
+//
+//     auto document = openGltfDocument("in.gltf");
+//     auto changed = setGltfTangents(*document, tangents);
+//     auto written = writeGltf(*document, "out.glb");
+//
+// Indices of materials, textures, images, meshes and nodes in `root` stay as they are while the
+// document is open. Only writing removes what has fallen out of use, and works on a copy.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cotan/files/limits.hpp"
+#include "cotan/scene/scene.hpp"
+#include "cotan/result.hpp"
+
+namespace cotan {
+
+struct GltfSource; // the file as it was read; never changes
+
+struct GltfDocument {
+    // The file's JSON, members in their order, its structure checked. May be changed at will but for
+    // `accessors`, `bufferViews` and `buffers`: the functions below take care of those. Buffer views
+    // from `source` on are new; their bytes are in `added`.
+    nlohmann::ordered_json root;
+    std::vector<std::vector<std::byte>> added;
+    std::vector<std::string> notes; // what the user should know about the changes; one line each
+    std::shared_ptr<const GltfSource> source;
+};
+
+// Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
+// are not opened. Errors (ErrorKind::input): those of loadGltf; EXT_meshopt_compression.
+Result<GltfDocument> openGltfDocument(const std::filesystem::path& file,
+                                      const LoadLimits& limits = {});
+
+// A scene as a new document: one mesh with one primitive for each of its meshes, materials of
+// metallic-roughness, images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes
+// without vertices are not for glTF: the caller keeps to scenes that were loaded or made with triangles.
+// Errors: ErrorKind::output where there is no memory for a PNG; images of floats cannot be stored
+// (ErrorKind::input).
+Result<GltfDocument> gltfDocumentOf(const Scene& scene);
+
+// ---- geometry -------------------------------------------------------------------------------
+
+// One primitive as a triangle list. Attributes are as the file has them, dequantised but not
+// normalised; arrays are empty or have one entry a vertex. Vertices that no triangle uses are left
+// out. Morph targets and skins are not applied.
+struct GltfGeometry {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::vector<glm::vec2> texcoords;  // as the normal map reads them: its uv set, transformed
+    std::vector<std::uint32_t> indices; // three a triangle; strips and fans are unrolled
+    int texcoordSet = 0;                // which uv set that is
+};
+
+// mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
+// empty geometry.
+// Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh,
+                                  std::size_t primitive);
+
+// ---- tangents -------------------------------------------------------------------------------
+
+// Tangents for one primitive, one per corner, in the order of GltfGeometry::indices.
+struct GltfCornerTangents {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;
+    std::vector<glm::vec4> corners;
+};
+
+// Gives primitives TANGENT, in place of what they had. A vertex is copied, with all its attributes
+// and morph targets, only where corners that share it differ; primitives that share their
+// attributes go on sharing them if all of them are given in one call. Strips and fans become lists.
+// Returns how many vertices were added.
+// Errors (ErrorKind::input): compressed geometry, no NORMAL; ErrorKind::usage: corners of the wrong
+// number. On error the document is unchanged.
+Result<std::size_t> setGltfTangents(GltfDocument& document,
+                                    std::span<const GltfCornerTangents> tangents);
+
+// Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
+Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
+
+// ---- images ---------------------------------------------------------------------------------
+
+// The encoded bytes of an image, wherever they are. Errors: ErrorKind::input.
+Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image,
+                                              const LoadLimits& limits = {});
+
+// New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg".
+// Whatever the image was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras
+// are kept.
+void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
+                      const std::string& mimeType);
+
+// A new image; returns its index.
+std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes,
+                         const std::string& mimeType, const std::string& name);
+
+// A texture that reads `image` and is else like `texture` (sampler, name, extras); returns its
+// index. Extensions that name another source (KHR_texture_basisu, EXT_texture_webp, ...) are left out.
+std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image);
+
+// A copy of a material; returns its index.
+std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material);
+
+// ---- writing --------------------------------------------------------------------------------
+
+struct GltfWritten {
+    std::vector<std::filesystem::path> files; // the model first
+    std::size_t bytesBefore = 0; // model, buffers and image files that it used; embedded or beside
+    std::size_t bytesAfter = 0;
+    std::vector<std::string> notes; // the document's and those of writing
+};
+
+// Writes NAME.glb (one file: image files are embedded) or NAME.gltf with NAME.bin; then images keep
+// their relative URIs and are copied if the folder is another one, and new ones become files NAME-IMAGE.png or .jpg,
+// with a number where another file has that name. All buffers become one.
+// Accessors, views, images and bytes that the file used and now nothing uses are removed, and all
+// indices follow; where an extension that we do not know might refer to them, they are kept, and a
+// note says so. Whatever fails, nothing is left behind.
+// Errors: ErrorKind::usage for another extension than .glb and .gltf; ErrorKind::output where a file
+// cannot be written or an image to be copied would replace a different file; ErrorKind::input where
+// an image file cannot be read.
+Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesystem::path& file,
+                              const LoadLimits& limits = {});
+
+} // namespace cotan

@@ -1,0 +1,201 @@
+// glTF 2.0 and GLB files to Scene, through tinygltf.
+//
+// tinygltf parses the structure; it does not get to see buffers, images or the file system. What
+// it would believe without looking (types, indices, lengths) is checked before and after it.
+#include <map>
+#include <new>
+
+#include "cotan/gltf/load.hpp"
+#include "material.hpp"
+#include "mesh.hpp"
+#include "nodes.hpp"
+
+namespace cotan {
+
+namespace {
+
+// A mesh of the file as one node needs it: primitives depend on the node where there are morph
+// weights or a skin.
+struct MeshUse {
+    int mesh = -1;
+    int skin = -1;
+    std::vector<double> weights;
+    auto operator<=>(const MeshUse&) const = default;
+};
+
+class SceneBuilder {
+public:
+    SceneBuilder(GltfModel& model, Scene& scene)
+        : model_(model), scene_(scene), materials_(model, scene), nodes_(readGltfNodes(model))
+    {
+    }
+
+    void build()
+    {
+        readSkins();
+        placeMeshes();
+        checkUnusedMeshes();
+        scene_.lights = readGltfLights(model_, nodes_);
+        scene_.cameras = readGltfCameras(model_, nodes_);
+        materials_.checkUnusedImages();
+        materials_.decodeImages();
+        if (scene_.instances.empty())
+            model_.warnings.add("scene", "nothing to draw: no triangles");
+    }
+
+private:
+    // For each joint its world matrix times its inverse bind matrix.
+    void readSkins()
+    {
+        for (std::size_t i = 0; i < model_.tiny.skins.size(); ++i) {
+            const tinygltf::Skin& skin = model_.tiny.skins[i];
+            const std::string field = fmt::format("skins[{}]", i);
+            std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
+            if (skin.inverseBindMatrices >= 0)
+                bind = readGltfMatrices(model_, skin.inverseBindMatrices, skin.joints.size(),
+                                        field + ".inverseBindMatrices");
+            std::vector<glm::dmat4>& joints = joints_.emplace_back();
+            for (std::size_t j = 0; j < skin.joints.size(); ++j)
+                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])]
+                                 * glm::dmat4(bind[j]));
+        }
+    }
+
+    Mesh finish(GltfPrimitive&& primitive)
+    {
+        const int set = gltfNormalMapSet(model_, primitive.material);
+        return finishGltfMesh(std::move(primitive), set, model_.warnings);
+    }
+
+    const tinygltf::Mesh& sourceMesh(int mesh) const
+    {
+        return model_.tiny.meshes[static_cast<std::size_t>(mesh)];
+    }
+
+    // The scene's meshes for a use, made when it is met first.
+    const std::vector<int>& meshesFor(const MeshUse& use)
+    {
+        const auto [entry, isNew] = made_.emplace(use, std::vector<int>());
+        if (!isNew)
+            return entry->second;
+        for (std::size_t p = 0; p < sourceMesh(use.mesh).primitives.size(); ++p) {
+            auto primitive = readGltfPrimitive(model_, use.mesh, p, use.weights);
+            if (!primitive)
+                continue;
+            if (use.skin >= 0)
+                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)],
+                                  model_.warnings);
+            const int material = primitive->material;
+            Mesh mesh = finish(std::move(*primitive));
+            mesh.material = materials_.use(material, mesh);
+            entry->second.push_back(static_cast<int>(scene_.meshes.size()));
+            scene_.meshes.push_back(std::move(mesh));
+        }
+        return entry->second;
+    }
+
+    bool hasJoints(int mesh) const
+    {
+        for (const tinygltf::Primitive& p : sourceMesh(mesh).primitives)
+            if (!p.attributes.contains("JOINTS_0"))
+                return false;
+        return true;
+    }
+
+    MeshUse useOf(int node)
+    {
+        const tinygltf::Node& n = model_.tiny.nodes[static_cast<std::size_t>(node)];
+        MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
+        if (use.skin >= 0 && !hasJoints(use.mesh)) {
+            use.skin = -1;
+            model_.warnings.add(fmt::format("nodes[{}]", node),
+                                "its mesh lacks JOINTS_0, so its skin is ignored");
+        }
+        return use;
+    }
+
+    void addInstances(int node, const std::vector<int>& meshes,
+                      const std::vector<glm::mat4>& placements)
+    {
+        const std::string& name = model_.tiny.nodes[static_cast<std::size_t>(node)].name;
+        if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
+            failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
+        for (const glm::mat4& placement : placements)
+            for (const int mesh : meshes)
+                scene_.instances.push_back(
+                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh,
+                     placement});
+    }
+
+    // A skin puts vertices into world space by itself: the node's transform does not count.
+    void placeMeshes()
+    {
+        for (const int node : nodes_.visible) {
+            if (model_.tiny.nodes[static_cast<std::size_t>(node)].mesh < 0)
+                continue;
+            const MeshUse use = useOf(node);
+            const std::vector<int>& meshes = meshesFor(use);
+            addInstances(node, meshes,
+                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)}
+                                       : gltfPlacements(model_, nodes_, node));
+        }
+    }
+
+    // Meshes that no node shows are read and dropped: damage in them is damage in the file.
+    void checkUnusedMeshes()
+    {
+        std::vector<bool> used(model_.tiny.meshes.size(), false);
+        for (const auto& [use, meshes] : made_)
+            used[static_cast<std::size_t>(use.mesh)] = true;
+        for (std::size_t m = 0; m < used.size(); ++m)
+            for (std::size_t p = 0; !used[m] && p < model_.tiny.meshes[m].primitives.size(); ++p)
+                if (auto primitive = readGltfPrimitive(model_, static_cast<int>(m), p, {}))
+                    finish(std::move(*primitive));
+    }
+
+    GltfModel& model_;
+    Scene& scene_;
+    GltfMaterials materials_;
+    GltfNodes nodes_;
+    std::vector<std::vector<glm::dmat4>> joints_; // by skin
+    std::map<MeshUse, std::vector<int>> made_;
+};
+
+Scene load(const std::filesystem::path& path, const LoadLimits& limits)
+{
+    GltfModel model;
+    model.limits = limits;
+    model.file = openGltf(path, limits, model.warnings);
+    checkGltfShape(model.file.json, limits, model.warnings);
+    loadGltfBuffers(model.file, limits);
+    model.tiny = parseGltfStructure(model.file.json);
+    checkGltfAccessors(model);
+
+    Scene scene;
+    scene.name = path.stem().string();
+    SceneBuilder(model, scene).build();
+    scene.warnings = model.warnings.lines();
+    return scene;
+}
+
+} // namespace
+
+Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    const auto failed = [&](const std::string& what) {
+        const std::string name = file.string();
+        const std::string message = what.starts_with(name) ? what : name + ": " + what;
+        return inputError(oneLine(message));
+    };
+    try {
+        return load(file, limits);
+    } catch (const GltfProblem& problem) {
+        return failed(problem.message);
+    } catch (const std::bad_alloc&) {
+        return failed("not enough memory for what the file asks for");
+    } catch (const std::exception& problem) {
+        return failed(problem.what());
+    }
+}
+
+} // namespace cotan

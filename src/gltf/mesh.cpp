@@ -1,0 +1,193 @@
+// Normals and tangents of a primitive, checked and made fit for use.
+#include "mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace cotan {
+
+namespace {
+
+// Lengths within this of one are taken as unit: the corners of a signed 8-bit grid are off by up
+// to sqrt(3)/2/127 = 0.0069.
+constexpr float kUnitTolerance = 0.01f;
+
+// Lengths within this of one are unit as far as floats and six decimals go. Such normals keep their
+// bits: normalising again would make some equal that differ, and weld their vertices.
+constexpr double kUnitRounding = 2e-6;
+
+// ---- normals --------------------------------------------------------------------------------
+
+template<class T> void spread(std::vector<T>& values, const std::vector<std::uint32_t>& order)
+{
+    if (values.empty())
+        return;
+    std::vector<T> copy;
+    copy.reserve(order.size());
+    for (const std::uint32_t i : order)
+        copy.push_back(values[i]);
+    values = std::move(copy);
+}
+
+glm::vec3 unitOrZero(glm::dvec3 v)
+{
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
+}
+
+// glTF asks for flat normals where a primitive has none: every corner gets a vertex of its own
+// with its triangle's normal. Triangles without area get a zero normal.
+void makeFlat(Mesh& mesh)
+{
+    spread(mesh.positions, mesh.indices);
+    spread(mesh.texcoords[0], mesh.indices);
+    spread(mesh.texcoords[1], mesh.indices);
+    spread(mesh.colors, mesh.indices);
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.positions[i];
+        const glm::dvec3 b = mesh.positions[i + 1];
+        const glm::dvec3 c = mesh.positions[i + 2];
+        const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
+        std::fill_n(mesh.normals.begin() + static_cast<std::ptrdiff_t>(i), 3, n);
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        mesh.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
+{
+    std::size_t zero = 0;
+    std::size_t odd = 0;
+    for (glm::vec3& n : mesh.normals) {
+        const double length = glm::length(glm::dvec3(n));
+        zero += length == 0;
+        odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
+        if (std::abs(length - 1) > kUnitRounding)
+            n = unitOrZero(n);
+    }
+    if (zero > 0)
+        warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
+    if (odd > 0)
+        warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
+}
+
+// ---- tangents -------------------------------------------------------------------------------
+
+void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
+{
+    std::size_t zero = 0;
+    std::size_t odd = 0;
+    std::size_t signs = 0;
+    for (glm::vec4& t : mesh.tangents) {
+        const glm::dvec3 direction(t);
+        const double length = glm::length(direction);
+        zero += length == 0;
+        const bool offUnit = length > 0 && std::abs(length - 1) > kUnitTolerance;
+        odd += offUnit;
+        if (offUnit)
+            t = glm::vec4(unitOrZero(direction), t.w);
+        signs += std::abs(std::abs(t.w) - 1) > kUnitTolerance;
+        t.w = t.w < 0 ? -1.0f : 1.0f;
+    }
+    if (zero > 0)
+        warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
+    if (odd > 0)
+        warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
+    if (signs > 0)
+        warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
+}
+
+// Twice the signed area of a triangle in uv.
+float uvArea(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first)
+{
+    const glm::vec2 a = uv[mesh.indices[first]];
+    const glm::vec2 p = uv[mesh.indices[first + 1]] - a;
+    const glm::vec2 q = uv[mesh.indices[first + 2]] - a;
+    return p.x * q.y - p.y * q.x;
+}
+
+// The handedness that the uv of a triangle ask for, seen from the side its normals are on: glTF's
+// bitangent points against +v (v runs down), so a triangle that is not mirrored, whose area in
+// (u, v) is negative, has w = +1. 0: unknown, because uv or triangle have no area.
+int handednessFromUv(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first)
+{
+    const auto corner = [&](std::size_t k) { return mesh.indices[first + k]; };
+    const glm::dvec3 a = mesh.positions[corner(0)];
+    const glm::dvec3 face = glm::cross(glm::dvec3(mesh.positions[corner(1)]) - a,
+                                       glm::dvec3(mesh.positions[corner(2)]) - a);
+    const glm::vec3 n = mesh.normals[corner(0)] + mesh.normals[corner(1)] + mesh.normals[corner(2)];
+    const double side = glm::dot(face, glm::dvec3(n));
+    const float area = uvArea(mesh, uv, first);
+    if (area == 0 || side == 0)
+        return 0;
+    return (area < 0) == (side > 0) ? 1 : -1;
+}
+
+void checkHandedness(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
+{
+    const std::vector<glm::vec2>& uv = mesh.texcoords[static_cast<std::size_t>(set)];
+    if (mesh.tangents.empty() || uv.empty())
+        return;
+    std::size_t known = 0;
+    std::size_t against = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const int expected = handednessFromUv(mesh, uv, i);
+        float sum = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            sum += mesh.tangents[mesh.indices[i + k]].w;
+        known += expected != 0;
+        against += expected != 0 && (sum > 0) != (expected > 0);
+    }
+    if (against * 2 > known)
+        warnings.add(field, "TANGENT.w inverted: its sign contradicts the texture coordinates",
+                     against, "triangles");
+}
+
+void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
+{
+    const std::vector<glm::vec2>& uv = mesh.texcoords[static_cast<std::size_t>(set)];
+    if (uv.empty())
+        return;
+    std::size_t flat = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        flat += uvArea(mesh, uv, i) == 0;
+    if (flat > 0)
+        warnings.add(field, "no area in the texture coordinates of the normal map: no frame there",
+                     flat, "triangles");
+}
+
+} // namespace
+
+Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)
+{
+    Mesh mesh;
+    mesh.name = std::move(source.name);
+    mesh.positions = std::move(source.positions);
+    mesh.normals = std::move(source.normals);
+    mesh.tangents = std::move(source.tangents);
+    mesh.texcoords = std::move(source.texcoords);
+    mesh.colors = std::move(source.colors);
+    mesh.indices = std::move(source.triangles);
+    for (const glm::vec3& p : mesh.positions)
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            failGltf("{}: a position is beyond the range of float once it is morphed and skinned",
+                     source.field);
+    if (mesh.normals.empty()) {
+        warnings.add(source.field, "no NORMAL, flat normals are made");
+        makeFlat(mesh);
+    } else {
+        normalizeNormals(mesh, source.field, warnings);
+    }
+    normalizeTangents(mesh, source.field, warnings);
+    const bool usable = normalMapSet == 0 || normalMapSet == 1;
+    checkHandedness(mesh, usable ? normalMapSet : 0, source.field, warnings);
+    if (usable)
+        checkUvArea(mesh, normalMapSet, source.field, warnings);
+    return mesh;
+}
+
+} // namespace cotan

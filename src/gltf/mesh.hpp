@@ -1,0 +1,45 @@
+// glTF primitives to meshes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cotan/scene/scene.hpp"
+#include "model.hpp"
+
+namespace cotan {
+
+// A primitive as it stands in the file, triangulated, with the vertices that its triangles use, in
+// the order of the file. Arrays are empty or have one entry a vertex.
+struct GltfPrimitive {
+    std::string name;  // of the mesh, with the primitive's number where there are several
+    std::string field; // meshes[i].primitives[j]
+    int material = -1; // index into the file's materials; -1: the default material
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents;
+    std::array<std::vector<glm::vec2>, 2> texcoords;
+    std::vector<glm::vec4> colors;
+    std::vector<std::vector<glm::uvec4>> joints; // one for each set JOINTS_n with WEIGHTS_n
+    std::vector<std::vector<glm::vec4>> weights;
+    std::vector<std::uint32_t> triangles;
+};
+
+// Reads and checks one primitive and applies its morph targets. morphWeights: as in the file,
+// empty: all zero. Nothing for points and lines (said in a warning).
+std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::size_t primitive,
+                                               const std::vector<double>& morphWeights);
+
+// Moves the vertices to where the joints put them. joints: for each joint of the skin, its world
+// matrix times its inverse bind matrix. Normals go by the inverse transpose, tangents with the
+// surface; where the joints mirror, TANGENT.w changes sign, and where they mirror everything, so
+// does the winding.
+void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints,
+                       GltfWarnings& warnings);
+
+// Makes the mesh: unit normals (flat ones where the file has none), tangents with w = +-1. What is
+// odd about them is said. normalMapSet: the uv set that the material's normal map uses, or -1.
+Mesh finishGltfMesh(GltfPrimitive&& primitive, int normalMapSet, GltfWarnings& warnings);
+
+} // namespace cotan

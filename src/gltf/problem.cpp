@@ -1,0 +1,60 @@
+#include "problem.hpp"
+
+#include <algorithm>
+
+namespace cotan {
+
+void failGltfVersion1(const std::string& field)
+{
+    failGltf("{}: glTF version 1 is not supported, expected 2.0; gltf-pipeline (npm) converts it: "
+             "npx gltf-pipeline -i OLD.gltf -o NEW.glb",
+             field);
+}
+
+void GltfWarnings::add(const std::string& where, const std::string& what, std::size_t count,
+                       const std::string& unit)
+{
+    auto same = std::find_if(entries_.begin(), entries_.end(),
+                             [&](const Entry& e) { return e.what == what; });
+    // Names from the file may make every line different; nobody reads thousands.
+    constexpr std::size_t kMost = 100;
+    if (same == entries_.end() && entries_.size() >= kMost) {
+        ++leftOut_;
+        return;
+    }
+    if (same == entries_.end())
+        same = entries_.insert(entries_.end(), Entry{where, what, unit, 0, 0});
+    ++same->places;
+    same->count += count;
+}
+
+std::vector<std::string> GltfWarnings::lines() const
+{
+    std::vector<std::string> lines;
+    for (const Entry& e : entries_) {
+        std::string line = e.where;
+        if (e.places > 1)
+            line += fmt::format(" and {} more", e.places - 1);
+        line += ": " + e.what;
+        if (e.count > 0)
+            line += fmt::format(" ({}: {})", e.unit, e.count);
+        lines.push_back(oneLine(line));
+    }
+    if (leftOut_ > 0)
+        lines.push_back(fmt::format("{} more warnings are left out", leftOut_));
+    return lines;
+}
+
+std::string oneLine(const std::string& text)
+{
+    constexpr std::size_t kLongest = 500;
+    std::string line = text.substr(0, kLongest);
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            c = ' ';
+    while (!line.empty() && line.back() == ' ')
+        line.pop_back();
+    return text.size() > kLongest ? line + "..." : line;
+}
+
+} // namespace cotan

@@ -1,0 +1,108 @@
+#include "cotan/image/file.hpp"
+
+#include <algorithm>
+#include <new>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+#include "cotan/files/output.hpp"
+#include "cotan/files/bytes.hpp"
+#include "cotan/image/convert.hpp"
+#include "formats.hpp"
+#include "jpeg.hpp"
+#include "png.hpp"
+#include "sandboxed.hpp"
+
+namespace cotan {
+
+namespace {
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
+                     const LoadLimits& limits)
+{
+    if (isPng(bytes))
+        return readPng(bytes, name, limits);
+    if (isJpeg(bytes))
+        if (auto image = readJpeg(bytes, name, limits))
+            return *std::move(image);
+    if (!knownImage(bytes, name))
+        return inputError(fmt::format(
+            "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data",
+            name));
+    if (!limits.sandbox.program.empty())
+        return decodeSandboxed(bytes, name, limits);
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->read(bytes, name, limits);
+}
+
+} // namespace
+
+std::string foreignFormat(std::span<const std::byte> bytes)
+{
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
+    if (head.starts_with("RIFF") && head.ends_with("WEBP"))
+        return "WebP";
+    if (head.starts_with("\xabKTX 20\xbb"))
+        return "KTX2";
+    if (head.starts_with("DDS "))
+        return "DDS";
+    return head.size() == 12 && head.substr(4) == "ftypavif" ? "AVIF" : "";
+}
+
+Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
+                          const LoadLimits& limits)
+{
+    try {
+        return decode(bytes, name, limits);
+    } catch (const std::bad_alloc&) {
+        return inputError(fmt::format("{}: not enough memory for the image", name));
+    }
+}
+
+Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    try {
+        const auto bytes = readFileBytes(file, limits.fileBytes);
+        if (!bytes)
+            return bytes.error();
+        return decodeImage(*bytes, file.string(), limits);
+    } catch (const std::bad_alloc&) {
+        return inputError(fmt::format("{}: not enough memory for the file", file.string()));
+    }
+}
+
+namespace {
+
+Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    if (lowerExtension(file) == ".png")
+        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name)
+                                                : writePng(file, image, name);
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->write(file, image, name);
+}
+
+} // namespace
+
+Status writeImage(const std::filesystem::path& file, const Image& image)
+{
+    const std::string name = file.string();
+    if (!writableImage(file))
+        return usageError(
+            fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"",
+                        name, file.extension().string()));
+    if (image.width <= 0 || image.height <= 0
+        || image.data.size() != image.pixelCount() * image.bytesPerPixel())
+        return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name,
+                                      image.width, image.height, image.data.size()));
+    return writeBeside(
+        file, [&](const std::filesystem::path& beside) { return write(beside, image, name); });
+}
+
+} // namespace cotan

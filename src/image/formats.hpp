@@ -1,0 +1,52 @@
+// Every image format beyond reading and writing PNG and reading JPEG. OpenImageIO does them; it
+// lives in a module of its own that is loaded on first use, because its libraries (250 of them on
+// Debian) take half a second and 130 MB to load, and most runs meet nothing but PNG and JPEG.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "cotan/image/rows.hpp"
+#include "cotan/files/limits.hpp"
+#include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan {
+
+// What the module offers.
+struct ImageFormats {
+    const char* version; // of the build; must be ours, as C++ types are passed
+
+    // As decodeImage, for JPEG, TIFF, OpenEXR, Radiance HDR, BMP, DDS (by their first bytes) and
+    // TGA (which has none, by the extension of `name`).
+    Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name,
+                          const LoadLimits& limits);
+
+    // Writes .exr .tif .tiff .tga .jpg .jpeg .hdr. JPEG and HDR have no alpha and drop it; TGA and
+    // JPEG take floats clamped to [0,1] at 8 bits. `name` is for messages.
+    Status (*write)(const std::filesystem::path& file, const Image& image, const std::string& name);
+
+    // As openRows, for files that start as TIFF, OpenEXR or Radiance HDR; `head` is how this one starts.
+    Result<std::unique_ptr<RowReader>> (*openRows)(const std::filesystem::path& file, std::span<const std::byte> head,
+                                                   const LoadLimits& limits);
+
+    // As createRows, for the extension of `name`; `file` is where to write and appears at once.
+    Result<std::unique_ptr<RowWriter>> (*createRows)(const std::filesystem::path& file, const RowFormat& format,
+                                                     int threads, const std::string& name);
+};
+
+// The module. Errors: ErrorKind::unavailable where it is missing or does not load.
+Result<const ImageFormats*> imageFormats();
+
+// Whether the bytes, or the extension of `name`, are of a format that the module reads; and whether
+// it writes files of that name. What nothing knows is refused without loading it.
+bool knownImage(std::span<const std::byte> bytes, const std::string& name);
+bool writableImage(const std::filesystem::path& file);
+
+} // namespace cotan
+
+// The module's only symbol.
+extern "C" const cotan::ImageFormats* cotanImageFormats();

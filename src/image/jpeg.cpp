@@ -1,0 +1,158 @@
+#include "jpeg.hpp"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+
+#include <fmt/format.h>
+// libjpeg's header needs <cstdio> before it.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "cotan/image/size.hpp"
+
+namespace cotan {
+
+namespace {
+
+// A progressive file may repeat the whole picture in any number of scans; real ones have about ten.
+// Each costs about a nanosecond a pixel, even if it is empty.
+constexpr std::size_t kMostScans = 100;
+constexpr std::size_t kMostScannedPixels = 4'000'000'000;
+
+// libjpeg reports errors by calling back and must be left by longjmp, so the functions that call
+// it hold nothing with a destructor.
+struct Decoder {
+    jpeg_decompress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    std::jmp_buf escape{};
+    char message[JMSG_LENGTH_MAX] = "";
+
+    Decoder() = default;
+    ~Decoder() { jpeg_destroy_decompress(&jpeg); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+};
+
+void onError(j_common_ptr common)
+{
+    auto* decoder = static_cast<Decoder*>(common->client_data);
+    common->err->format_message(common, decoder->message);
+    std::longjmp(decoder->escape, 1);
+}
+
+// libjpeg paints over damage and goes on; where picture data is missing or wrong, we do not.
+void onMessage(j_common_ptr common, int level)
+{
+    const int code = common->err->msg_code;
+    if (level < 0
+        && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE))
+        onError(common);
+}
+
+void onOutput(j_common_ptr) {}
+
+bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
+{
+    jpeg_decompress_struct& jpeg = decoder.jpeg;
+    jpeg.err = jpeg_std_error(&decoder.errors);
+    decoder.errors.error_exit = onError;
+    decoder.errors.emit_message = onMessage;
+    decoder.errors.output_message = onOutput;
+    jpeg.client_data = &decoder;
+    if (setjmp(decoder.escape))
+        return false;
+    jpeg_create_decompress(&jpeg); // keeps err and client_data
+    jpeg_mem_src(&jpeg, data, size);
+    jpeg_read_header(&jpeg, TRUE);
+    return true;
+}
+
+bool readPixels(Decoder& decoder, unsigned char* pixels, std::size_t rowBytes)
+{
+    jpeg_decompress_struct& jpeg = decoder.jpeg;
+    if (setjmp(decoder.escape))
+        return false;
+    jpeg.out_color_space = JCS_EXT_RGBA;
+    jpeg_start_decompress(&jpeg);
+    while (jpeg.output_scanline < jpeg.output_height) {
+        JSAMPROW row = pixels + jpeg.output_scanline * rowBytes;
+        jpeg_read_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_decompress(&jpeg);
+    return true;
+}
+
+// The scans that the markers of a file begin: of data between them an 0xff is followed by 0 or is a
+// restart marker.
+std::size_t countScans(std::span<const std::byte> bytes)
+{
+    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+    std::size_t scans = 0;
+    for (std::size_t at = 0; at + 1 < bytes.size();) {
+        const void* const found = std::memchr(data + at, 0xff, bytes.size() - 1 - at);
+        if (!found)
+            break;
+        at = std::size_t(static_cast<const unsigned char*>(found) - data) + 1;
+        const unsigned char marker = data[at];
+        if (marker == 0xda)
+            ++scans;
+        const bool bare = marker == 0 || marker == 0xff || marker == 1 || (marker >= 0xd0 && marker <= 0xd9);
+        if (!bare && at + 2 < bytes.size()) // its length counts itself
+            at += 1 + (std::size_t(data[at + 1]) << 8 | data[at + 2]);
+    }
+    return scans;
+}
+
+// What a file asks for beyond its pixels: time for every scan, and, of a progressive one, all its
+// coefficients, of two bytes each. jpeg: after its header.
+std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<const std::byte> bytes,
+                                const std::string& name, const LoadLimits& limits)
+{
+    const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
+    const std::size_t scans = countScans(bytes);
+    if (scans > kMostScans || scans * pixels > kMostScannedPixels)
+        return inputError(fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels", name,
+                                      kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
+    std::size_t coefficients = 0;
+    for (int c = 0; c < jpeg.num_components; ++c)
+        coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
+    const bool buffered = jpeg.progressive_mode || scans > 1;
+    if (buffered && coefficients * sizeof(JCOEF) > limits.imageBytes)
+        return inputError(fmt::format("{}: its {} scans of {} x {} pixels take {} bytes, the limit is {}", name, scans,
+                                      jpeg.image_width, jpeg.image_height, coefficients * sizeof(JCOEF),
+                                      limits.imageBytes));
+    return std::nullopt;
+}
+
+} // namespace
+
+bool isJpeg(std::span<const std::byte> bytes)
+{
+    return bytes.size() >= 3 && std::memcmp(bytes.data(), "\xff\xd8\xff", 3) == 0;
+}
+
+std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
+                                      const LoadLimits& limits)
+{
+    Decoder decoder;
+    const auto broken = [&] {
+        return inputError(fmt::format("{}: broken JPEG: {}", name, decoder.message));
+    };
+    if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
+        return broken();
+    if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
+        return *error;
+    const J_COLOR_SPACE stored = decoder.jpeg.jpeg_color_space;
+    if (stored != JCS_GRAYSCALE && stored != JCS_YCbCr && stored != JCS_RGB)
+        return std::nullopt;
+    const int width = int(decoder.jpeg.image_width), height = int(decoder.jpeg.image_height);
+    if (auto error = checkImageSize(width, height, PixelType::unorm8, name, limits))
+        return *error;
+    Image image = makeImage(width, height, PixelType::unorm8, name);
+    if (!readPixels(decoder, image.bytes8(), std::size_t(width) * 4))
+        return broken();
+    return image;
+}
+
+} // namespace cotan

@@ -1,0 +1,242 @@
+// The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
+#include "oiio.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+#include "cotan/image/convert.hpp"
+#include "formats.hpp"
+#include "cotan/image/size.hpp"
+
+namespace cotan {
+
+namespace oiio {
+
+namespace {
+
+template<class T> void complete(T* pixel, std::size_t count, int channels, T one)
+{
+    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
+        if (channels == 2)
+            pixel[3] = pixel[1];
+        if (channels <= 2)
+            pixel[1] = pixel[2] = pixel[0];
+        if (channels == 1 || channels == 3)
+            pixel[3] = one;
+    }
+}
+
+} // namespace
+
+std::string oneLine(std::string text)
+{
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
+        text.pop_back();
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+std::string formatOf(std::span<const std::byte> bytes)
+{
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
+                                std::min<std::size_t>(bytes.size(), 16));
+    if (head.starts_with("\xff\xd8\xff"))
+        return "jpeg";
+    using namespace std::string_view_literals;
+    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv)
+        || head.starts_with("MM\0+"sv))
+        return "tiff";
+    if (head.starts_with("\x76\x2f\x31\x01"))
+        return "openexr";
+    if (head.starts_with("#?"))
+        return "hdr";
+    if (head.starts_with("BM"))
+        return "bmp";
+    if (head.starts_with("DDS "))
+        return "dds";
+    return "targa";
+}
+
+PixelType pixelType(OIIO::TypeDesc format)
+{
+    if (format == OIIO::TypeDesc::UINT8)
+        return PixelType::unorm8;
+    return format == OIIO::TypeDesc::UINT16 ? PixelType::unorm16 : PixelType::float32;
+}
+
+OIIO::TypeDesc typeDesc(PixelType type)
+{
+    if (type == PixelType::unorm8)
+        return OIIO::TypeDesc::UINT8;
+    return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+void completeChannels(Image& image, int channels)
+{
+    switch (image.type) {
+    case PixelType::unorm8:
+        return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
+    case PixelType::unorm16:
+        return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
+    case PixelType::float32:
+        return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
+    }
+}
+
+std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
+{
+    if (spec.depth > 1 || spec.deep)
+        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
+    if (spec.nchannels < 1)
+        return inputError(fmt::format("{}: the image has no channels", name));
+    return std::nullopt;
+}
+
+OIIO::ImageSpec readConfig()
+{
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
+    config.attribute("oiio:reorient", 0);
+    return config;
+}
+
+OutputFormat outputFormat(const std::string& extension)
+{
+    if (extension == ".exr")
+        return OutputFormat{.floatOnly = true};
+    if (extension == ".hdr")
+        return OutputFormat{.channels = 3, .floatOnly = true};
+    if (extension == ".tif" || extension == ".tiff")
+        return OutputFormat{};
+    if (extension == ".tga")
+        return OutputFormat{.eightBitOnly = true};
+    return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
+}
+
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension)
+{
+    OIIO::ImageSpec spec(width, height, channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
+    // The same picture gives the same bytes: no time of writing.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (extension == ".exr" || extension == ".tif" || extension == ".tiff")
+        spec.attribute("compression", "zip");
+    if (extension == ".jpg" || extension == ".jpeg")
+        spec.attribute("CompressionQuality", 95);
+    return spec;
+}
+
+} // namespace oiio
+
+using namespace oiio;
+
+namespace {
+
+// What a header may claim beyond the size of the picture: channels that we do not use and the
+// blocks that a reader allocates.
+std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name,
+                               const LoadLimits& limits)
+{
+    if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
+        return error;
+    if (auto error = checkLayers(spec, name))
+        return error;
+    const double tile = double(spec.tile_width) * double(spec.tile_height);
+    const double stored = std::max(double(spec.width) * double(spec.height), tile)
+        * double(spec.pixel_bytes(/*native=*/true));
+    if (stored > double(limits.imageBytes))
+        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
+                                      name, stored, limits.imageBytes));
+    return std::nullopt;
+}
+
+// Two channels of a DDS (BC5) are red and green, not grey and alpha. They are 8 bits.
+void spreadTwo(Image& image)
+{
+    for (std::size_t i = 0; i < image.pixelCount() && image.type == PixelType::unorm8; ++i) {
+        image.bytes8()[4 * i + 2] = 128;
+        image.bytes8()[4 * i + 3] = 255;
+    }
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
+                     const std::string& format, const LoadLimits& limits)
+{
+    const auto broken = [&](const std::string& why) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+    };
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    if (const auto problem = checkFileLayout(memory, format, limits))
+        return broken(*problem);
+    const auto input = OIIO::ImageInput::create(format);
+    if (!input)
+        return broken(OIIO::geterror());
+    input->threads(1); // callers decode images side by side
+    input->set_ioproxy(&memory);
+    OIIO::ImageSpec spec;
+    if (!input->open("image." + format, spec, readConfig()))
+        return broken(input->geterror());
+    if (auto error = checkSpec(spec, name, limits))
+        return *error;
+
+    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+    const int channels = std::min(spec.nchannels, 4);
+    if (!input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
+                           OIIO::stride_t(image.bytesPerPixel())))
+        return broken(input->geterror());
+    if (format == "dds" && channels == 2)
+        spreadTwo(image);
+    else
+        completeChannels(image, channels);
+    return image;
+}
+
+Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name,
+                           const LoadLimits& limits)
+{
+    const std::string format = formatOf(bytes);
+    try {
+        return decode(bytes, name, format, limits);
+    } catch (const std::exception& e) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(e.what())));
+    }
+}
+
+Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    const std::string extension = lowerExtension(file);
+    const OutputFormat format = outputFormat(extension);
+    if (format.eightBitOnly && image.type != PixelType::unorm8)
+        return writeWithOiio(file, toUnorm8(image), name);
+    try {
+        const auto output = OIIO::ImageOutput::create(extension.substr(1));
+        if (!output)
+            return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
+        output->threads(1);
+        const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
+        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
+        if (!output->open(file.string(), spec)
+            || !output->write_image(typeDesc(image.type), image.data.data(),
+                                    OIIO::stride_t(image.bytesPerPixel()))
+            || !output->close())
+            return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
+    } catch (const std::exception& e) {
+        return outputError(fmt::format("{}: {}", name, oneLine(e.what())));
+    }
+    return Done{};
+}
+
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows};
+
+} // namespace
+} // namespace cotan
+
+extern "C" const cotan::ImageFormats* cotanImageFormats() { return &cotan::kFormats; }

@@ -1,0 +1,61 @@
+// What the module's two ways of reading and writing share.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "cotan/image/rows.hpp"
+#include "cotan/files/limits.hpp"
+#include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan::oiio {
+
+// Without trailing spaces and line breaks.
+std::string oneLine(std::string text);
+
+// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
+// as extensions are often wrong.
+std::string formatOf(std::span<const std::byte> bytes);
+
+PixelType pixelType(OIIO::TypeDesc format);
+OIIO::TypeDesc typeDesc(PixelType type);
+
+// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
+void completeChannels(Image& image, int channels);
+
+// Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
+// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory by those numbers,
+// or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
+std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format,
+                                           const LoadLimits& limits);
+
+// What a header may claim beside its size.
+std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name);
+
+// How values are to be read: as they are stored.
+OIIO::ImageSpec readConfig();
+
+struct OutputFormat {
+    int channels = 4; // at most
+    bool eightBitOnly = false;
+    bool floatOnly = false;
+};
+OutputFormat outputFormat(const std::string& extension);
+
+// channels: no more than the format has.
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension);
+
+// ImageFormats::openRows and createRows.
+Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,
+                                            const LoadLimits& limits);
+Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format,
+                                              int threads, const std::string& name);
+
+} // namespace cotan::oiio

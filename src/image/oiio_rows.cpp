@@ -1,0 +1,197 @@
+// The module's rows: pictures through OpenImageIO, a few lines at a time.
+#include <algorithm>
+#include <cstring>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+#include "cotan/image/size.hpp"
+#include "oiio.hpp"
+
+namespace cotan::oiio {
+
+namespace {
+
+using Input = std::unique_ptr<OIIO::ImageInput>;
+
+class Reader : public RowReader {
+public:
+    Reader(Input input, const OIIO::ImageSpec& spec, std::string format)
+        : input_(std::move(input)), spec_(spec), format_(std::move(format)), channels_(std::min(spec.nchannels, 4))
+    {
+    }
+
+    Status read(Image& strip) override
+    {
+        try {
+            const bool done = spec_.tile_height > 0 ? fromTiles(strip) : scanlines(strip);
+            if (!done)
+                return broken(input_->geterror());
+        } catch (const std::exception& e) {
+            return broken(e.what());
+        }
+        next_ += strip.height;
+        completeChannels(strip, channels_);
+        return Done{};
+    }
+
+private:
+    Error broken(const std::string& why) const
+    {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format_, oneLine(why)));
+    }
+
+    bool scanlines(Image& strip)
+    {
+        const int first = spec_.y + next_;
+        return input_->read_scanlines(0, 0, first, first + strip.height, 0, 0, channels_, typeDesc(type),
+                                      strip.data.data(), OIIO::stride_t(strip.bytesPerPixel()));
+    }
+
+    // Files of tiles: a row of tiles is kept, and rows are taken from it.
+    bool fromTiles(Image& strip)
+    {
+        const std::size_t rowBytes = std::size_t(width) * strip.bytesPerPixel();
+        for (int y = 0; y < strip.height; ++y) {
+            const int row = next_ + y, first = row / spec_.tile_height * spec_.tile_height;
+            if (first != tileRow_) {
+                const int rows = std::min(spec_.tile_height, height - first);
+                if (tiles_.height != rows)
+                    tiles_ = makeImage(width, rows, type);
+                if (!input_->read_tiles(0, 0, spec_.x, spec_.x + width, spec_.y + first, spec_.y + first + rows, 0, 1,
+                                        0, channels_, typeDesc(type), tiles_.data.data(),
+                                        OIIO::stride_t(strip.bytesPerPixel())))
+                    return false;
+                tileRow_ = first;
+            }
+            std::memcpy(strip.data.data() + std::size_t(y) * rowBytes,
+                        tiles_.data.data() + std::size_t(row - first) * rowBytes, rowBytes);
+        }
+        return true;
+    }
+
+    Input input_;
+    OIIO::ImageSpec spec_;
+    std::string format_;
+    int channels_;
+    int next_ = 0;
+    Image tiles_;
+    int tileRow_ = -1;
+};
+
+class Writer : public RowWriter {
+public:
+    Writer(std::unique_ptr<OIIO::ImageOutput> output, RowFormat format, std::string name)
+        : output_(std::move(output)), format_(format), name_(std::move(name))
+    {
+    }
+
+    Status write(const Image& strip) override
+    {
+        return guarded([&] {
+            const int first = next_;
+            next_ += strip.height;
+            return output_->write_scanlines(first, next_, 0, typeDesc(format_.type), strip.data.data(),
+                                            OIIO::stride_t(strip.bytesPerPixel()));
+        });
+    }
+
+    Status finish() override
+    {
+        return guarded([&] { return output_->close(); });
+    }
+
+private:
+    template<class Work> Status guarded(Work work)
+    {
+        try {
+            if (work())
+                return Done{};
+            return outputError(fmt::format("{}: {}", name_, oneLine(output_->geterror())));
+        } catch (const std::exception& e) {
+            return outputError(fmt::format("{}: {}", name_, oneLine(e.what())));
+        }
+    }
+
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    RowFormat format_;
+    std::string name_;
+    int next_ = 0;
+};
+
+// What one row, or one row of tiles, may take.
+std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& name, const LoadLimits& limits)
+{
+    if (spec.width <= 0 || spec.height <= 0)
+        return inputError(fmt::format("{}: the image size is {} x {}", name, spec.width, spec.height));
+    if (auto error = checkLayers(spec, name))
+        return error;
+    const double rows = std::max(spec.tile_height, 1);
+    const double stored = std::max(double(spec.width), double(spec.tile_width)) * rows
+        * std::max(double(spec.pixel_bytes(/*native=*/true)), 16.0);
+    if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
+        return inputError(fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes",
+                                      name, spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
+    if (limits.expect)
+        limits.expect(std::size_t(stored));
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,
+                                            const LoadLimits& limits)
+{
+    const std::string name = file.string(), format = formatOf(head);
+    const auto broken = [&](const std::string& why) {
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+    };
+    try {
+        OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
+        if (const auto problem = checkFileLayout(layout, format, limits))
+            return broken(*problem);
+        Input input = OIIO::ImageInput::create(format);
+        if (!input)
+            return broken(OIIO::geterror());
+        OIIO::ImageSpec spec;
+        if (!input->open(name, spec, readConfig()))
+            return broken(input->geterror());
+        if (auto error = checkRows(spec, name, limits))
+            return *error;
+        auto reader = std::make_unique<Reader>(std::move(input), spec, format);
+        reader->name = name;
+        reader->width = spec.width;
+        reader->height = spec.height;
+        reader->type = pixelType(spec.format);
+        reader->alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        return std::unique_ptr<RowReader>(std::move(reader));
+    } catch (const std::exception& e) {
+        return broken(e.what());
+    }
+}
+
+Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format,
+                                              int threads, const std::string& name)
+{
+    const std::string extension = lowerExtension(name);
+    const OutputFormat limits = outputFormat(extension);
+    try {
+        auto output = OIIO::ImageOutput::create(extension.substr(1));
+        if (!output)
+            return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
+        output->threads(threads);
+        const int channels = std::min(format.alpha ? 4 : 3, limits.channels);
+        const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF)
+            : limits.floatOnly        ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
+            : limits.eightBitOnly     ? OIIO::TypeDesc(OIIO::TypeDesc::UINT8)
+                                      : typeDesc(format.type);
+        if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, extension)))
+            return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
+        return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(output), format, name));
+    } catch (const std::exception& e) {
+        return outputError(fmt::format("{}: {}", name, oneLine(e.what())));
+    }
+}
+
+} // namespace cotan::oiio

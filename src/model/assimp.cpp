@@ -1,0 +1,281 @@
+// Models through Assimp: checked before, watched during, checked after.
+#include <algorithm>
+#include <exception>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/defs.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include "assimp_convert.hpp"
+#include "assimp_files.hpp"
+#include "collada_check.hpp"
+#include "cotan/files/extension.hpp"
+#include "cotan/files/bytes.hpp"
+#include "source_material.hpp"
+#include "ply_check.hpp"
+#include "scene_check.hpp"
+
+// Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
+// place of the library's function, so that a file that trips over one is refused like any other.
+namespace Assimp {
+
+ASSIMP_API void aiAssertViolation(const char* expression, const char* file, int line);
+
+void aiAssertViolation(const char* expression, const char*, int)
+{
+    throw std::runtime_error(std::string("broken or unsupported model; expected ") + expression);
+}
+
+} // namespace Assimp
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The model on its way through the reader.
+struct Job {
+    fs::path file; // as passed, for messages
+    fs::path canonical;
+    fs::path folder;       // canonical
+    std::string extension; // lower case, with the dot
+    const LoadLimits& limits;
+    std::vector<std::byte> bytes;
+    FileRequests requests;
+    Scene scene;
+
+    std::string name() const { return file.string(); }
+};
+
+Status openModel(Job& job)
+{
+    auto bytes = readFileBytes(job.file, job.limits.fileBytes);
+    if (!bytes)
+        return bytes.error();
+    job.bytes = *std::move(bytes);
+    std::error_code error;
+    job.canonical = fs::canonical(job.file, error);
+    if (error)
+        return inputError(fmt::format("{}: {}", job.name(), error.message()));
+    // A link to a model elsewhere: its textures lie beside the model. The name decides the format.
+    job.folder = job.canonical.parent_path();
+    job.extension = lowerExtension(job.file);
+    job.scene.name = job.file.filename().string();
+    return Done{};
+}
+
+// Bytes that converting takes, in round figures: an array of each kind, twice.
+std::size_t bytesToConvert(const aiScene& source)
+{
+    std::size_t bytes = 0;
+    for (unsigned m = 0; m < source.mNumMeshes; ++m)
+        bytes += 64 * std::size_t(source.mMeshes[m]->mNumVertices) + 128 * std::size_t(source.mMeshes[m]->mNumFaces);
+    return bytes;
+}
+
+// What can be checked in the bytes before Assimp trusts them.
+Status checkBytes(Job& job)
+{
+    if (job.extension == ".ply")
+        return checkPly(job.bytes, job.name(), job.limits);
+    if (job.extension == ".dae")
+        return checkCollada(job.bytes, job.name());
+    return Done{};
+}
+
+// Leaves only the reader of this extension: no guessing by contents.
+bool keepOneReader(Assimp::Importer& importer, const std::string& extension)
+{
+    bool found = false;
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        const std::string known = fmt::format(" {} ", importer.GetImporterInfo(i)->mFileExtensions);
+        if (known.find(fmt::format(" {} ", extension.substr(1))) != std::string::npos) {
+            found = true;
+            continue;
+        }
+        Assimp::BaseImporter* other = importer.GetImporter(i);
+        importer.UnregisterLoader(other);
+        delete other;
+    }
+    return found;
+}
+
+const aiScene* import(Job& job, Assimp::Importer& importer)
+{
+    importer.SetIOHandler(new ModelFiles(job.canonical, job.bytes, job.limits, job.requests));
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    return importer.ReadFile(job.canonical.string(), 0);
+}
+
+// Assimp's own steps trust the indices, and that what is counted is there.
+Status checkIndices(const aiScene& source, const Job& job)
+{
+    for (unsigned m = 0; m < source.mNumMeshes; ++m) {
+        const aiMesh& mesh = *source.mMeshes[m];
+        if ((mesh.mNumVertices > 0 && !mesh.mVertices) || (mesh.mNumFaces > 0 && !mesh.mFaces))
+            return inputError(fmt::format("{}: mesh {}: expected {} vertices and {} faces, found none", job.name(),
+                                          mesh.mName.C_Str(), mesh.mNumVertices, mesh.mNumFaces));
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            const aiFace& face = mesh.mFaces[f];
+            if (face.mNumIndices > 0 && !face.mIndices)
+                return inputError(fmt::format("{}: mesh {}: face {}: expected {} indices, found none", job.name(),
+                                              mesh.mName.C_Str(), f, face.mNumIndices));
+            for (unsigned i = 0; i < face.mNumIndices; ++i)
+                if (face.mIndices[i] >= mesh.mNumVertices)
+                    return inputError(fmt::format(
+                        "{}: mesh {}: face {}: expected an index below {}, found {}", job.name(),
+                        mesh.mName.C_Str(), f, mesh.mNumVertices, face.mIndices[i]));
+        }
+    }
+    return Done{};
+}
+
+Status checkCounts(const aiScene& source, const Job& job)
+{
+    std::size_t vertices = 0, triangles = 0;
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+        vertices += source.mMeshes[i]->mNumVertices;
+        triangles += source.mMeshes[i]->mNumFaces;
+    }
+    // Before equal vertices are merged every corner has its own: three times the limit.
+    if (vertices / 3 > job.limits.vertices)
+        return inputError(
+            fmt::format("{}: over the limit of {} vertices", job.name(), job.limits.vertices));
+    if (triangles > job.limits.triangles)
+        return inputError(
+            fmt::format("{}: over the limit of {} triangles", job.name(), job.limits.triangles));
+    return Done{};
+}
+
+void convertMaterials(const aiScene& source, Job& job)
+{
+    TextureReader textures(job.scene, &source, job.folder, job.limits);
+    for (unsigned i = 0; i < source.mNumMaterials; ++i)
+        job.scene.materials.push_back(convertMaterial(*source.mMaterials[i], textures, job.scene));
+}
+
+// The material for meshes that name none.
+int defaultMaterial(Scene& scene, int& cached)
+{
+    if (cached < 0) {
+        Material material;
+        material.name = "default";
+        material.baseColor = {0.8f, 0.8f, 0.8f, 1};
+        material.metallic = 0;
+        material.roughness = 0.7f;
+        material.doubleSided = true;
+        cached = int(scene.materials.size());
+        scene.materials.push_back(material);
+    }
+    return cached;
+}
+
+Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
+{
+    MeshChoices choices;
+    choices.regenerateNormals = job.extension == ".stl";
+    std::vector<int> indexOf(source.mNumMeshes, -1);
+    int fallback = -1;
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+        auto mesh = convertMesh(*source.mMeshes[i], job.name(), choices, job.scene);
+        if (!mesh)
+            return mesh.error();
+        if (mesh->indices.empty())
+            continue;
+        const unsigned material = source.mMeshes[i]->mMaterialIndex;
+        mesh->material =
+            material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
+        warnAboutTexcoords(*mesh, job.scene);
+        indexOf[i] = int(job.scene.meshes.size());
+        job.scene.meshes.push_back(*std::move(mesh));
+    }
+    return indexOf;
+}
+
+void warnAboutSource(const aiScene& source, Job& job)
+{
+    auto& warnings = job.scene.warnings;
+    for (const std::string& file : job.requests.outside)
+        warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
+    for (const std::string& file : job.requests.tooLarge)
+        warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file,
+                                       job.limits.fileBytes));
+    if (source.mNumLights > 0)
+        warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit",
+                                       source.mNumLights));
+}
+
+std::string oneLine(std::string text)
+{
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+Result<Scene> load(Job& job)
+{
+    if (Status ok = openModel(job); !ok)
+        return ok.error();
+    if (Status ok = checkBytes(job); !ok)
+        return ok.error();
+
+    Assimp::Importer importer;
+    if (!keepOneReader(importer, job.extension))
+        return inputError(
+            fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
+    const aiScene* source = import(job, importer);
+    if (!source || !source->mRootNode)
+        return inputError(fmt::format("{}: {}", job.name(), oneLine(importer.GetErrorString())));
+    if (Status ok = checkIndices(*source, job); !ok)
+        return ok.error();
+    if (job.limits.expect)
+        job.limits.expect(bytesToConvert(*source));
+    source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+    if (!source || source->mNumMeshes == 0)
+        return inputError(fmt::format("{}: expected triangles, found none", job.name()));
+    if (Status ok = checkCounts(*source, job); !ok)
+        return ok.error();
+
+    warnAboutSource(*source, job);
+    convertMaterials(*source, job);
+    auto meshes = convertMeshes(*source, job);
+    if (!meshes)
+        return meshes.error();
+    if (Status ok = convertNodes(*source, job.name(), *meshes, job.limits, job.scene); !ok)
+        return ok.error();
+    if (job.scene.instances.empty())
+        return inputError(fmt::format("{}: expected triangles, found none", job.name()));
+    if (Status sound = checkScene(job.scene, job.name()); !sound)
+        return sound.error();
+    return std::move(job.scene);
+}
+
+} // namespace
+
+Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
+{
+    Job job{file, {}, {}, {}, limits, {}, {}, {}};
+    try {
+        return load(job);
+    } catch (const std::bad_alloc&) {
+        return inputError(fmt::format("{}: not enough memory for the model", file.string()));
+    } catch (const std::exception& e) {
+        return inputError(fmt::format("{}: {}", file.string(), oneLine(e.what())));
+    } catch (...) {
+        return inputError(fmt::format("{}: the reader failed", file.string()));
+    }
+}
+
+} // namespace cotan

@@ -1,0 +1,76 @@
+#include "cotan/scene/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
+constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
+constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
+const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
+
+// The smallest distance along `back` from the centre at which every corner of the box is inside
+// the picture with the margin.
+float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
+{
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
+    const glm::vec3 up = glm::cross(back, right);
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p =
+            halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float beside =
+            std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
+        distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
+    }
+    return distance;
+}
+
+} // namespace
+
+Camera fitCamera(const Bounds& box, int width, int height)
+{
+    Camera camera;
+    camera.name = "fit";
+    camera.verticalFieldOfView = kVerticalFieldOfView;
+    if (box.empty() || !finite(box.low) || !finite(box.high))
+        return camera;
+
+    // Halved before they are subtracted, so that the largest floats do not overflow.
+    const glm::vec3 centre = box.low * 0.5f + box.high * 0.5f;
+    const glm::vec3 halfSize = box.high * 0.5f - box.low * 0.5f;
+    const bool flat = halfSize.z < kFlatness * std::max(halfSize.x, halfSize.y);
+    const glm::vec3 back = flat ? glm::vec3(0, 0, 1) : glm::normalize(kFrontRightAbove);
+
+    const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
+    const float tanY = std::tan(kVerticalFieldOfView / 2);
+    float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
+    if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
+        const glm::vec3 size = glm::abs(centre);
+        distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
+    }
+    const glm::vec3 eye = centre + back * distance;
+    if (!finite(eye)) // a box of nearly the largest floats
+        return camera;
+    camera.target = centre;
+    camera.eye = eye;
+    return camera;
+}
+
+std::vector<Light> defaultLights()
+{
+    Light key;
+    key.kind = LightKind::directional;
+    key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
+    return {key};
+}
+
+} // namespace cotan

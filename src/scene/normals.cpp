@@ -1,0 +1,244 @@
+// Vertex normals from triangles: generateNormals of geometry.hpp.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/scene/geometry.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Index = std::uint32_t;
+
+// A point of space each: vertices at equal positions get equal numbers.
+std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
+{
+    // By bit pattern, which orders every float; adding zero makes -0 and 0 one.
+    const auto key = [&](Index i) {
+        return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f);
+    };
+    std::vector<Index> order(positions.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::ranges::sort(order, [&](Index a, Index b) { return key(a) < key(b); });
+    std::vector<Index> number(positions.size());
+    Index current = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && key(order[i]) != key(order[i - 1]))
+            ++current;
+        number[order[i]] = current;
+    }
+    return number;
+}
+
+struct Face {
+    glm::dvec3 normal{0};          // unit; zero for a degenerate triangle
+    std::array<double, 3> angle{}; // at each corner, radians
+    bool usable() const { return normal != glm::dvec3(0); }
+};
+
+double angleBetween(glm::dvec3 a, glm::dvec3 b)
+{
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+std::vector<Face> measureFaces(const Mesh& mesh)
+{
+    std::vector<Face> faces(mesh.triangleCount());
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const std::array<glm::dvec3, 3> p = {glm::dvec3(mesh.positions[mesh.indices[3 * f]]),
+                                             glm::dvec3(mesh.positions[mesh.indices[3 * f + 1]]),
+                                             glm::dvec3(mesh.positions[mesh.indices[3 * f + 2]])};
+        const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = glm::length(cross);
+        if (!(length > 0) || !std::isfinite(length))
+            continue;
+        faces[f].normal = cross / length;
+        for (std::size_t c = 0; c < 3; ++c)
+            faces[f].angle[c] = angleBetween(p[(c + 1) % 3] - p[c], p[(c + 2) % 3] - p[c]);
+    }
+    return faces;
+}
+
+// Union-find over corners (three a triangle, numbered as the indices are).
+class Groups {
+public:
+    explicit Groups(std::size_t corners) : parent_(corners)
+    {
+        std::iota(parent_.begin(), parent_.end(), Index(0));
+    }
+    Index find(Index corner)
+    {
+        while (parent_[corner] != corner)
+            corner = parent_[corner] = parent_[parent_[corner]];
+        return corner;
+    }
+    void join(Index a, Index b)
+    {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<Index> parent_;
+};
+
+// An edge of a triangle between two points, and the triangle's corners at the lower and the higher.
+struct Edge {
+    Index low, high;
+    Index cornerAtLow, cornerAtHigh;
+};
+
+std::vector<Edge> sortedEdges(const std::vector<Index>& pointOfCorner)
+{
+    std::vector<Edge> edges;
+    edges.reserve(pointOfCorner.size());
+    for (Index corner = 0; corner < pointOfCorner.size(); ++corner) {
+        const Index next = corner % 3 == 2 ? corner - 2 : corner + 1;
+        Edge edge{pointOfCorner[corner], pointOfCorner[next], corner, next};
+        if (edge.low > edge.high) {
+            std::swap(edge.low, edge.high);
+            std::swap(edge.cornerAtLow, edge.cornerAtHigh);
+        }
+        edges.push_back(edge);
+    }
+    std::ranges::sort(edges, {},
+                      [](const Edge& e) { return std::tuple(e.low, e.high, e.cornerAtLow); });
+    return edges;
+}
+
+// Joins the corners of triangles that meet at an edge within the crease angle.
+void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner,
+                     const std::vector<Face>& faces, double minimumCosine)
+{
+    const std::vector<Edge> edges = sortedEdges(pointOfCorner);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        const Edge& a = edges[i - 1];
+        const Edge& b = edges[i];
+        if (a.low != b.low || a.high != b.high)
+            continue;
+        const Face& faceA = faces[a.cornerAtLow / 3];
+        const Face& faceB = faces[b.cornerAtLow / 3];
+        if (!faceA.usable() || !faceB.usable()
+            || glm::dot(faceA.normal, faceB.normal) < minimumCosine)
+            continue;
+        groups.join(a.cornerAtLow, b.cornerAtLow);
+        groups.join(a.cornerAtHigh, b.cornerAtHigh);
+    }
+}
+
+void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+                  const std::vector<Face>& faces)
+{
+    constexpr Index kNone = ~Index(0);
+    std::vector<Index> first(points, kNone);
+    for (Index corner = 0; corner < pointOfCorner.size(); ++corner) {
+        if (!faces[corner / 3].usable())
+            continue;
+        Index& at = first[pointOfCorner[corner]];
+        if (at == kNone)
+            at = corner;
+        else
+            groups.join(at, corner);
+    }
+}
+
+// One normal a group, at the group's first corner. A corner of a degenerate triangle, which has
+// no group but its own, takes over that of another corner at the same point.
+std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& pointOfCorner,
+                                    std::size_t points, const std::vector<Face>& faces)
+{
+    std::vector<glm::dvec3> sums(pointOfCorner.size(), glm::dvec3(0));
+    for (Index corner = 0; corner < pointOfCorner.size(); ++corner)
+        sums[groups.find(corner)] += faces[corner / 3].normal * faces[corner / 3].angle[corner % 3];
+
+    std::vector<glm::vec3> normals(pointOfCorner.size(), glm::vec3(0));
+    std::vector<glm::vec3> any(points, glm::vec3(0, 0, 1));
+    for (Index corner = 0; corner < pointOfCorner.size(); ++corner) {
+        const Face& face = faces[corner / 3];
+        if (groups.find(corner) != corner || !face.usable())
+            continue;
+        // Sheets back to back cancel out: one of them decides.
+        const double length = glm::length(sums[corner]);
+        normals[corner] = glm::vec3(length > 1e-9 ? sums[corner] / length : face.normal);
+        any[pointOfCorner[corner]] = normals[corner];
+    }
+    for (Index corner = 0; corner < pointOfCorner.size(); ++corner)
+        if (!faces[corner / 3].usable())
+            normals[corner] = any[pointOfCorner[corner]];
+    return normals;
+}
+
+template<class T> void copyLast(std::vector<T>& attribute, Index vertex)
+{
+    if (!attribute.empty())
+        attribute.push_back(T(attribute[vertex]));
+}
+
+Index duplicateVertex(Mesh& mesh, Index vertex)
+{
+    copyLast(mesh.positions, vertex);
+    copyLast(mesh.normals, vertex);
+    copyLast(mesh.tangents, vertex);
+    copyLast(mesh.texcoords[0], vertex);
+    copyLast(mesh.texcoords[1], vertex);
+    copyLast(mesh.colors, vertex);
+    copyLast(mesh.cotangentsU, vertex);
+    copyLast(mesh.cotangentsV, vertex);
+    return Index(mesh.positions.size() - 1);
+}
+
+// Gives every corner a vertex that carries its normal.
+void assignNormals(Mesh& mesh, Groups& groups, const std::vector<glm::vec3>& normals)
+{
+    constexpr Index kNone = ~Index(0);
+    std::vector<Index> groupOfVertex(mesh.vertexCount(), kNone);
+    std::unordered_map<std::uint64_t, Index> splits; // (vertex, group) to the new vertex
+    mesh.normals.assign(mesh.vertexCount(), glm::vec3(0, 0, 1));
+    for (Index corner = 0; corner < mesh.indices.size(); ++corner) {
+        const Index vertex = mesh.indices[corner];
+        const Index group = groups.find(corner);
+        if (groupOfVertex[vertex] == kNone) {
+            groupOfVertex[vertex] = group;
+            mesh.normals[vertex] = normals[group];
+        } else if (groupOfVertex[vertex] != group && mesh.normals[vertex] != normals[group]) {
+            const auto [found, isNew] = splits.try_emplace(std::uint64_t(vertex) << 32 | group, 0);
+            if (isNew) {
+                found->second = duplicateVertex(mesh, vertex);
+                mesh.normals[found->second] = normals[group];
+            }
+            mesh.indices[corner] = found->second;
+        }
+    }
+}
+
+} // namespace
+
+void generateNormals(Mesh& mesh, float creaseDegrees)
+{
+    const std::vector<Index> number = positionNumbers(mesh.positions);
+    std::vector<Index> pointOfCorner(mesh.indices.size());
+    std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return number[i]; });
+    const std::vector<Face> faces = measureFaces(mesh);
+
+    Groups groups(mesh.indices.size());
+    if (creaseDegrees >= 180)
+        joinAtPoints(groups, pointOfCorner, mesh.vertexCount(), faces);
+    else // a hair more than asked, so that faces at exactly the angle count as smooth
+        joinAcrossEdges(groups, pointOfCorner, faces,
+                        std::cos(double(creaseDegrees) * 3.14159265358979323846 / 180) - 1e-6);
+
+    const auto normals = groupNormals(groups, pointOfCorner, mesh.vertexCount(), faces);
+    assignNormals(mesh, groups, normals);
+}
+
+} // namespace cotan

@@ -1,0 +1,115 @@
+#include <utility>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "cotan/shapes/shapes.hpp"
+#include "grid.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr int kMapSide = 512;
+
+struct Look {
+    const char* name;
+    Relief relief;
+    glm::vec3 color; // linear
+    float metallic, roughness;
+};
+
+int addMaterial(Scene& scene, const Look& look)
+{
+    Material material;
+    material.name = look.name;
+    material.baseColor = glm::vec4(look.color, 1);
+    material.metallic = look.metallic;
+    material.roughness = look.roughness;
+    material.normalMap.image = static_cast<int>(look.relief); // images are in the order of Relief
+    scene.materials.push_back(std::move(material));
+    return static_cast<int>(scene.materials.size()) - 1;
+}
+
+// Adds a mesh and its one instance: turned about the vertical, scaled, moved to `place`.
+void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0,
+              float scale = 1)
+{
+    mesh.material = addMaterial(scene, look);
+    glm::mat4 toWorld = glm::translate(glm::mat4(1), place);
+    toWorld = glm::rotate(toWorld, glm::radians(degrees), glm::vec3(0, 1, 0));
+    toWorld = glm::scale(toWorld, glm::vec3(scale));
+    scene.instances.push_back({mesh.name, static_cast<int>(scene.meshes.size()), toWorld});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as
+// artists do to save texture space. `segments` must be even, so that a column of vertices lies
+// on the mirror line.
+Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV)
+{
+    Mesh mesh = makeSphere(radius, segments);
+    for (glm::vec2& uv : mesh.texcoords[0]) {
+        const float u = uv.x > 0.5f ? 1 - uv.x : uv.x;
+        uv = {u * repeatU, uv.y * repeatV};
+    }
+    return mesh;
+}
+
+void addShapes(Scene& scene)
+{
+    addShape(scene, makePlane(40, 20, 24),
+             {"brick floor", Relief::bricks, {0.20f, 0.075f, 0.045f}, 0, 0.7f}, {0, 0, 0});
+    addShape(scene, makeTeapot(12), {"copper", Relief::domes, {0.93f, 0.52f, 0.36f}, 1, 0.32f},
+             {-0.1f, 0, 0}, -25, 1.5f);
+    scene.materials.back().doubleSided = true; // the spout is open
+    addShape(scene, makeTorus(0.46f, 0.19f, 96, 6, 2.5f),
+             {"blue plastic", Relief::waves, {0.02f, 0.08f, 0.32f}, 0, 0.3f},
+             {-1.75f, 0.19f, 1.25f});
+    addShape(scene, makeMirroredSphere(0.5f, 96, 4, 2),
+             {"gold", Relief::domes, {1.0f, 0.71f, 0.29f}, 1, 0.4f}, {1.75f, 0.5f, 0.95f}, -20);
+    addShape(scene, makeCube(0.9f, 1), {"stone", Relief::bricks, {0.26f, 0.25f, 0.23f}, 0, 0.6f},
+             {-2.1f, 0.45f, -0.75f}, 30);
+    Mesh panel = makePatch(2, 0.7f, /*mirrored*/ false, 1);
+    scaleTexcoords(panel, 2, 2);
+    addShape(scene, std::move(panel),
+             {"plaster panel", Relief::domes, {0.30f, 0.32f, 0.30f}, 0, 0.35f}, {1.1f, 0.9f, -1.7f},
+             -12, 1.8f);
+    scene.materials.back().doubleSided = true; // a sheet without a back
+}
+
+Light keyLight()
+{
+    Light light;
+    light.direction = glm::normalize(glm::vec3(0.72f, -0.75f, -0.4f)); // from the upper left
+    light.color = {1.0f, 0.97f, 0.92f};
+    light.intensity = 3;
+    return light;
+}
+
+Camera frontCamera()
+{
+    Camera camera;
+    camera.name = "front";
+    camera.verticalFieldOfView = glm::radians(27.0f);
+    camera.eye = {0.9f, 2.6f, 6.6f};
+    camera.target = {-0.1f, 0.62f, 0};
+    return camera;
+}
+
+} // namespace
+
+Scene builtinScene()
+{
+    Scene scene;
+    scene.name = "built-in";
+    for (const Relief kind : {Relief::domes, Relief::bricks, Relief::waves})
+        scene.images.push_back(makeReliefMap(kind, kMapSide));
+    addShapes(scene);
+    scene.lights.push_back(keyLight());
+    scene.cameras.push_back(frontCamera());
+    return scene;
+}
+
+} // namespace cotan
