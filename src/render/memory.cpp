@@ -7,6 +7,9 @@ namespace cotan {
 
 namespace {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
 
 vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
@@ -217,8 +220,6 @@ void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<con
 void Uploader::image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
                      std::size_t bytesPerTexel)
 {
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
     const auto color = vk::ImageAspectFlagBits::eColor;
     transition(recording(), *target.image, color, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eTransferDstOptimal, Stage::eTopOfPipe, {}, Stage::eTransfer,
