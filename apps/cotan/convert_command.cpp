@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "convert_gltf.hpp"
+#include "cotan/draw/painter.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/lint/texel.hpp"
 #include "gltf_open.hpp"
 #include "memory_limit.hpp"
-#include "painter.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "spread_report.hpp"
@@ -221,8 +221,7 @@ Status run(const ConvertCommandOptions& o)
         return frames.error();
     Stopwatch watch;
     if (!o.verify.empty()) { // before anything is done
-        std::string note;
-        if (const auto painter = openPainter(o.device, o.common.threads, note); !painter)
+        if (const auto painter = openPainter(o.device, o.common.threads); !painter)
             return painter.error();
     }
     auto opened = openGltfToEdit(o.model, o.common);
