@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <glm/vec4.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "cotan/report/statistics.hpp"
 #include "cotan/tangents.hpp"
