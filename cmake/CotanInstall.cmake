@@ -54,12 +54,17 @@ foreach(name ${components})
   string(APPEND COTAN_COMPONENT_TABLE "set(cotan_packages_${name} \"${quoted}\")\n")
 
   set(target cotan_${name})
-  install(TARGETS ${target} EXPORT cotanTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS ${target} EXPORT cotanTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   if(NOT name STREQUAL "portable")
     get_target_property(type ${target} TYPE)
     set(library "")
     if(NOT type STREQUAL "INTERFACE_LIBRARY")
-      set(library "-l${target}")
+      get_target_property(file_name ${target} OUTPUT_NAME)
+      if(NOT file_name)
+        set(file_name ${target})
+      endif()
+      set(library "-l${file_name}")
     endif()
     set(definitions "")
     if(name STREQUAL "core")
@@ -67,11 +72,12 @@ foreach(name ${components})
     endif()
     list(JOIN pc_requires " " pc_requires)
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/cotan-${name}.pc @ONLY CONTENT "prefix=\${pcfiledir}/@up@
+libdir=\${prefix}/@CMAKE_INSTALL_LIBDIR@
 Name: cotan-@name@
 Description: @PROJECT_DESCRIPTION@: the part @name@
 Version: @PROJECT_VERSION@
 Requires: @pc_requires@
-Libs: -L\${prefix}/@CMAKE_INSTALL_LIBDIR@ @library@@flags@
+Libs: -L\${libdir} @library@@flags@
 Cflags: -I\${prefix}/@CMAKE_INSTALL_INCLUDEDIR@@definitions@
 ")
     install(FILES ${PROJECT_BINARY_DIR}/cotan-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
