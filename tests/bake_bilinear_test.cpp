@@ -8,7 +8,7 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/low_points.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "tessellation_scene.hpp"
 
 namespace cotan {

@@ -89,13 +89,13 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
 // TANGENT as readers of the frame need it: what was baked with stays, else it is generated or goes.
 Status settleTangents(const BakeCommandOptions& o, const BakeJob& job, GltfDocument& document, std::vector<std::string>& notes)
 {
-    if (job.frame != Frame::mikktspace && job.frame != Frame::vertex) {
+    if (job.frame() != Frame::mikktspace && job.frame() != Frame::vertex) {
         const auto dropped = dropTangents(document, notes);
         return dropped ? Status(Done{}) : dropped.error();
     }
     if (usedStoredTangents(o, job.lowScene))
         return Done{};
-    const auto given = giveTangents(document, job.frame);
+    const auto given = giveTangents(document, job.frame());
     return given ? Status(Done{}) : given.error();
 }
 
@@ -130,7 +130,7 @@ Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Im
     std::vector<std::string> notes;
     if (Status settled = settleTangents(o, job, *document, notes); !settled)
         return settled;
-    if (job.frame != Frame::mikktspace)
+    if (job.frame() != Frame::mikktspace)
         notes.push_back(fmt::format("the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
                                     "glTF asks, will show it wrongly", o.frame));
     const auto written = writeGltf(*document, o.common.output);

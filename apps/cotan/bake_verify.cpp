@@ -25,8 +25,8 @@ constexpr int kViews = 4;
 Scene mappedScene(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
     Scene scene = job.lowScene;
-    putNormalMap(scene, map, job.stored.format, o.material);
-    deriveVertexFrames(scene, job.frame, o.tangents != "stored");
+    putNormalMap(scene, map, job.setup.options.stored.format, o.material);
+    deriveVertexFrames(scene, job.frame(), o.tangents != "stored");
     return scene;
 }
 
@@ -72,12 +72,12 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
         View view;
         view.width = view.height = kSide;
         view.camera = turned(fitCamera(bounds(scene), kSide, kSide), i * 1.5707963);
-        view.frame = int(job.frame);
+        view.frame = int(job.frame());
         view.output = Output::normal;
         const auto drawn = (*painter)->draw(view);
         if (!drawn)
             return drawn.error();
-        const auto expected = expectedNormals(job.low, job.high.front(), job.options, view);
+        const auto expected = expectedNormals(job.setup.low, job.setup.high, job.setup.options.bake, view);
         if (!expected)
             return expected.error();
         auto degrees = anglesBetween(*drawn, *expected);
@@ -96,7 +96,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
                 return w.error();
     }
     const AngleStatistics s = statisticsOf(std::move(all));
-    say(o.common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(job.frame), (*painter)->device(),
+    say(o.common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(job.frame()), (*painter)->device(),
                               toText(s)));
     return nlohmann::ordered_json{{"device", (*painter)->device()}, {"all", toJson(s)}, {"views", views}};
 }
