@@ -54,7 +54,7 @@ Status checkHighOptions(const BakeCommandOptions& o)
     const auto frame = frameFromName(o.highFrame);
     if (!frame)
         return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
-    if (*frame == Frame::nonperspective || *frame == Frame::paperOrthogonal)
+    if (dependsOnView(*frame))
         return usageError(fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
     return Done{};
 }

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "convert_gltf.hpp"
+#include "cotan/convert/convert_model.hpp"
+#include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf/tangents.hpp"
 #include "cotan/image/file.hpp"
 #include "gltf_open.hpp"
 
@@ -89,13 +91,13 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
 // TANGENT as readers of the frame need it: what was baked with stays, else it is generated or goes.
 Status settleTangents(const BakeCommandOptions& o, const BakeJob& job, GltfDocument& document, std::vector<std::string>& notes)
 {
-    if (job.frame != Frame::mikktspace && job.frame != Frame::vertex) {
+    if (!readsTangents(job.frame)) {
         const auto dropped = dropTangents(document, notes);
         return dropped ? Status(Done{}) : dropped.error();
     }
     if (usedStoredTangents(o, job.lowScene))
         return Done{};
-    const auto given = giveTangents(document, job.frame);
+    const auto given = giveTangents(document, {.frame = job.frame, .replace = true, .mappedOnly = true});
     return given ? Status(Done{}) : given.error();
 }
 
