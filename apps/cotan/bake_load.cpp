@@ -75,7 +75,7 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
     const auto frame = frameFromName(o.highFrame);
     if (!frame)
         return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
-    if (*frame == Frame::nonperspective || *frame == Frame::paperOrthogonal)
+    if (dependsOnView(*frame))
         return usageError(fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
     options.highFrame = *frame;
     return Done{};
@@ -157,6 +157,7 @@ Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error)
         {"options.cage", o.cage, ""},
         {"options.matchByName", "--match-by-name", ""},
         {"options.tiles", o.low, " (--udim)"},
+        {"document", o.low, ""},
     };
     for (const auto& [field, words, hint] : all)
         if (error.message.starts_with(std::string(field) + ": "))

@@ -75,6 +75,14 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
     return Done{};
 }
 
+// Whether what is baked has tangents everywhere and they count.
+bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
+{
+    return options.tangents == TangentSource::stored && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+        return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty() || !mesh.tangents.empty();
+    });
+}
+
 // "door_low" and "door_high" are of one name: what stands before the last low or high.
 std::string stem(std::string name)
 {
@@ -120,7 +128,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
     if (!highSurface)
         return highSurface.error();
-    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
+    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = nullptr;
     bake.cage = std::move(cage);
