@@ -1,14 +1,95 @@
-# cmake --install: the core library with its headers, the portable text, the tool. find_package(cotan)
-# then gives cotan::core.
+# cmake --install: every part of the house as a component, the portable text, the tool.
+#   find_package(cotan COMPONENTS lint bake)    gives cotan::lint and cotan::bake
+# and finds what they need and nothing else. Without COMPONENTS: core.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS cotan_core cotan_portable EXPORT cotanTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY include/cotan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# cotan-PART.pc say the same to pkg-config.
+
+# The package, for find_dependency, that a linked target is from; and its name for pkg-config, or its flag.
+set(COTAN_PACKAGE_glm::glm "glm")
+set(COTAN_PACKAGE_Threads::Threads "Threads")
+set(COTAN_PACKAGE_TBB::tbb "TBB")
+set(COTAN_PACKAGE_fmt::fmt "fmt")
+set(COTAN_PACKAGE_nlohmann_json::nlohmann_json "nlohmann_json")
+set(COTAN_PACKAGE_PNG::PNG "PNG")
+set(COTAN_PACKAGE_JPEG::JPEG "JPEG")
+set(COTAN_PACKAGE_assimp::assimp "assimp")
+set(COTAN_PACKAGE_embree "embree 3 CONFIG")
+set(COTAN_PACKAGE_Vulkan::Headers "Vulkan")
+set(COTAN_PC_TBB::tbb "tbb")
+set(COTAN_PC_fmt::fmt "fmt")
+set(COTAN_PC_PNG::PNG "libpng")
+set(COTAN_PC_JPEG::JPEG "libjpeg")
+set(COTAN_PC_assimp::assimp "assimp")
+set(COTAN_FLAG_Threads::Threads "-pthread")
+set(COTAN_FLAG_embree "-lembree3")
+
+file(RELATIVE_PATH up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+get_property(components GLOBAL PROPERTY COTAN_COMPONENTS)
+set(COTAN_COMPONENT_TABLE "")
+foreach(name ${components})
+  get_property(links GLOBAL PROPERTY COTAN_LINKS_${name})
+  set(parts "")
+  set(packages "")
+  set(pc_requires "")
+  set(flags "")
+  foreach(link ${links})
+    if(link MATCHES "^cotan_(.+)$")
+      list(APPEND parts ${CMAKE_MATCH_1})
+      list(APPEND pc_requires cotan-${CMAKE_MATCH_1})
+    elseif(DEFINED COTAN_PACKAGE_${link})
+      list(APPEND packages "${COTAN_PACKAGE_${link}}")
+      if(DEFINED COTAN_PC_${link})
+        list(APPEND pc_requires ${COTAN_PC_${link}})
+      endif()
+      string(APPEND flags " ${COTAN_FLAG_${link}}")
+    elseif(NOT link STREQUAL "${CMAKE_DL_LIBS}")
+      message(FATAL_ERROR "cotan_${name} links ${link}: say in cmake/CotanInstall.cmake which package it is from")
+    endif()
+  endforeach()
+  list(REMOVE_ITEM pc_requires cotan-portable)
+  string(APPEND COTAN_COMPONENT_TABLE "set(cotan_parts_${name} ${parts})\n")
+  string(REPLACE ";" "\" \"" quoted "${packages}")
+  string(APPEND COTAN_COMPONENT_TABLE "set(cotan_packages_${name} \"${quoted}\")\n")
+
+  set(target cotan_${name})
+  install(TARGETS ${target} EXPORT cotanTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  if(NOT name STREQUAL "portable")
+    get_target_property(type ${target} TYPE)
+    set(library "")
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")
+      get_target_property(file_name ${target} OUTPUT_NAME)
+      if(NOT file_name)
+        set(file_name ${target})
+      endif()
+      set(library "-l${file_name}")
+    endif()
+    set(definitions "")
+    if(name STREQUAL "core")
+      set(definitions " -I\${prefix}/share/cotan/shaders -DGLM_FORCE_XYZW_ONLY -std=c++20")
+    endif()
+    list(JOIN pc_requires " " pc_requires)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/cotan-${name}.pc @ONLY CONTENT "prefix=\${pcfiledir}/@up@
+libdir=\${prefix}/@CMAKE_INSTALL_LIBDIR@
+Name: cotan-@name@
+Description: @PROJECT_DESCRIPTION@: the part @name@
+Version: @PROJECT_VERSION@
+Requires: @pc_requires@
+Libs: -L\${libdir} @library@@flags@
+Cflags: -I\${prefix}/@CMAKE_INSTALL_INCLUDEDIR@@definitions@
+")
+    install(FILES ${PROJECT_BINARY_DIR}/cotan-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  endif()
+endforeach()
+
+configure_file(cmake/version.hpp.in ${PROJECT_BINARY_DIR}/include/cotan/version.hpp @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/include/cotan/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cotan)
+get_property(includes GLOBAL PROPERTY COTAN_INCLUDES)
+install(DIRECTORY include/cotan ${includes} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/cotan DESTINATION share/cotan/shaders)
 install(FILES LICENSE DESTINATION share/doc/cotan)
-set_target_properties(cotan_portable PROPERTIES EXPORT_NAME portable)
 install(EXPORT cotanTargets NAMESPACE cotan:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)
 
 configure_package_config_file(cmake/cotanConfig.cmake.in ${PROJECT_BINARY_DIR}/cotanConfig.cmake

@@ -159,6 +159,21 @@ std::string helpOf(const std::vector<std::string>& words)
 }
 
 // A command and its subcommand, and each --option of the line, are what --help has.
+// docs/architecture.md: a row for each folder of src, and no other; the picture has them all.
+TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
+{
+    std::set<std::string> folders, rows;
+    for (const auto& entry : fs::directory_iterator(kSources / "src"))
+        folders.insert(entry.path().filename().string());
+    const std::string plan = readWhole(kSources / "docs/architecture.md"), picture = readWhole(kSources / "docs/architecture.svg");
+    for (const std::string& row : matches(plan, std::regex("\\n\\| `([a-z_]+)` \\|"), 1))
+        rows.insert(row);
+    EXPECT_EQ(rows, folders);
+    EXPECT_GT(folders.size(), 15u);
+    for (const std::string& folder : folders)
+        EXPECT_NE(picture.find(">" + folder + "<"), std::string::npos) << folder;
+}
+
 TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
 {
     std::size_t checked = 0;

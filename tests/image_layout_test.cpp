@@ -477,6 +477,16 @@ TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
     }
 }
 
+TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
+{
+    for (const std::string& name : {std::string("ATI1"), std::string("BC4U"), std::string("ATI2")}) {
+        const std::string plain = dx10(4, 4, 0).substr(0, 128).replace(84, 4, name) + std::string(16, '\x10');
+        const std::string normals = std::string(plain).replace(83, 1, 1, '\x80'); // the flag 0x80000000
+        EXPECT_TRUE(decodeImage(bytesOf(plain), "a.dds")) << name;
+        EXPECT_EQ(bool(decodeImage(bytesOf(normals), "a.dds")), name == "ATI2") << name;
+    }
+}
+
 TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
 {
     std::string file = dx10(1, 1, 0).substr(0, 128);

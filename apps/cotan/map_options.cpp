@@ -1,8 +1,5 @@
 #include "map_options.hpp"
 
-#include <algorithm>
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "cotan/files/extension.hpp"
@@ -12,70 +9,16 @@
 
 namespace cotan::app {
 
-namespace {
-
-struct Word {
-    const char* name;
-    void (*apply)(Convention&);
-};
-
-constexpr Word kWords[] = {
-    {"green-up", [](Convention& c) { c.greenUp = true; }},
-    {"green-down", [](Convention& c) { c.greenUp = false; }},
-    {"exact", [](Convention& c) { c.expansion = Expansion::exact; }},
-    {"biased", [](Convention& c) { c.expansion = Expansion::biased; }},
-    {"signed", [](Convention& c) { c.expansion = Expansion::signedValues; }},
-    {"xyz", [](Convention& c) { c.channels = Channels::xyz; }},
-    {"orthographic", [](Convention& c) { c.channels = Channels::orthographic; }},
-    {"stereographic", [](Convention& c) { c.channels = Channels::stereographic; }},
-    {"slope", [](Convention& c) { c.channels = Channels::slope; }},
-    // Axes of a mesh: all three are needed, and green has no picture to be turned against.
-    {"object", [](Convention& c) { c.kind = MapKind::objectSpace, c.channels = Channels::xyz, c.greenUp = true; }},
-};
-
-bool applyWord(const std::string& text, Convention& convention)
-{
-    const auto word = std::ranges::find_if(kWords, [&](const Word& w) { return text == w.name; });
-    if (word == std::end(kWords))
-        return false;
-    word->apply(convention);
-    return true;
-}
-
-} // namespace
-
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp)
 {
     addCommonOptions(command, options.common, outputHelp);
     addMemoryOption(command, options.memory);
 }
 
-std::string conventionWords()
-{
-    std::string words;
-    for (const ConventionPreset& p : conventionPresets())
-        words += (words.empty() ? "" : " ") + std::string(p.name);
-    words += "; then, after commas,";
-    for (const Word& w : kWords)
-        words += std::string(" ") + w.name;
-    return words;
-}
-
 Result<Convention> parseConvention(const std::string& text, const std::string& option)
 {
-    Convention convention;
-    std::stringstream words(text);
-    std::string word;
-    for (bool first = true; std::getline(words, word, ','); first = false) {
-        const auto preset = first ? conventionFromName(word) : std::nullopt;
-        if (preset)
-            convention = *preset;
-        else if (!applyWord(word, convention))
-            return usageError(fmt::format("{}: expected {}; found '{}'", option, conventionWords(), word));
-    }
-    if (text.empty())
-        return usageError(fmt::format("{}: expected {}; found nothing", option, conventionWords()));
-    return convention;
+    auto convention = conventionFromWords(text);
+    return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
 NormalMapFormat formatInScene(const Convention& convention)

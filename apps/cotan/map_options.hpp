@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common.hpp"
+#include "cotan/convention_words.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/convention.hpp"
@@ -22,15 +23,11 @@ struct MapOptions {
 
 void addMapOptions(CLI::App& command, MapOptions& options, const std::string& outputHelp);
 
-// A convention in words separated by commas: a preset's name, then what differs from it, such as
-// "unity,xyz" or "opengl,biased". `option` is for the message.
+// conventionFromWords with the option in front of its message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
 
 // The same as a material has it: v runs down in everything that was loaded.
 NormalMapFormat formatInScene(const Convention& convention);
-
-// All words that parseConvention knows, for help texts.
-std::string conventionWords();
 
 // Reads a picture within the memory limit. Errors: as readImage.
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options);

@@ -167,13 +167,42 @@ void spreadTwo(Image& image)
     }
 }
 
+// A file in memory. OpenImageIO's own copies what lies in front of the bytes where a reader asks for a place behind them.
+class MemoryFile : public OIIO::Filesystem::IOProxy {
+public:
+    explicit MemoryFile(std::span<const std::byte> bytes) : IOProxy("", Read), bytes_(bytes) {}
+
+    const char* proxytype() const override { return "memory"; }
+    std::size_t size() const override { return bytes_.size(); }
+
+    std::size_t read(void* to, std::size_t count) override
+    {
+        count = pread(to, count, m_pos);
+        m_pos += std::int64_t(count);
+        return count;
+    }
+
+    std::size_t pread(void* to, std::size_t count, std::int64_t offset) override
+    {
+        if (offset < 0 || std::uint64_t(offset) >= bytes_.size())
+            return 0;
+        const auto from = bytes_.subspan(std::size_t(offset));
+        count = std::min(count, from.size());
+        std::copy_n(from.begin(), count, static_cast<std::byte*>(to));
+        return count;
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
                      const std::string& format, const LoadLimits& limits)
 {
     const auto broken = [&](const std::string& why) {
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+    MemoryFile memory(bytes);
     if (const auto problem = checkFileLayout(memory, format, limits))
         return broken(*problem);
     const auto input = OIIO::ImageInput::create(format);

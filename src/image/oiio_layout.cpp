@@ -384,7 +384,11 @@ DdsFormat ddsFormat(Numbers& numbers)
         name += char(numbers.at(84 + i, 1));
     if (name == "DX10")
         return dxgiFormat(numbers.at(128, 4));
-    if (name == "DXT1" || name == "ATI1" || name == "BC4U" || name == "BC4S")
+    // One channel as a normal map: OpenImageIO makes three channels of two that are not there.
+    constexpr std::uint64_t kNormalMap = 0x80000000;
+    if (name == "ATI1" || name == "BC4U" || name == "BC4S")
+        return {flags & kNormalMap ? std::size_t(0) : std::size_t(8), 0};
+    if (name == "DXT1")
         return {8, 0};
     // Not DXT2 and DXT4, whose colours are multiplied by alpha: OpenImageIO divides by an alpha of 0, which ends the process.
     constexpr std::array<std::string_view, 5> kSixteen = {"DXT3", "DXT5", "ATI2", "BC5U", "BC5S"};

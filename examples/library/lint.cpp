@@ -1,0 +1,13 @@
+// What a model will look like without its tangents: lint FILE
+#include <cstdio>
+
+#include <cotan/lint/lint.hpp>
+#include <cotan/model/load.hpp>
+
+int main(int argc, char** argv)
+{
+    const auto scene = cotan::loadScene(argc > 1 ? argv[1] : "");
+    if (!scene)
+        return std::fprintf(stderr, "%s\n", scene.error().message.c_str()), 2;
+    std::printf("%s\n", cotan::lintScene(*scene).recommendation.c_str());
+}

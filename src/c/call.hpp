@@ -1,0 +1,78 @@
+// What all functions of cotan.h share: checks of arguments, errors as codes, no exception over the border.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "cotan.h"
+#include "cotan/result.hpp"
+
+namespace cotan::c {
+
+struct Failure {
+    Error error;
+};
+
+[[noreturn]] inline void fail(ErrorKind kind, std::string message) { throw Failure{{kind, std::move(message)}}; }
+
+inline void require(bool holds, const char* expectation)
+{
+    if (!holds)
+        fail(ErrorKind::usage, expectation);
+}
+
+// Structs of newer callers are longer; of this version they have to be whole.
+template<class T> const T& checked(const T* argument, const char* name)
+{
+    if (!argument)
+        fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
+    if (argument->size < sizeof(T))
+        fail(ErrorKind::usage, std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
+                                   + std::to_string(argument->size));
+    return *argument;
+}
+
+inline std::string_view word(const char* text, const char* name)
+{
+    if (!text)
+        fail(ErrorKind::usage, std::string(name) + ": expected a name, found null");
+    return text;
+}
+
+template<class T> T valueOf(Result<T> result, const char* name)
+{
+    if (!result)
+        fail(result.error().kind, std::string(name) + ": " + result.error().message);
+    return *std::move(result);
+}
+
+inline cotan_status refused(const Error& error, char* message, std::size_t size)
+{
+    if (message && size > 0) {
+        const std::size_t length = std::min(error.message.size(), size - 1);
+        std::memcpy(message, error.message.data(), length);
+        message[length] = '\0';
+    }
+    return cotan_status(error.kind);
+}
+
+// Runs the work of one function.
+template<class Work> cotan_status call(char* message, std::size_t size, Work work)
+try {
+    if (message && size > 0)
+        message[0] = '\0';
+    work();
+    return COTAN_OK;
+} catch (const Failure& failure) {
+    return refused(failure.error, message, size);
+} catch (const std::bad_alloc&) {
+    return refused({ErrorKind::unavailable, "not enough memory"}, message, size);
+} catch (const std::exception& e) {
+    return refused({ErrorKind::unavailable, e.what()}, message, size);
+}
+
+} // namespace cotan::c

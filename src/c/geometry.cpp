@@ -1,0 +1,122 @@
+// cotan.h: frames and tangents.
+#include <array>
+#include <span>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "call.hpp"
+#include "cotan/cotangent_frame.hpp"
+#include "cotan/tangents.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float)
+              && sizeof(glm::vec4) == 4 * sizeof(float));
+
+glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], array[3 * i + 1], array[3 * i + 2]}; }
+
+Frame frameFromDifferences(const char* name)
+{
+    const auto frame = frameFromName(word(name, "frame"));
+    if (!frame || info(*frame).source == FrameSource::vertices)
+        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(name) + "'");
+    return *frame;
+}
+
+// Calls work(i, frame there) for every place.
+template<class Work> void forEachPlace(const char* frame, const cotan_places* given, Work work)
+{
+    const Frame kind = frameFromDifferences(frame);
+    const cotan_places& p = checked(given, "places");
+    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy), "places: expected five arrays, found null");
+    for (std::size_t i = 0; i < p.count; ++i) {
+        Differences<float> d;
+        d.dpdx = Vector3f(vec3At(p.dpdx, i));
+        d.dpdy = Vector3f(vec3At(p.dpdy, i));
+        d.duvdx = {p.duvdx[2 * i], p.duvdx[2 * i + 1]};
+        d.duvdy = {p.duvdy[2 * i], p.duvdy[2 * i + 1]};
+        work(i, makeFrame(kind, Covector3f(vec3At(p.normals, i)), d));
+    }
+}
+
+void store(float* array, std::size_t i, const glm::vec3& v)
+{
+    array[3 * i] = v.x, array[3 * i + 1] = v.y, array[3 * i + 2] = v.z;
+}
+
+MeshView viewOf(const cotan_mesh* given)
+{
+    const cotan_mesh& m = checked(given, "mesh");
+    require(m.vertex_count == 0 || (m.positions && m.normals && m.texcoords), "mesh: expected positions, normals and texcoords, found null");
+    require(m.index_count % 3 == 0, "mesh.index_count: expected a multiple of 3");
+    require(m.index_count == 0 || m.indices, "mesh.indices: expected an array, found null");
+    for (std::size_t i = 0; i < m.index_count; ++i)
+        if (m.indices[i] >= m.vertex_count)
+            fail(ErrorKind::input, "mesh.indices[" + std::to_string(i) + "]: expected less than " + std::to_string(m.vertex_count)
+                                       + ", found " + std::to_string(m.indices[i]));
+    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
+            {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
+            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
+            {m.indices, m.index_count}};
+}
+
+} // namespace
+
+int cotan_frame_count(void) { return kFrameCount; }
+
+const char* cotan_frame_name(int frame)
+{
+    return frame >= 0 && frame < kFrameCount ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
+}
+
+cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
+                               char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
+            store(normals, i, perturb(f, vec3At(texels, i)).raw());
+        });
+    });
+}
+
+cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
+                                char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
+            store(texels, i, encode(f, Covector3f(vec3At(normals, i))));
+        });
+    });
+}
+
+cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
+                            size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const std::string_view which = word(kind, "kind");
+        if (which != "mikktspace" && which != "vertex")
+            fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+        require(threads >= 0, "threads: expected 0 or more");
+        require(tangents, "tangents: expected an array, found null");
+        const MeshView view = viewOf(mesh);
+        const std::vector<glm::vec4> made = which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
+        std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
+    });
+}
+
+cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(u && v, "u and v: expected arrays, found null");
+        const Cotangents made = smoothCotangents(viewOf(mesh));
+        std::memcpy(u, made.u.data(), made.u.size() * sizeof(glm::vec3));
+        std::memcpy(v, made.v.data(), made.v.size() * sizeof(glm::vec3));
+    });
+}

@@ -1,0 +1,183 @@
+// cotan.h: normal maps as pixel buffers.
+#include <array>
+#include <cmath>
+
+#include "call.hpp"
+#include "cotan/convention_words.hpp"
+#include "cotan/maps/blend.hpp"
+#include "cotan/maps/green.hpp"
+#include "cotan/maps/height.hpp"
+#include "cotan/maps/mips.hpp"
+#include "cotan/maps/recode.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+constexpr int kMostSide = 65536;
+
+PixelType typeOf(const cotan_picture& p, const char* name)
+{
+    if (p.bits == 8)
+        return PixelType::unorm8;
+    if (p.bits != 16 && p.bits != 32)
+        fail(ErrorKind::usage, std::string(name) + ".bits: expected 8, 16 or 32, found " + std::to_string(p.bits));
+    return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
+}
+
+const cotan_picture& checkedPicture(const cotan_picture* given, const char* name)
+{
+    const cotan_picture& p = checked(given, name);
+    typeOf(p, name);
+    if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
+        fail(ErrorKind::usage, std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width)
+                                   + " x " + std::to_string(p.height));
+    if (!p.pixels)
+        fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
+    return p;
+}
+
+Image imageOf(const cotan_picture* given, const char* name)
+{
+    const cotan_picture& p = checkedPicture(given, name);
+    Image image = makeImage(p.width, p.height, typeOf(p, name));
+    std::memcpy(image.data.data(), p.pixels, image.pixelCount() * image.bytesPerPixel());
+    return image;
+}
+
+// The picture that gets a result of that size.
+const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
+{
+    const cotan_picture& p = checkedPicture(given, name);
+    if (p.width != like.width || p.height != like.height)
+        fail(ErrorKind::usage, std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
+                                   + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
+    return p;
+}
+
+void put(const Image& image, const cotan_picture& p)
+{
+    std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
+}
+
+Convention conventionOf(const char* words, const char* name) { return valueOf(conventionFromWords(word(words, name)), name); }
+
+maps::BlendMode modeOf(const char* text)
+{
+    using M = maps::BlendMode;
+    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {
+        {{"reoriented", M::reoriented}, {"whiteout", M::whiteout}, {"udn", M::udn}, {"slopes", M::slopes}, {"linear", M::linear}}};
+    const std::string_view wanted = word(text, "mode");
+    for (const auto& [name, mode] : kModes)
+        if (name == wanted)
+            return mode;
+    fail(ErrorKind::usage, "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
+}
+
+cotan_picture pictureOf(Image& image)
+{
+    const int bits = image.type == PixelType::unorm8 ? 8 : image.type == PixelType::unorm16 ? 16 : 32;
+    return {sizeof(cotan_picture), image.width, image.height, bits, image.data.data()};
+}
+
+} // namespace
+
+cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        checked(green, "green");
+        const maps::GreenVerdict v = maps::greenOf(imageOf(map, "map"));
+        green->direction = v.green == maps::Green::up ? 1 : v.green == maps::Green::down ? -1 : 0;
+        green->swapped = v.swapped == maps::Swapped::yes ? 1 : v.swapped == maps::Swapped::no ? 0 : -1;
+        green->confidence = v.confidence == maps::Confidence::certain ? 2 : v.confidence == maps::Confidence::likely ? 1 : 0;
+        green->agreement = v.agreement;
+        refused({ErrorKind::usage, v.reason}, green->reason, sizeof green->reason); // copies, cut to its size
+    });
+}
+
+cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map, char* message,
+                               size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Image image = imageOf(map, "map");
+        const cotan_picture& out = output(to_map, "to_map", image);
+        maps::RecodeSettings settings;
+        settings.from = conventionOf(from, "from");
+        settings.to = conventionOf(to, "to");
+        settings.type = typeOf(out, "to_map");
+        require(settings.to.expansion != Expansion::signedValues || settings.type == PixelType::float32,
+                "to: signed values need a picture of 32 bits");
+        require((settings.from.kind == MapKind::objectSpace) == (settings.to.kind == MapKind::objectSpace),
+                "to: expected a map of the same space; object space needs the mesh");
+        maps::RecodeCounts counts;
+        put(maps::recode(image, settings, counts), out);
+    });
+}
+
+cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to, cotan_picture* map,
+                                   char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Image image = imageOf(height, "height");
+        const cotan_picture& out = output(map, "map", image);
+        require(std::isfinite(scale_x) && std::isfinite(scale_y), "scale_x and scale_y: expected finite numbers");
+        maps::FromHeightSettings settings;
+        settings.scaleX = scale_x;
+        settings.scaleY = scale_y;
+        settings.to = conventionOf(to, "to");
+        settings.type = typeOf(out, "map");
+        require(settings.to.expansion != Expansion::signedValues || settings.type == PixelType::float32,
+                "to: signed values need a picture of 32 bits");
+        std::size_t invalid = 0;
+        put(maps::normalsFromHeight(image, settings, invalid), out);
+    });
+}
+
+cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Image image = imageOf(map, "map");
+        require(heights, "heights: expected an array, found null");
+        maps::ToHeightSettings settings;
+        settings.from = conventionOf(from, "from");
+        const maps::Heights made = maps::heightFromNormals(image, settings);
+        std::copy(made.texels.begin(), made.texels.end(), heights);
+    });
+}
+
+cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention, const char* mode,
+                             double strength, cotan_picture* map, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
+        const cotan_picture& out = output(map, "map", under);
+        require(std::isfinite(strength), "strength: expected a finite number");
+        maps::BlendSettings settings;
+        settings.base = settings.detail = settings.to = conventionOf(convention, "convention");
+        settings.mode = modeOf(mode);
+        settings.strength = float(strength);
+        settings.type = typeOf(out, "map");
+        std::size_t invalid = 0;
+        put(maps::blend(under, over, settings, invalid), out);
+    });
+}
+
+cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take, void* user,
+                            char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Image image = imageOf(map, "map");
+        require(take, "take: expected a function, found null");
+        require(roughness >= 0 && roughness <= 1, "roughness: expected 0 to 1");
+        maps::MipSettings settings;
+        settings.from = settings.to = conventionOf(convention, "convention");
+        settings.roughness = roughness;
+        settings.type = image.type;
+        auto levels = maps::mipChain(image, settings);
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            const cotan_picture normals = pictureOf(levels[i].normals), rough = pictureOf(levels[i].roughness);
+            require(take(user, int(i), &normals, &rough) == 0, "take: stopped by the caller");
+        }
+    });
+}

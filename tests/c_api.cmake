@@ -1,0 +1,16 @@
+# The C API: from Python, and by a program in C. CMake's other tests are C++, so the compiler is asked for here.
+# Neither is built with sanitizers, which a library cannot bring along.
+if(CMAKE_CXX_FLAGS MATCHES "fsanitize")
+  return()
+endif()
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME CApi.holdsFromPython
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/c_api_test.py $<TARGET_FILE:cotan_c> ${PROJECT_SOURCE_DIR}/src/c/cotan.map)
+endif()
+enable_language(C)
+add_executable(example_c ${PROJECT_SOURCE_DIR}/examples/c/main.c)
+set_target_properties(example_c PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+target_compile_options(example_c PRIVATE -Wall -Wextra -Wpedantic -Werror)
+target_link_libraries(example_c PRIVATE cotan_c m)
+add_test(NAME CApi.exampleInCRuns COMMAND example_c)
