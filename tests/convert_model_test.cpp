@@ -205,7 +205,7 @@ TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
     refused(documentOf(2, map, 1e5f), {.frames = kThere}, ErrorKind::input, "repeat the map");
     ConvertModelOptions small{.frames = kThere};
     small.limits.imageSide = 8;
-    refused(documentOf(2, map), small, ErrorKind::input, "16x16");
+    refused(documentOf(2, map), small, ErrorKind::input, "16 x 16");
     GltfDocument broken = documentOf(2, map);
     replaceGltfImage(broken, 0, std::vector<std::byte>(5), "image/png");
     refused(broken, {.frames = kThere}, ErrorKind::input, "map");
