@@ -85,8 +85,8 @@ bool has(const GltfDocument& document, const char* attribute)
     return document.root["meshes"][0]["primitives"][0]["attributes"].contains(attribute);
 }
 
-constexpr FramePair kToCotangent{Frame::mikktspace, Frame::cotangent};
-constexpr FramePair kFromCotangent{Frame::cotangent, Frame::mikktspace};
+constexpr FramePair kThere{Frame::mikktspace, Frame::cotangent};
+constexpr FramePair kBack{Frame::cotangent, Frame::mikktspace};
 
 TEST(ConvertModel, aFlatMapStaysFlatInEveryFrame)
 {
@@ -118,7 +118,7 @@ TEST(ConvertModel, onATwiceAsWideRectangleTheSlopeAlongUDoublesForCotangent)
 {
     const Image map = mapOf({0.3, 0.2, 1});
     GltfDocument document = documentOf(2, map);
-    const auto report = convertModel(document, {.frames = kToCotangent, .bits = 16});
+    const auto report = convertModel(document, {.frames = kThere, .bits = 16});
     ASSERT_TRUE(report) << report.error().message;
     const glm::dvec3 old = directionAt(map, 3, 3), found = directionAt(normalMapIn(document), 3, 3);
     EXPECT_NEAR(found.x / found.z, 2 * old.x / old.z, 2e-4); // 16 bits: 1.5e-5 a component, slopes under 1
@@ -137,9 +137,9 @@ TEST(ConvertModel, thereAndBackIsWithinRounding)
 {
     const Image map = makeReliefMap(Relief::waves, 32);
     GltfDocument document = documentOf(2, map);
-    ASSERT_TRUE(convertModel(document, {.frames = kToCotangent, .bits = 16}));
+    ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16}));
     EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // and it does something
-    ASSERT_TRUE(convertModel(document, {.frames = kFromCotangent, .bits = 16}));
+    ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16}));
     EXPECT_LT(largestAngle(map, normalMapIn(document)), 0.02); // 16 bits, twice
 }
 
@@ -147,7 +147,7 @@ TEST(ConvertModel, tangentsAreDroppedGivenOrKept)
 {
     const Image map = mapOf({0.3, 0.2, 1});
     GltfDocument document = documentOf(2, map, 1, true);
-    const auto kept = convertModel(document, {.frames = kToCotangent, .keepTangents = true});
+    const auto kept = convertModel(document, {.frames = kThere, .keepTangents = true});
     ASSERT_TRUE(kept) << kept.error().message;
     EXPECT_EQ(kept->tangents, TangentsAfter::kept);
     EXPECT_TRUE(has(document, "TANGENT"));
@@ -171,7 +171,7 @@ TEST(ConvertModel, progressRunsToOneAndEachMapIsToldOfOnce)
     std::mutex mutex;
     double last = 0, most = 0;
     std::size_t told = 0;
-    const auto report = convertModel(document, {.frames = kToCotangent, .threads = 2,
+    const auto report = convertModel(document, {.frames = kThere, .threads = 2,
                                                 .progress = [&](double share) {
                                                     const std::lock_guard lock(mutex);
                                                     last = share;
@@ -201,14 +201,14 @@ TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
             refused(documentOf(2, map), {.frames = {Frame::mikktspace, f.frame}}, ErrorKind::usage, "depends on the view");
             refused(documentOf(2, map), {.frames = {f.frame, Frame::cotangent}}, ErrorKind::usage, "depends on the view");
         }
-    refused(documentOf(2, map), {.frames = kToCotangent, .bits = 12}, ErrorKind::usage, "found 12");
-    refused(documentOf(2, map, 1e5f), {.frames = kToCotangent}, ErrorKind::input, "repeat the map");
-    ConvertModelOptions small{.frames = kToCotangent};
+    refused(documentOf(2, map), {.frames = kThere, .bits = 12}, ErrorKind::usage, "found 12");
+    refused(documentOf(2, map, 1e5f), {.frames = kThere}, ErrorKind::input, "repeat the map");
+    ConvertModelOptions small{.frames = kThere};
     small.limits.imageSide = 8;
-    refused(documentOf(2, map), small, ErrorKind::input, "16x16");
+    refused(documentOf(2, map), small, ErrorKind::input, "16 x 16");
     GltfDocument broken = documentOf(2, map);
     replaceGltfImage(broken, 0, std::vector<std::byte>(5), "image/png");
-    refused(broken, {.frames = kToCotangent}, ErrorKind::input, "map");
+    refused(broken, {.frames = kThere}, ErrorKind::input, "map");
 }
 
 // ---- tangents alone -------------------------------------------------------------------------
