@@ -4,4 +4,4 @@ cotan_test(figures_test
 target_compile_definitions(figures_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(figures_test cotan)
 
-cotan_test(lighting_test SOURCES lighting_test.cpp LIBRARIES cotan_reference cotan_core cotan_app)
+cotan_test(lighting_test SOURCES lighting_test.cpp LIBRARIES cotan_reference cotan_surface)

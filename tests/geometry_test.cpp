@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -153,6 +154,42 @@ TEST(FitCamera, flatFacingPlaneIsSeenStraightOnAndASolidFromTheRightAndAbove)
     EXPECT_GT(solid.eye.x, 0);
     EXPECT_GT(solid.eye.y, 0);
     EXPECT_GT(solid.eye.z, std::max(solid.eye.x, solid.eye.y));
+}
+
+TEST(TurnedAbout, aQuarterIsCounterclockwiseFromAboveAndFourOfThemComeBack)
+{
+    Camera camera;
+    camera.eye = {1, 2, 5};
+    camera.target = {1, 0, 2};
+    const Camera quarter = turnedAbout(camera, std::numbers::pi / 2);
+    EXPECT_LT(glm::distance(quarter.eye, glm::vec3(4, 2, 2)), 1e-6f); // what was in front (+z) is to the right (+x)
+    EXPECT_EQ(quarter.target, camera.target);
+    EXPECT_EQ(quarter.up, camera.up);
+    EXPECT_LT(glm::distance(turnedAbout(camera, std::numbers::pi * 2).eye, camera.eye), 1e-6f);
+}
+
+TEST(DrawsNormalMaps, asksForAPlacedMeshWithTrianglesAndTheUvOfItsMap)
+{
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].normalMap.image = 0;
+    scene.meshes.resize(1);
+    Mesh& mesh = scene.meshes[0];
+    mesh.positions.resize(3);
+    mesh.indices = {0, 1, 2};
+    mesh.texcoords[0].resize(3);
+    EXPECT_FALSE(drawsNormalMaps(scene)); // nothing is placed
+    scene.instances = {{"", 0, glm::mat4(1)}};
+    EXPECT_TRUE(drawsNormalMaps(scene));
+    scene.materials[0].normalMap.texcoord = 1;
+    EXPECT_FALSE(drawsNormalMaps(scene));
+    mesh.texcoords[1].resize(3);
+    EXPECT_TRUE(drawsNormalMaps(scene));
+    mesh.indices.clear();
+    EXPECT_FALSE(drawsNormalMaps(scene));
+    mesh.indices = {0, 1, 2};
+    scene.materials[0].normalMap.image = -1;
+    EXPECT_FALSE(drawsNormalMaps(scene));
 }
 
 TEST(FitCamera, emptyPointAndEndlessBoxesGiveAFiniteCamera)

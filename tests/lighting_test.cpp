@@ -1,7 +1,7 @@
 // Lighting in tangent space against lighting in the world: where they must agree, and where not.
 #include "reference_scene.hpp"
 
-#include "vertex_frames.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan {
 namespace {
@@ -87,7 +87,7 @@ TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
 TEST(TangentSpaceLighting, fromTheVerticesIsExactOnAFlatSquarePlane)
 {
     Scene scene = squareScene();
-    app::deriveVertexFrames(scene, Frame::vertex, true);
+    deriveVertexFrames(scene, Frame::vertex, true);
     ASSERT_FALSE(scene.meshes[0].tangents.empty());
     for (Shading shading : {Shading::blinnPhong, Shading::pbr})
         EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentVertex, Frame::vertex)), kRounding);

@@ -9,7 +9,7 @@
 #include "cotan/scene/geometry.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/report/angles.hpp"
-#include "painter.hpp"
+#include "cotan/draw/painter.hpp"
 
 namespace cotan::test {
 
@@ -31,14 +31,13 @@ inline Scene loadModel(const char* file)
 }
 
 // The renderer of that name; null where it is not available (the Vulkan one on machines without).
-inline std::unique_ptr<app::Painter> painterFor(const std::string& device)
+inline std::unique_ptr<Painter> painterFor(const std::string& device)
 {
-    std::string note;
-    auto painter = app::openPainter(device, 0, note);
-    return painter && note.empty() ? std::move(*painter) : nullptr;
+    auto painter = openPainter(device);
+    return painter && (*painter)->note.empty() ? std::move(*painter) : nullptr;
 }
 
-inline Image drawWith(app::Painter& painter, const View& view)
+inline Image drawWith(Painter& painter, const View& view)
 {
     auto image = painter.draw(view);
     if (!image) {

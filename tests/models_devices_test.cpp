@@ -19,7 +19,7 @@ void PrintTo(const Model& model, std::ostream* out) { *out << model.name; }
 
 class Devices : public ::testing::TestWithParam<Model> {};
 
-AngleStatistics difference(const Scene& scene, app::Painter& gpu, app::Painter& reference, bool pointSampled)
+AngleStatistics difference(const Scene& scene, Painter& gpu, Painter& reference, bool pointSampled)
 {
     View view;
     view.width = 640;
@@ -28,9 +28,7 @@ AngleStatistics difference(const Scene& scene, app::Painter& gpu, app::Painter& 
     view.output = Output::normal;
     view.frame = int(Frame::cotangent);
     view.pointSampled = pointSampled;
-    auto degrees = anglesBetween(drawWith(gpu, view), drawWith(reference, view));
-    keepInterior(degrees, view.width, view.height);
-    return angleStatistics(degrees);
+    return angleStatistics(interiorAngles(drawWith(gpu, view), drawWith(reference, view)));
 }
 
 TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
@@ -61,7 +59,7 @@ struct Twins {
     double mean = 0;  // steps, of the largest channel
 };
 
-Twins twins(const Scene& scene, app::Painter& painter)
+Twins twins(const Scene& scene, Painter& painter)
 {
     Scene cut = scene;
     for (Material& m : cut.materials)

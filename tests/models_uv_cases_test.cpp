@@ -78,7 +78,7 @@ struct Error {
     int count = 0;
 };
 
-Error errorOver(const Grid& g, const Scene& scene, app::Painter& painter)
+Error errorOver(const Grid& g, const Scene& scene, Painter& painter)
 {
     View view = frontView(glm::vec2(g.low), glm::vec2(g.high), 300 / float(g.high.x - g.low.x));
     view.frame = int(Frame::cotangent);

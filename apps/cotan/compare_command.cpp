@@ -8,6 +8,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/report/angles.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "progress.hpp"
@@ -87,7 +88,7 @@ Status run(const CompareCommandOptions& o)
     auto picture = openPicture(o.picture, o.common, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
-    auto painter = openPainter(o.picture, o.common, *picture);
+    auto painter = openPicturePainter(o.picture, o.common, *picture);
     if (!painter)
         return painter.error();
     Stopwatch watch;

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "cotan/convert/convert_model.hpp"
+#include "cotan/draw/painter.hpp"
 #include "gltf_open.hpp"
 #include "memory_limit.hpp"
-#include "painter.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 #include "spread_report.hpp"
@@ -169,8 +169,7 @@ Status run(const ConvertCommandOptions& o)
         return frames.error();
     Stopwatch watch;
     if (!o.verify.empty()) { // before anything is done
-        std::string note;
-        if (const auto painter = openPainter(o.device, o.common.threads, note); !painter)
+        if (const auto painter = openPainter(o.device, o.common.threads); !painter)
             return painter.error();
     }
     auto opened = openGltfToEdit(o.model, o.common);

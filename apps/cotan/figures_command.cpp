@@ -143,12 +143,11 @@ Status run(const FiguresCommandOptions& o)
         return figures.error();
     if (Status planned = planOutputs(o.common, plannedIn("-o", o.common.output, {"index.html", "overview.png"})); !planned)
         return planned;
-    std::string note;
-    auto painter = openPainter(o.device, o.common.threads, note);
+    auto painter = openPainter(o.device, o.common.threads);
     if (!painter)
         return painter.error();
-    if (!note.empty())
-        warn(o.common, note);
+    if (!(*painter)->note.empty())
+        warn(o.common, (*painter)->note);
     if (Status made = makeFolder(o.common.output); !made)
         return made;
 

@@ -1,15 +1,14 @@
 #include "picture.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
-#include "vertex_frames.hpp"
 
 namespace cotan::app {
 
@@ -120,16 +119,15 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     return picture;
 }
 
-Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
-                                             const CommonOptions& common, const Picture& picture)
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
+                                                    const Picture& picture)
 {
-    std::string note;
     const bool reference = options.device == "auto" && options.lighting != "world";
-    auto painter = openPainter(reference ? "reference" : options.device, common.threads, note);
+    auto painter = openPainter(reference ? "reference" : options.device, common.threads);
     if (!painter)
         return painter;
-    if (!note.empty())
-        warn(common, note);
+    if (!(*painter)->note.empty())
+        warn(common, (*painter)->note);
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
     return painter;
@@ -141,15 +139,6 @@ Status checkLighting(const PictureOptions& options, Frame frame)
         return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                                       "mikktspace; found '{}'", name(frame)));
     return Done{};
-}
-
-bool drawsNormalMaps(const Scene& scene)
-{
-    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
-        const Mesh& mesh = scene.meshes[std::size_t(i.mesh)];
-        const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
-        return map.present() && mesh.triangleCount() > 0 && !mesh.texcoords[map.texcoord == 1 ? 1 : 0].empty();
-    });
 }
 
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "common.hpp"
+#include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
 #include "memory_limit.hpp"
 #include "normal_map_option.hpp"
-#include "painter.hpp"
 
 namespace cotan::app {
 
@@ -51,12 +51,8 @@ Status checkLighting(const PictureOptions& options, Frame frame);
 // The device that the options name, with the picture's scene loaded; a fallback is warned about.
 // Lighting in tangent space is drawn by the reference renderer unless another device is named.
 // The picture must outlive it.
-Result<std::unique_ptr<Painter>> openPainter(const PictureOptions& options,
-                                             const CommonOptions& common, const Picture& picture);
-
-// Whether anything that is drawn reads a normal map: else normals cannot differ between frames, and a comparison of
-// them says nothing.
-bool drawsNormalMaps(const Scene& scene);
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
+                                                    const Picture& picture);
 
 // Sizes and counts for a report.
 nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture);

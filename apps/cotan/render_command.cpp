@@ -7,6 +7,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/report/angles.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "progress.hpp"
@@ -93,7 +94,7 @@ Status run(const RenderCommandOptions& o)
     picture->view.output = kShows.at(o.show);
 
     Stopwatch watch;
-    auto painter = openPainter(o.picture, o.common, *picture);
+    auto painter = openPicturePainter(o.picture, o.common, *picture);
     if (!painter)
         return painter.error();
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "cotan/draw/painter.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "cotan/truth/painted.hpp"
 #include "cotan/truth/patch.hpp"
-#include "painter.hpp"
 #include "progress.hpp"
-#include "vertex_frames.hpp"
 
 namespace cotan::app {
 
@@ -86,12 +86,11 @@ Scene sceneFor(const PaintedScene& painted, const FrameGroup& group)
 Result<std::vector<Measurement>> measureRendered(const std::string& device, const CommonOptions& options,
                                                  const AccuracySelection& selection)
 {
-    std::string note;
-    const auto painter = openPainter(device, options.threads, note);
+    const auto painter = openPainter(device, options.threads);
     if (!painter)
         return painter.error();
-    if (!note.empty())
-        warn(options, note);
+    if (!(*painter)->note.empty())
+        warn(options, (*painter)->note);
     const std::string arithmetic = (*painter)->device() == "reference" ? "reference" : "vulkan";
     std::vector<Measurement> rows;
     const std::vector<Subject> list = subjects(selection);

@@ -90,6 +90,13 @@ void keepInterior(std::vector<float>& degrees, int width, int height)
                         degrees[std::size_t(y) * std::size_t(width) + std::size_t(x)] = -1;
 }
 
+std::vector<float> interiorAngles(const Image& a, const Image& b)
+{
+    std::vector<float> degrees = anglesBetween(a, b);
+    keepInterior(degrees, a.width, a.height);
+    return degrees;
+}
+
 AngleStatistics angleStatistics(const std::vector<float>& degrees)
 {
     std::vector<float> valid;

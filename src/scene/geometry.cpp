@@ -65,12 +65,31 @@ Camera fitCamera(const Bounds& box, int width, int height)
     return camera;
 }
 
+Camera turnedAbout(Camera camera, double angle)
+{
+    const glm::vec3 d = camera.eye - camera.target;
+    const float c = float(std::cos(angle)), s = float(std::sin(angle));
+    camera.eye = camera.target + glm::vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
+    return camera;
+}
+
 std::vector<Light> defaultLights()
 {
     Light key;
     key.kind = LightKind::directional;
     key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
     return {key};
+}
+
+bool drawsNormalMaps(const Scene& scene)
+{
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+        const Mesh* mesh = meshPlacedBy(scene, i);
+        if (!mesh || mesh->triangleCount() == 0)
+            return false;
+        const Texture& map = scene.materials[std::size_t(mesh->material)].normalMap;
+        return map.present() && !mesh->texcoords[map.texcoord == 1 ? 1 : 0].empty();
+    });
 }
 
 } // namespace cotan

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "../vertex_frames.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan::app {
 

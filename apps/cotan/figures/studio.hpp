@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "../painter.hpp"
+#include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
 

@@ -116,9 +116,7 @@ Compared compareNormals(const Image& a, const Image& b)
 
 Compared compareInterior(const Image& a, const Image& b)
 {
-    std::vector<float> degrees = anglesBetween(a, b);
-    keepInterior(degrees, a.width, a.height);
-    return compared(std::move(degrees), a.width, a.height);
+    return compared(interiorAngles(a, b), a.width, a.height);
 }
 
 } // namespace cotan::app

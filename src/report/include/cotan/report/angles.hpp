@@ -16,6 +16,9 @@ std::vector<float> anglesBetween(const Image& a, const Image& b);
 // remains is interior, where coverage rules play no part. Keeps width*height entries.
 void keepInterior(std::vector<float>& degrees, int width, int height);
 
+// anglesBetween of the pixels that keepInterior leaves: for shapes that cover a little more or less.
+std::vector<float> interiorAngles(const Image& a, const Image& b);
+
 // The statistics of the entries that are not -1.
 AngleStatistics angleStatistics(const std::vector<float>& degrees);
 

@@ -1,4 +1,4 @@
-// Small geometry over Scene and Mesh.
+// Small questions about Scene and Mesh: normals, cameras, lights, what is drawn.
 #pragma once
 
 #include "cotan/scene/bounds.hpp"
@@ -17,8 +17,16 @@ void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 // An empty box gives the default camera.
 Camera fitCamera(const Bounds& box, int width, int height);
 
+// The camera carried about the vertical (y) through its target by `angle` radians, counterclockwise as seen
+// from above. It keeps its height and its distance, up to rounding.
+Camera turnedAbout(Camera camera, double angle);
+
 // The lights for a scene that brings none: one key light from the upper left, fixed to the camera's
 // side of the scene.
 std::vector<Light> defaultLights();
+
+// Whether anything that is drawn reads a normal map: some instance of a mesh with triangles and the uv set that
+// its material's map asks for. Else normals do not differ between frames, and a comparison of them says nothing.
+bool drawsNormalMaps(const Scene& scene);
 
 } // namespace cotan

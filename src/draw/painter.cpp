@@ -1,13 +1,11 @@
-#include "painter.hpp"
-
-#include <optional>
+#include "cotan/draw/painter.hpp"
 
 #include "cotan/reference/render.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
 #endif
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -15,15 +13,15 @@ class ReferencePainter final : public Painter {
 public:
     explicit ReferencePainter(int threads) : threads_(threads) {}
 
-    Status load(const Scene& scene) override
+    std::string device() const override { return "reference"; }
+
+private:
+    Status loadScene(const Scene& scene) override
     {
         scene_ = &scene;
         return Done{};
     }
-    std::string device() const override { return "reference"; }
-
-private:
-    Result<Image> drawView(const View& view) override { return renderReference(*scene_, view, threads_, progress); }
+    Result<Image> drawLoaded(const View& view) override { return renderReference(*scene_, view, threads_, progress); }
 
     const Scene* scene_ = nullptr;
     int threads_;
@@ -34,12 +32,12 @@ class VulkanPainter final : public Painter {
 public:
     explicit VulkanPainter(Renderer renderer) : renderer_(std::move(renderer)) {}
 
-    Status load(const Scene& scene) override { return renderer_.load(scene); }
     std::string device() const override { return renderer_.deviceName(); }
     double uploadSeconds() const override { return renderer_.timings().upload; }
 
 private:
-    Result<Image> drawView(const View& view) override { return renderer_.render(view); }
+    Status loadScene(const Scene& scene) override { return renderer_.load(scene); }
+    Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
 
     Renderer renderer_;
 };
@@ -62,15 +60,34 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 
 } // namespace
 
-Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads, std::string& note)
+Status Painter::load(const Scene& scene)
 {
+    Status status = loadScene(scene);
+    loaded_ = bool(status);
+    return status;
+}
+
+Result<Image> Painter::draw(const View& view)
+{
+    if (!loaded_)
+        return usageError("draw: no scene is loaded");
+    if (progress)
+        progress(0);
+    return drawLoaded(view);
+}
+
+Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads)
+{
+    std::string note;
     if (device != "reference") {
         auto vulkan = openVulkan(device);
         if (vulkan || device != "auto")
             return vulkan;
         note = vulkan.error().message + "; drawing with the reference renderer";
     }
-    return std::unique_ptr<Painter>(std::make_unique<ReferencePainter>(threads));
+    auto painter = std::make_unique<ReferencePainter>(threads);
+    painter->note = std::move(note);
+    return std::unique_ptr<Painter>(std::move(painter));
 }
 
-} // namespace cotan::app
+} // namespace cotan

@@ -1,9 +1,9 @@
-#include "vertex_frames.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 
 #include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -80,4 +80,4 @@ void deriveVertexFrames(Scene& scene, Frame frame, bool regenerate)
     }
 }
 
-} // namespace cotan::app
+} // namespace cotan

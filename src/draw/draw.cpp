@@ -1,0 +1,20 @@
+#include "cotan/draw/draw.hpp"
+
+#include "cotan/draw/painter.hpp"
+#include "cotan/surface/vertex_frames.hpp"
+
+namespace cotan {
+
+Result<Image> drawView(Scene scene, const View& view, const std::string& device, int threads)
+{
+    const auto painter = openPainter(device, threads);
+    if (!painter)
+        return painter.error();
+    if (view.frame >= 0 && view.frame < kFrameCount) // others are for the painter to refuse
+        deriveVertexFrames(scene, Frame(view.frame), /*regenerate*/ false);
+    if (const Status loaded = (*painter)->load(scene); !loaded)
+        return loaded.error();
+    return (*painter)->draw(view);
+}
+
+} // namespace cotan

@@ -1,0 +1,58 @@
+// Something that draws: a Vulkan device or the reference renderer.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "cotan/result.hpp"
+#include "cotan/scene/view.hpp"
+
+namespace cotan {
+
+// A device that is open. Made by openPainter; for one picture there is drawView (cotan/draw/draw.hpp).
+// One thread at a time.
+class Painter {
+public:
+    virtual ~Painter() = default;
+
+    // Takes a scene in the place of the one before. It must live until the next load, forget or the
+    // painter's end. Frames from vertices read what deriveVertexFrames (cotan/surface/vertex_frames.hpp)
+    // has put into it; without that the picture shows the interpolated normals.
+    // Errors: ErrorKind::unavailable when the device has not enough memory; ErrorKind::input over
+    // kMostTrianglesDrawn (cotan/scene/bounds.hpp), of a Vulkan device; the reference renderer says so in draw.
+    Status load(const Scene& scene);
+
+    // The painter has no scene from here on.
+    void forget() { loaded_ = false; }
+
+    // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be
+    // drawn (the reference renderer: 1 to 16384 pixels a side) or an unknown frame; ErrorKind::unavailable
+    // without the memory; those of Renderer::render and renderReference.
+    Result<Image> draw(const View& view);
+
+    // "reference", or the Vulkan device's name.
+    virtual std::string device() const = 0;
+    // What the last load took to copy to the device, in seconds; 0 for the reference renderer.
+    virtual double uploadSeconds() const { return 0; }
+
+    // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
+    // 1 and from several threads. May be empty.
+    std::function<void(double)> progress;
+    // Why the reference renderer draws although "auto" was asked for, one line; empty otherwise.
+    std::string note;
+
+private:
+    virtual Status loadScene(const Scene& scene) = 0;
+    virtual Result<Image> drawLoaded(const View& view) = 0;
+
+    bool loaded_ = false;
+};
+
+// Opens a device. `device`: "reference"; "auto" is the best Vulkan device, and the reference renderer where
+// there is none (`note` then says why); anything else is a part of a Vulkan device's name, in any case.
+// threads: of the reference renderer; 0 means all cores. No picture depends on it.
+// Errors: ErrorKind::unavailable, never for "auto" and "reference".
+Result<std::unique_ptr<Painter>> openPainter(const std::string& device = "auto", int threads = 0);
+
+} // namespace cotan

@@ -1,0 +1,44 @@
+#include "cotan/verify/bake.hpp"
+
+#include <fmt/format.h>
+
+#include "compare.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/scene/put_normal_map.hpp"
+#include "cotan/surface/vertex_frames.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kQuarter = 1.5707963; // radians
+
+} // namespace
+
+Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int side)
+{
+    if (bake.material < -1 || bake.material >= int(bake.scene.materials.size()))
+        return usageError(fmt::format("verify: expected a material from -1 to {}; found {}",
+                                      int(bake.scene.materials.size()) - 1, bake.material));
+    Scene scene = bake.scene;
+    putNormalMap(scene, bake.map, bake.format, bake.material);
+    deriveVertexFrames(scene, bake.options.frame, bake.regenerate);
+    const ShownScene shown(painter, scene);
+    if (!shown.status())
+        return shown.status().error();
+    const Camera front = fitCamera(bounds(scene), side, side);
+    ViewComparison comparison(/*mapped*/ true);
+    for (int k = 0; k < kBakeViews; ++k) {
+        const View view = normalView(turnedAbout(front, k * kQuarter), bake.options.frame, side);
+        const auto drawn = painter.draw(view);
+        if (!drawn)
+            return drawn.error();
+        const auto expected = expectedNormals(bake.low, bake.high, bake.options, view);
+        if (!expected)
+            return expected.error();
+        comparison.add(*expected, *drawn);
+    }
+    return comparison.finish();
+}
+
+} // namespace cotan

@@ -1,0 +1,41 @@
+// What both ways to verify share: a painter that looks at a scene, the view that is drawn, and the comparison.
+#pragma once
+
+#include "cotan/draw/painter.hpp"
+#include "cotan/frame.hpp"
+#include "cotan/verify/compared_views.hpp"
+
+namespace cotan {
+
+// Lets the painter look at a scene while it lives.
+class ShownScene {
+public:
+    ShownScene(Painter& painter, const Scene& scene) : painter_(painter), status_(painter.load(scene)) {}
+    ~ShownScene() { painter_.forget(); }
+    ShownScene(const ShownScene&) = delete;
+    ShownScene& operator=(const ShownScene&) = delete;
+
+    const Status& status() const { return status_; }
+
+private:
+    Painter& painter_;
+    Status status_;
+};
+
+// A square picture of normals.
+View normalView(const Camera& camera, Frame frame, int side);
+
+// Collects views and, in the end, the statistics of all. mapped: see ComparedViews.
+class ViewComparison {
+public:
+    explicit ViewComparison(bool mapped) { result_.mapped = mapped; }
+    // Two pictures of directions of the same size.
+    void add(const Image& expected, const Image& drawn);
+    ComparedViews finish();
+
+private:
+    ComparedViews result_;
+    std::vector<float> all_;
+};
+
+} // namespace cotan

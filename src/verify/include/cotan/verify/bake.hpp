@@ -1,0 +1,32 @@
+// Whether a baked map shows the detailed surface: the simple one drawn with the map, and its normals compared
+// with those that rays from the eye find on the detailed surface.
+#pragma once
+
+#include "cotan/bake/bake.hpp"
+#include "cotan/draw/painter.hpp"
+#include "cotan/verify/compared_views.hpp"
+
+namespace cotan {
+
+inline constexpr int kBakeViews = 4;  // from the front, and turned by quarters
+inline constexpr int kBakeSide = 640; // pixels
+
+// A map and what it was baked from. All of it is the caller's, and must live until verifyBake returns.
+struct BakeToVerify {
+    const Scene& scene;         // of the low surface
+    const LowSurface& low;
+    const HighSurface& high;
+    const BakeOptions& options; // that the map was baked with; its frame draws
+    const Image& map;
+    NormalMapFormat format;     // of the map
+    int material = -1;          // index of the scene's material that reads the map; -1: all do
+    bool regenerate = false;    // the tangents that the scene has are not used, but made again
+};
+
+// Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map,
+// `expected` the high surface. side: of a picture, in pixels. The painter has no scene afterwards.
+// Errors: those of Painter::load, Painter::draw and expectedNormals; ErrorKind::usage for a material that
+// the scene does not have.
+Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int side = kBakeSide);
+
+} // namespace cotan

@@ -1,0 +1,156 @@
+// Maps drawn back and compared, as a program calls it: the degrees are known from geometry.
+#include "reference_scene.hpp"
+
+#include <cmath>
+
+#include "cotan/verify/bake.hpp"
+#include "cotan/verify/conversion.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace cotan::testing;
+
+constexpr int kPixels = 96; // a side of the pictures
+
+// A square quad, seen from both sides, with a map of one colour.
+Scene quadWith(glm::ivec3 texel)
+{
+    Scene scene = sceneOf(meshOf(Patch{}));
+    addNormalMap(scene, texel);
+    scene.materials[0].doubleSided = true;
+    return scene;
+}
+
+const glm::ivec3 kFlatTexel{128, 128, 255};
+
+std::unique_ptr<Painter> reference()
+{
+    auto painter = openPainter("reference");
+    return painter ? std::move(*painter) : nullptr;
+}
+
+TEST(VerifyConversion, equalModelsAreNoDegreesApart)
+{
+    const auto painter = reference();
+    const Scene scene = quadWith({168, 98, 240});
+    const auto compared = verifyConversion(*painter, {scene, Frame::cotangent}, {scene, Frame::cotangent}, kPixels);
+    ASSERT_TRUE(compared) << compared.error().message;
+    EXPECT_TRUE(compared->mapped);
+    EXPECT_GT(compared->all.count, 1000u);
+    EXPECT_EQ(compared->all.maximum, 0);
+    ASSERT_EQ(compared->views.size(), std::size_t(kConversionViews));
+    std::size_t count = 0;
+    for (const ComparedView& v : compared->views) {
+        count += v.degrees.count;
+        for (const Image* image : {&v.expected, &v.drawn, &v.difference}) {
+            EXPECT_EQ(image->width, kPixels);
+            EXPECT_EQ(image->height, kPixels);
+            EXPECT_EQ(image->type, PixelType::unorm8);
+        }
+    }
+    EXPECT_EQ(count, compared->all.count);
+    EXPECT_FALSE(painter->draw(viewOf(Output::normal))); // the scene is gone, and the painter knows
+}
+
+TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
+{
+    const auto painter = reference();
+    const double tilt = std::atan2(std::hypot(40, 30), 112) * 57.295779513;
+    // All frames of a square are one rotation, those from vertices too: made without being asked for.
+    const auto compared = verifyConversion(*painter, {quadWith({168, 98, 240}), Frame::mikktspace},
+                                           {quadWith(kFlatTexel), Frame::smooth}, kPixels);
+    ASSERT_TRUE(compared) << compared.error().message;
+    EXPECT_GT(compared->views[0].degrees.count, 1000u); // from the front
+    EXPECT_GT(compared->views[2].degrees.count, 1000u); // from behind
+    EXPECT_EQ(compared->views[4].degrees.count, 0u);    // from above the quad is a line
+    EXPECT_NEAR(compared->all.mean, tilt, 1e-3);        // float
+    EXPECT_NEAR(compared->all.maximum, tilt, 1e-2);
+}
+
+TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
+{
+    const auto painter = reference();
+    const Scene plain = sceneOf(meshOf(Patch{}));
+    const auto compared = verifyConversion(*painter, {plain, Frame::cotangent}, {plain, Frame::smooth}, kPixels);
+    ASSERT_TRUE(compared) << compared.error().message;
+    EXPECT_FALSE(compared->mapped);
+    EXPECT_EQ(compared->all.count, 0u);
+    EXPECT_TRUE(std::isnan(compared->all.mean));
+}
+
+TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
+{
+    const auto painter = reference();
+    const Scene scene = quadWith(kFlatTexel);
+    const auto all = drawSides(*painter, {scene, Frame::cotangent}, {}, kPixels);
+    ASSERT_TRUE(all) << all.error().message;
+    const auto few = drawSides(*painter, {scene, Frame::cotangent}, {all->cameras[0]}, kPixels);
+    const auto small = drawSides(*painter, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
+    ASSERT_TRUE(few && small);
+    for (const DrawnSides* other : {&*few, &*small}) {
+        const auto compared = compareSides(*all, *other);
+        ASSERT_FALSE(compared);
+        EXPECT_EQ(compared.error().kind, ErrorKind::usage);
+    }
+}
+
+// A quad at z = 0, and above it one that rises by `slope` along x.
+struct Pair {
+    Scene low, high;
+};
+
+Pair tiltedPair(double slope)
+{
+    Patch rising;
+    rising.origin = {-1, 1, -slope};
+    rising.alongU = {2, 0, 2 * slope};
+    return {sceneOf(meshOf(Patch{})), sceneOf(meshOf(rising))};
+}
+
+TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
+{
+    const double slope = 0.2;
+    const Pair pair = tiltedPair(slope);
+    BakeOptions options;
+    options.frame = Frame::smooth;
+    options.width = options.height = 32;
+    options.maxDistance = 1;
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentSource::generated);
+    const auto high = HighSurface::make({pair.high}, 0);
+    ASSERT_TRUE(low && high);
+    const auto baked = bake(*low, *high, options);
+    ASSERT_TRUE(baked) << baked.error().message;
+    const StoredAs stored{};
+    const Image map = storeBaked(*baked, BakeKind::normal, stored), flat = solidImage({kFlatTexel, 255});
+    const auto painter = reference();
+
+    const auto fits = verifyBake(*painter, {pair.low, *low, *high, options, map, stored.format}, kPixels);
+    ASSERT_TRUE(fits) << fits.error().message;
+    ASSERT_EQ(fits->views.size(), std::size_t(kBakeViews));
+    EXPECT_GT(fits->views[0].degrees.count, 1000u);
+    EXPECT_LT(fits->views[0].degrees.maximum, 0.45); // what rounding to 8 bits costs at worst
+
+    const auto off = verifyBake(*painter, {pair.low, *low, *high, options, flat, stored.format}, kPixels);
+    ASSERT_TRUE(off) << off.error().message;
+    EXPECT_NEAR(off->views[0].degrees.mean, std::atan(slope) * 57.295779513, 1e-3);
+    EXPECT_EQ(off->views[0].degrees.count, fits->views[0].degrees.count);
+}
+
+TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)
+{
+    const Pair pair = tiltedPair(0.1);
+    const BakeOptions options;
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentSource::generated);
+    const auto high = HighSurface::make({pair.high}, 0);
+    ASSERT_TRUE(low && high);
+    const Image map = solidImage({kFlatTexel, 255});
+    for (int material : {-2, 1}) {
+        const auto compared = verifyBake(*reference(), {pair.low, *low, *high, options, map, {}, material}, kPixels);
+        ASSERT_FALSE(compared);
+        EXPECT_EQ(compared.error().kind, ErrorKind::usage);
+    }
+}
+
+} // namespace
+} // namespace cotan
