@@ -14,7 +14,7 @@
 
 #include "cotan/model/load.hpp"
 #include "cotan/bake/bake.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 using namespace cotan;
 

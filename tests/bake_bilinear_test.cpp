@@ -8,7 +8,7 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/low_points.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "tessellation_scene.hpp"
 
 namespace cotan {
@@ -136,7 +136,7 @@ TEST(BakeBarC3, aFramePerTriangleCreasesAtEdges)
 TEST(BakeFrames, inFloatAreThoseInDouble)
 {
     for (const Surface& surface : surfaces())
-        for (Frame frame : {Frame::cotangent, Frame::cotangent2013, Frame::unit, Frame::orthonormal, Frame::gradient, Frame::exact,
+        for (Frame frame : {Frame::cotangent, Frame::unit, Frame::orthonormal, Frame::gradient, Frame::exact,
                             Frame::smooth, Frame::vertex, Frame::mikktspace}) {
             const Tessellation mesh = tessellate(surface, 16, true);
             const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentSource::generated);

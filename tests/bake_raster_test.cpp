@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "cotan/truth/random.hpp"
 
 namespace cotan {

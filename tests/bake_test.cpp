@@ -229,7 +229,7 @@ TEST(Bake, bytesDoNotDependOnThreads)
 TEST(Bake, frameThatDependsOnTheViewIsRefused)
 {
     const Waves2 pair = wavyPair(4);
-    for (Frame frame : {Frame::nonperspective, Frame::paperOrthogonal}) {
+    for (Frame frame : {Frame::nonperspective, Frame::paperOrthogonal, Frame::cotangent2013}) {
         const auto low = makeLowSurface(pair.low, -1, frame, TangentSource::generated);
         ASSERT_FALSE(low);
         EXPECT_EQ(low.error().kind, ErrorKind::usage);

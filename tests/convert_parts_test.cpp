@@ -10,8 +10,8 @@
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/surface/padding.hpp"
 #include "judgement_cases.hpp"
-#include "padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
 
@@ -19,7 +19,6 @@ namespace cotan {
 namespace {
 
 using namespace test;
-using convert::kNoTexel;
 
 // ---- one texel ------------------------------------------------------------------------------
 
@@ -107,12 +106,13 @@ TEST(SolveTexel, degreesAreThoseBetweenWhatIsWantedAndWhatIsSeen)
 
 // ---- padding --------------------------------------------------------------------------------
 
-std::vector<std::uint32_t> spreadFrom(std::vector<std::uint32_t> covered, int width, int height)
+std::vector<std::uint32_t> spreadFrom(std::vector<std::uint32_t> covered, int width, int height,
+                                      AskFirst first = AskFirst::beside)
 {
     std::vector<std::uint32_t> owner(std::size_t(width * height), kNoTexel);
     for (std::uint32_t i : covered)
         owner[i] = i;
-    convert::spread(owner, width, height);
+    spreadNearest(owner, width, height, first);
     return owner;
 }
 
@@ -129,6 +129,16 @@ TEST(Padding, everyTexelFollowsTheNearestCoveredOne)
     }
     EXPECT_EQ(owner[0], 1u);
     EXPECT_EQ(owner[20], 19u);
+}
+
+TEST(Padding, ofTwoEquallyNearTheOneAskedFirstCounts)
+{
+    // 2 by 2, covered: (1,0) and (0,1), each one texel from both others.
+    EXPECT_EQ(spreadFrom({1, 2}, 2, 2, AskFirst::above)[3], 1u);
+    EXPECT_EQ(spreadFrom({1, 2}, 2, 2, AskFirst::beside)[3], 2u);
+    // Upwards the opposite neighbours are asked in the same order: below, or to the right.
+    EXPECT_EQ(spreadFrom({1, 2}, 2, 2, AskFirst::above)[0], 1u); // the way back of the sweep down has been there
+    EXPECT_EQ(distance2(1, 2, 2), 2);
 }
 
 TEST(Padding, isWithinAFractionOfATexelOfTheNearestAndDoesNotJoinTheBorders)

@@ -308,6 +308,45 @@ TEST(FrameBarA3, cotangentIsTheSameForAnyTwoSourcesOfDifferences)
     EXPECT_LT(worstFloat, 5e-4); // measured 1.3e-5
 }
 
+// The largest angle between what a frame makes of a texel from two eyes, the rows of the second picture running either way.
+double changeWithTheView(Frame frame)
+{
+    Random random(21);
+    double largest = 0;
+    for (int i = 0; i < 200; ++i) {
+        const AffinePatch p = randomPatch(random, false);
+        const glm::dvec3 m = tiltedTexel(random, 45);
+        glm::dvec3 seen[2];
+        for (glm::dvec3& s : seen) {
+            glm::dvec3 eye;
+            do
+                eye = random.direction();
+            while (glm::dot(eye, p.normal) < 0.2);
+            Differences<double> d = screenDifferences(PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800), p, {0, 0, 0});
+            if (&s != seen && i % 2 == 1) {
+                d.dpdy = Vector3d(-d.dpdy.raw());
+                d.duvdy = -d.duvdy;
+            }
+            s = shade(frame, p.normal, d, m);
+        }
+        largest = std::max(largest, degreesBetween(seen[0], seen[1]));
+    }
+    return largest;
+}
+
+TEST(FrameTable, saysWhichFramesDependOnTheView)
+{
+    for (const FrameInfo& f : frames()) {
+        if (f.source == FrameSource::vertices) {
+            EXPECT_FALSE(f.dependsOnView) << f.name; // no difference goes in
+        } else if (f.dependsOnView) {
+            EXPECT_GT(changeWithTheView(f.frame), 30) << f.name;
+        } else {
+            EXPECT_LT(changeWithTheView(f.frame), 1e-6) << f.name; // in double
+        }
+    }
+}
+
 TEST(FrameBarA3, nonperspectiveDependsOnTheView)
 {
     Random random(12);

@@ -6,7 +6,7 @@ add_dependencies(lint_test cotan)
 # The parts of lint and convert by themselves: builds and runs in seconds.
 cotan_test(judgement_test SEPARATE
   SOURCES lint_recommend_test.cpp lint_parts_test.cpp map_fit_test.cpp convert_parts_test.cpp
-  LIBRARIES cotan_lint cotan_convert cotan_bake)
+  LIBRARIES cotan_lint cotan_convert cotan_surface)
 target_include_directories(judgement_test PRIVATE ${PROJECT_SOURCE_DIR}/src/lint ${PROJECT_SOURCE_DIR}/src/convert)
 cotan_test(judgement_command_test
   SOURCES judgement_command_test.cpp

@@ -48,10 +48,10 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
     if (s.twice > 0)
         warn(o.common, fmt::format("{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
                                    percent(s.twice, s.covered)));
-    const bool perTriangle = info(job.frame).source != FrameSource::vertices && job.frame != Frame::orthonormal;
-    if (job.options.kind == BakeKind::normal && perTriangle)
+    const bool perTriangle = info(job.frame()).source != FrameSource::vertices && job.frame() != Frame::orthonormal;
+    if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o.common, fmt::format("the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
-                                   "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame)));
+                                   "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame())));
 }
 
 // Hours may pass before anything is written: what would fail then fails now.
@@ -81,33 +81,25 @@ Status run(const BakeCommandOptions& o)
     Stopwatch watch;
     const auto job = [&] {
         const Progress loading(o.common, 0, "loading the meshes");
-        return prepareBake(o);
+        return loadBake(o);
     }();
     if (!job)
         return job.error();
-    for (const std::string& line : job->lowScene.warnings)
-        warn(o.common, line);
     for (const std::string& line : job->warnings)
         warn(o.common, line);
     const double loadSeconds = watch.lap();
-    Result<Baked> baked = Baked{};
-    {
-        Progress progress(o.common, std::size_t(job->options.height), "baking");
-        baked = bake(job->low, job->high.front(), job->options, [&] { progress.step(); });
-    }
+    const auto baked = [&] {
+        Progress progress(o.common, 1, "baking");
+        return bakeTile(job->setup, o.udim, progress.within());
+    }();
     if (!baked)
-        return baked.error();
-    if (baked->statistics.covered + baked->statistics.touched == 0)
-        return inputError(fmt::format("{}: no triangle lies on tile {} of the texture coordinates (--udim)", o.low, o.udim));
+        return inWordsOfCommand(o, baked.error());
+    const Image& image = baked->image;
     explain(o, *job, baked->statistics);
     if (!o.mask.empty())
-        if (Status w = writeImage(o.mask, maskOf(*baked)); !w)
+        if (Status w = writeImage(o.mask, baked->mask); !w)
             return w;
     watch.lap();
-    if (o.padding >= 0)
-        padCharts(*baked, o.padding);
-    const double padSeconds = watch.lap();
-    const Image image = storeBaked(*baked, job->options.kind, job->stored);
     if (Status w = namedAsGltf(o.common.output) ? writeBakedModel(o, *job, image) : writeImage(o.common.output, image); !w)
         return w;
     const double writeSeconds = watch.lap();
@@ -116,10 +108,10 @@ Status run(const BakeCommandOptions& o)
     nlohmann::ordered_json report{{"command", "bake"}, {"low", o.low}, {"high", o.high}, {"frame", o.frame},
                                   {"kind", o.kind}, {"size", {image.width, image.height}},
                                   {"high_normals", o.highNormals},
-                                  {"triangles_high", job->high.front().triangleCount()},
-                                  {"triangles_low", job->low.triangleCount()},
+                                  {"triangles_high", job->setup.high.triangleCount()},
+                                  {"triangles_low", job->setup.low.triangleCount()},
                                   {"bake", describe(baked->statistics)},
-                                  {"seconds", {{"load", loadSeconds}, {"pad", padSeconds}, {"write", writeSeconds}}},
+                                  {"seconds", {{"load", loadSeconds}, {"pad", baked->statistics.padSeconds}, {"write", writeSeconds}}},
                                   {"peak_megabytes", peakMegabytes()}};
     if (!o.verify.empty()) {
         const auto verified = verifyBake(o, *job, image);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "cotan/bake/bake.hpp"
+#include "cotan/bake/bake_model.hpp"
 #include "memory_limit.hpp"
 
 namespace cotan::app {
@@ -24,28 +24,20 @@ struct BakeCommandOptions {
     bool dither = false, matchByName = false;
 };
 
-// Everything that was loaded and derived for one bake.
+// Everything that was loaded and prepared for one bake.
 struct BakeJob {
     Scene lowScene;
-    LowSurface low;
-    std::vector<HighSurface> high; // one; a vector because it has no empty state
-    BakeOptions options;
-    Frame frame = Frame::cotangent;
-    StoredAs stored;
-    std::vector<std::string> warnings; // one line each
+    BakeSetup setup;
+    std::vector<std::string> warnings; // of the files and of preparing, one line each
+
+    Frame frame() const { return setup.options.bake.frame; }
 };
 
-// The format of a convention by its name. `option` is for the message. Errors: ErrorKind::usage.
-Result<NormalMapFormat> formatFromName(const std::string& option, const std::string& convention);
+// Checks the words, loads the files, prepares. Errors: those of the words and files.
+Result<BakeJob> loadBake(const BakeCommandOptions& o);
 
-// What can be said of --high-normals and its options before anything is loaded.
-Status checkHighOptions(const BakeCommandOptions& o);
-
-// Loads the high meshes, and their maps where --high-normals asks for them; job.options.kind is set already.
-Status prepareHigh(const BakeCommandOptions& o, BakeJob& job);
-
-// Loads and checks. Errors: those of the files and words.
-Result<BakeJob> prepareBake(const BakeCommandOptions& o);
+// An error about one of the library's options, with the command's word for it.
+Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error);
 
 // What can be said of an -o that names a glTF model before anything is loaded. Errors: ErrorKind::usage.
 Status checkModelOutput(const BakeCommandOptions& o);

@@ -33,8 +33,8 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
         return painter.error();
     Progress progress(o.common, kBakeViews, "drawing and comparing");
     (*painter)->progress = progress.within();
-    const auto compared = cotan::verifyBake(**painter, {job.lowScene, job.low, job.high.front(), job.options, map,
-                                                        job.stored.format, o.material, o.tangents != "stored"});
+    const auto compared = cotan::verifyBake(**painter, {job.lowScene, job.setup.low, job.setup.high, job.setup.options.bake, map,
+                                                        job.setup.options.stored.format, o.material, o.tangents != "stored"});
     if (!compared)
         return compared.error();
     auto views = nlohmann::ordered_json::array();
@@ -46,7 +46,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
             if (Status w = writeImage(o.verify / bakePictureName(what, k), *image); !w)
                 return w.error();
     }
-    say(o.common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(job.frame), (*painter)->device(),
+    say(o.common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(job.frame()), (*painter)->device(),
                               toText(compared->all)));
     return nlohmann::ordered_json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", views}};
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "convert_gltf.hpp"
+#include "cotan/convert/convert_model.hpp"
 #include "cotan/draw/painter.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/lint/texel.hpp"
 #include "gltf_open.hpp"
 #include "memory_limit.hpp"
 #include "parse.hpp"
@@ -19,9 +18,6 @@
 namespace cotan::app {
 
 namespace {
-
-constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
-constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
 struct ConvertCommandOptions {
     CommonOptions common;
@@ -35,14 +31,12 @@ struct ConvertCommandOptions {
     std::string device = "auto";
 };
 
-bool needsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
-
 Result<Frame> frameFor(const char* option, const std::string& text)
 {
     const auto frame = parseFrame(text);
     if (!frame)
         return usageError(fmt::format("{}: {}", option, frame.error().message));
-    if (!viewIndependent(*frame))
+    if (dependsOnView(*frame))
         return usageError(fmt::format("{}: expected a frame that is the same from every side; {} is not, so no map can be made for it",
                                       option, text));
     return *frame;
@@ -76,124 +70,78 @@ Result<FramePair> checkUsage(const ConvertCommandOptions& o)
 }
 
 // What is to be said of a map that stays.
-std::string whyKept(const ConvertCommandOptions& o, const MapJob& job, const Spread& off)
+std::string whyKept(const ConvertCommandOptions& o, const ConvertedMap& map)
 {
+    const Spread& off = map.figures.unconverted;
     if (off.count == 0)
-        return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it", job.name);
-    return fmt::format("{}: stays as it is: read with {} it is off by {} degrees on {}, no more than rounding a new one costs", job.name,
-                       o.to, toText(off), counted(job.uses.size(), "surface"));
+        return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it", map.name);
+    return fmt::format("{}: stays as it is: read with {} it is off by {} degrees on {}, no more than rounding a new one costs", map.name,
+                       o.to, toText(off), counted(map.surfaces, "surface"));
 }
 
-void sayMap(const ConvertCommandOptions& o, const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
+void sayMap(const ConvertCommandOptions& o, const ConvertedMap& map)
 {
-    const double texels = double(r.image.pixelCount());
-    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", job.name, r.image.width,
-                              r.image.height, 100 * double(r.covered) / texels, counted(job.uses.size(), "surface"), o.to,
-                              toText(r.unconverted)));
+    if (map.kept)
+        return say(o.common, whyKept(o, map));
+    const ReencodeFigures& r = map.figures;
+    const double texels = double(map.width) * double(map.height);
+    say(o.common, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", map.name, map.width, map.height,
+                              100 * double(r.covered) / texels, counted(map.surfaces, "surface"), o.to, toText(r.unconverted)));
     if (r.several > 0)
         say(o.common, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
                                   r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
                                   kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
     say(o.common, fmt::format("  converted and rounded to {} bits, off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
-                              r.image.type == PixelType::unorm16 ? 16 : 8, toText(r.error), r.padded, after, before));
+                              map.bits, toText(r.error), r.padded, map.bytesAfter, map.bytesBefore));
     if (r.belowHorizon > 0)
         say(o.common, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
 }
 
 // Of a map that stays, no texel was looked at: those figures are missing.
-nlohmann::ordered_json describeKept(const MapJob& job, const Image& map, const Spread& off, std::size_t bytes)
+nlohmann::ordered_json describe(const ConvertedMap& map)
 {
-    return {{"image", job.image}, {"name", job.name}, {"surfaces", job.uses.size()}, {"size", {map.width, map.height}},
-            {"kept", true}, {"degrees_unconverted", toJson(off)}, {"bytes_before", bytes}, {"bytes_after", bytes}};
-}
-
-nlohmann::ordered_json describe(const MapJob& job, const Reencoded& r, std::size_t before, std::size_t after)
-{
-    return {{"image", job.image}, {"name", job.name}, {"surfaces", job.uses.size()}, {"size", {r.image.width, r.image.height}},
-            {"kept", false}, {"bits", r.image.type == PixelType::unorm16 ? 16 : 8}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
+    const ReencodeFigures& r = map.figures;
+    if (map.kept)
+        return {{"image", map.image}, {"name", map.name}, {"surfaces", map.surfaces}, {"size", {map.width, map.height}}, {"kept", true},
+                {"degrees_unconverted", toJson(r.unconverted)}, {"bytes_before", map.bytesBefore}, {"bytes_after", map.bytesAfter}};
+    return {{"image", map.image}, {"name", map.name}, {"surfaces", map.surfaces}, {"size", {map.width, map.height}},
+            {"kept", false}, {"bits", map.bits}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
             {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
             {"disagreement_degrees", toJson(r.disagreement)}, {"moved_degrees", toJson(r.moved)},
-            {"degrees_unconverted", toJson(r.unconverted)}, {"degrees_after_rounding", toJson(r.error)}, {"below_horizon", r.belowHorizon}, {"kept_elsewhere", job.alsoElsewhere},
-            {"bytes_before", before}, {"bytes_after", after}};
+            {"degrees_unconverted", toJson(r.unconverted)}, {"degrees_after_rounding", toJson(r.error)}, {"below_horizon", r.belowHorizon},
+            {"kept_elsewhere", map.alsoElsewhere}, {"bytes_before", map.bytesBefore}, {"bytes_after", map.bytesAfter}};
 }
 
-// How far the old map is off when it is read with the new frame.
-Spread errorAsItIs(const Image& map, const MapJob& job, const FramePair& frames)
+// Says what became of the tangents, and returns it for the report.
+nlohmann::ordered_json reportTangents(const ConvertCommandOptions& o, const ConvertModelReport& done)
 {
-    std::vector<const MapUse*> uses;
-    for (const MapUse& use : job.uses)
-        uses.push_back(&use);
-    return mapError(map, map, uses, frames);
+    if (done.tangents == TangentsAfter::kept)
+        return {{"kept", true}};
+    if (done.tangents == TangentsAfter::given) {
+        say(o.common, fmt::format("{} got TANGENT for {}", counted(done.primitivesGiven, "primitive"), o.to));
+        return {{"given_primitives", done.primitivesGiven}};
+    }
+    const TangentBytes& d = done.dropped;
+    const double each = d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0;
+    say(o.common, d.bytes > 0 ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
+                                            counted(d.primitives, "primitive"), each, d.vertices, d.bytes)
+                              : "no TANGENT to drop");
+    return {{"dropped_primitives", d.primitives}, {"bytes_per_vertex", each}, {"vertices", d.vertices}, {"bytes", d.bytes}};
 }
 
-// Converts one image and puts it back.
-Status convertMap(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, const MapJob& job,
-                  std::vector<std::string>& notes, nlohmann::ordered_json& report)
+// Converts, and says what became of each map when it is done.
+Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document)
 {
-    const auto bytes = gltfImageBytes(document, job.image);
-    if (!bytes)
-        return bytes.error();
-    const auto map = decodeImage(*bytes, fmt::format("{}: {}", o.model, job.name), limitsFor(o.memory));
-    if (!map)
-        return withMemoryHint(map.error());
-    const std::size_t before = bytes->size();
-    // Where the old map serves as well as a rounded new one, it stays, byte for byte.
-    if (const Spread off = errorAsItIs(*map, job, frames); off.count == 0 || (o.bits == 0 && fitsAsItIs(off))) {
-        say(o.common, whyKept(o, job, off));
-        report["maps"].push_back(describeKept(job, *map, off, before));
-        return Done{};
-    }
-    if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
-        return inputError(fmt::format("{}: {}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", o.model, job.name,
-                                      copies, kMostCopies));
-    const int bits = o.bits != 0 ? o.bits : map->type == PixelType::unorm8 ? 8 : 16;
-    Progress progress(o.common, std::size_t(map->height), "converting " + job.name);
-    const Reencoded r = reencode(*map, job.uses, frames, bits, o.common.threads, [&] { progress.step(); });
-    auto png = encodePng(r.image);
-    if (!png)
-        return png.error();
-    const std::size_t after = png->size();
-    replaceMap(document, job, std::move(*png), notes);
-    sayMap(o, job, r, before, after);
-    report["maps"].push_back(describe(job, r, before, after));
-    const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
-    if (share * r.disagreement.mean > kSeen)
-        notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
-                                    "on average at the worst of them: no one map fits; give such parts texels of their own",
-                                    job.name, 100 * share, r.disagreement.mean));
-    else if (r.error.mean > kSeen)
-        notes.push_back(fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for how the "
-                                    "surface changes under them", job.name, r.error.mean));
-    return Done{};
-}
-
-Status handleTangents(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, std::vector<std::string>& notes,
-                      nlohmann::ordered_json& report)
-{
-    if (needsTangents(frames.to)) {
-        const auto given = giveTangents(document, frames.to);
-        if (!given)
-            return given.error();
-        say(o.common, fmt::format("{} got TANGENT for {}", counted(*given, "primitive"), o.to));
-        report["tangents"] = {{"given_primitives", *given}};
-        return Done{};
-    }
-    if (o.keepTangents) {
-        notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
-        report["tangents"] = {{"kept", true}};
-        return Done{};
-    }
-    const auto dropped = dropTangents(document, notes);
-    if (!dropped)
-        return dropped.error();
-    const double each = dropped->vertices > 0 ? double(dropped->bytes) / double(dropped->vertices) : 0;
-    say(o.common, dropped->bytes > 0
-                      ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes", counted(dropped->primitives, "primitive"),
-                                    each, dropped->vertices, dropped->bytes)
-                      : "no TANGENT to drop");
-    report["tangents"] = {{"dropped_primitives", dropped->primitives}, {"bytes_per_vertex", each},
-                          {"vertices", dropped->vertices}, {"bytes", dropped->bytes}};
-    return Done{};
+    Progress progress(o.common, 1, "converting " + o.model);
+    bool first = true;
+    auto done = convertModel(document, {.frames = frames, .bits = o.bits, .keepTangents = o.keepTangents, .threads = o.common.threads,
+                                        .limits = limitsFor(o.memory), .progress = progress.within(),
+                                        .mapDone = [&](const ConvertedMap& map) {
+                                            if (std::exchange(first, false))
+                                                say(o.common, "three figures are: mean / 95 % / maximum, by area of the surface");
+                                            sayMap(o, map);
+                                        }});
+    return done ? std::move(done) : Result<ConvertModelReport>(withMemoryHint(done.error()));
 }
 
 Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, nlohmann::ordered_json& report)
@@ -228,35 +176,23 @@ Status run(const ConvertCommandOptions& o)
     if (!opened)
         return opened.error();
     GltfDocument& document = opened->document;
-    std::vector<std::string> notes;
-    const auto jobs = mapJobs(document, notes);
-    if (!jobs)
-        return jobs.error();
+    const auto done = convert(o, *frames, document);
+    if (!done)
+        return done.error();
     nlohmann::ordered_json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
                                      {"tangents_read", o.tangents}, {"output", o.common.output.string()},
                                      {"maps", nlohmann::ordered_json::array()}};
+    for (const ConvertedMap& map : done->maps)
+        report["maps"].push_back(describe(map));
+    report["tangents"] = reportTangents(o, *done);
     if (!o.verify.empty()) // before anything is written
         if (Status made = makeFolder(o.verify); !made)
             return made;
-    if (jobs->empty())
-        notes.push_back("no primitive has a normal map and uv: nothing to convert");
-    else
-        say(o.common, "three figures are: mean / 95 % / maximum, by area of the surface");
-    for (const MapJob& job : *jobs)
-        if (Status converted = convertMap(o, *frames, document, job, notes, report); !converted)
-            return converted;
-    if (Status handled = handleTangents(o, *frames, document, notes, report); !handled)
-        return handled;
-    const auto& maps = report["maps"];
-    const bool changed = std::any_of(maps.begin(), maps.end(), [](const auto& m) { return !m["kept"].template get<bool>(); });
-    if (changed && frames->to != Frame::mikktspace)
-        notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
-                                    "glTF asks, will show them wrongly", o.to));
     if (Status written = writeModel(o, document, report); !written)
         return written;
-    for (const std::string& note : notes)
+    for (const std::string& note : done->notes)
         warn(o.common, note);
-    report["notes"] = notes;
+    report["notes"] = done->notes;
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
         auto verified = verifyConversion({o.model, o.common.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device, o.memory}, o.common);

@@ -7,7 +7,7 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/low_surface.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "cotan/maps/texels.hpp"
 #include "memory_limit.hpp"
 #include "parse.hpp"

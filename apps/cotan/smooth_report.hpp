@@ -1,17 +1,15 @@
-// Statistics of the cotangents that the frame `smooth` derives.
+// Statistics of the cotangents that the frame `smooth` derives, in texts and reports.
 #pragma once
 
 #include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/tangents.hpp"
+#include "cotan/report/smooth_statistics.hpp"
 
 namespace cotan::app {
 
-// Adds the figures to `row` and returns them as one line: vertices after mirrored charts are kept
-// apart, vertices without a frame, how far the two cotangents are from perpendicular (shear,
-// degrees) and the ratio of the longer to the shorter one (stretch).
-std::string reportSmooth(const MeshView& mesh, nlohmann::ordered_json& row);
+// Adds the figures to `row` and returns them as one line.
+std::string reportSmooth(const SmoothStatistics& statistics, nlohmann::ordered_json& row);
 
 } // namespace cotan::app

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "cotan/gltf/tangents.hpp"
 #include "cotan/report/tangent_difference.hpp"
-#include "cotan/tangents.hpp"
 #include "gltf_open.hpp"
-#include "gltf_placed.hpp"
 #include "progress.hpp"
 #include "smooth_report.hpp"
 
@@ -20,64 +19,15 @@ struct TangentsCommandOptions {
     bool replace = false;
 };
 
-// What happens with one primitive.
-struct Entry {
-    std::size_t mesh = 0, primitive = 0;
-    std::string name;
-    GltfGeometry geometry;
-    std::string cannot; // why there are no tangents to be had; empty if there are
-
-    MeshView view() const
-    {
-        return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices};
-    }
-};
-
-std::string whyNot(const GltfGeometry& geometry)
+TangentsOptions optionsOf(const TangentsCommandOptions& o, Progress& progress)
 {
-    if (geometry.indices.empty())
-        return "no triangles";
-    if (geometry.normals.empty())
-        return "no NORMAL";
-    if (geometry.texcoords.empty())
-        return fmt::format("no TEXCOORD_{}", geometry.texcoordSet);
-    return {};
+    return {.frame = o.frame == "vertex" ? Frame::vertex : Frame::mikktspace, .replace = o.replace, .threads = o.common.threads,
+            .progress = progress.within()};
 }
 
-Result<std::vector<Entry>> readEntries(const GltfDocument& document)
+nlohmann::ordered_json describe(const PrimitiveTangents& p)
 {
-    std::vector<Entry> entries;
-    if (!document.root.contains("meshes"))
-        return entries;
-    const auto& meshes = document.root["meshes"];
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
-            auto geometry = gltfGeometry(document, m, p);
-            if (!geometry)
-                return geometry.error();
-            Entry entry{m, p, meshes[m].value("name", fmt::format("mesh {}", m)),
-                        std::move(*geometry), {}};
-            if (meshes[m]["primitives"].size() > 1)
-                entry.name += fmt::format("/{}", p);
-            entry.cannot = whyNot(entry.geometry);
-            makeUnit(entry.geometry.normals);
-            entries.push_back(std::move(entry));
-        }
-    return entries;
-}
-
-std::vector<glm::vec4> generate(const TangentsCommandOptions& o, const Entry& entry)
-{
-    return o.frame == "vertex" ? vertexTangents(entry.view()) : mikktspaceTangents(entry.view(), o.common.threads);
-}
-
-nlohmann::ordered_json describe(const Entry& entry)
-{
-    return {{"mesh", entry.mesh},
-            {"primitive", entry.primitive},
-            {"name", entry.name},
-            {"triangles", entry.geometry.indices.size() / 3},
-            {"stored", !entry.geometry.tangents.empty()}};
+    return {{"mesh", p.mesh}, {"primitive", p.primitive}, {"name", p.name}, {"triangles", p.triangles}, {"stored", p.stored}};
 }
 
 std::string referenceName(const TangentsCommandOptions& o)
@@ -85,71 +35,61 @@ std::string referenceName(const TangentsCommandOptions& o)
     return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
 }
 
-// Compares what is stored.
-void compare(const TangentsCommandOptions& o, const std::vector<Entry>& entries, nlohmann::ordered_json& report)
+// Says of one primitive how far its tangents are off.
+void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& p, nlohmann::ordered_json& row)
 {
-    TangentDifference all;
-    std::size_t without = 0;
-    Progress progress(o.common, entries.size(), "comparing");
-    for (const Entry& entry : entries) {
-        auto row = describe(entry);
-        const std::string label = fmt::format("{} ({} triangles)", entry.name,
-                                              entry.geometry.indices.size() / 3);
-        if (!entry.cannot.empty()) {
-            row["cannot"] = entry.cannot;
-            say(o.common, fmt::format("{}: {}", label, entry.cannot));
-        } else if (entry.geometry.tangents.empty()) {
-            ++without;
-            say(o.common, fmt::format("{}: no TANGENT", label));
-        } else {
-            const TangentDifference d =
-                tangentDifference(entry.view(), entry.geometry.tangents, generate(o, entry));
-            row.update(toJson(d));
-            say(o.common, fmt::format("{}: {}", label, toText(d, referenceName(o))));
-            append(all, d);
-        }
-        report["primitives"].push_back(std::move(row));
-        progress.step();
+    std::string said = p.cannot.empty() ? "no TANGENT" : p.cannot;
+    if (!p.cannot.empty()) {
+        row["cannot"] = p.cannot;
+    } else if (p.difference) {
+        row.update(toJson(*p.difference));
+        said = toText(*p.difference, referenceName(o));
     }
-    std::string verdict = "no TANGENT is stored";
-    if (all.corners > 0)
-        verdict = toText(all, referenceName(o));
-    if (all.corners > 0 && without > 0)
-        verdict += fmt::format("; {} without TANGENT", counted(without, "primitive"));
+    say(o.common, fmt::format("{} ({} triangles): {}", p.name, p.triangles, said));
+}
+
+// Compares what is stored.
+Status compare(const TangentsCommandOptions& o, const GltfDocument& document, nlohmann::ordered_json& report)
+{
+    Progress progress(o.common, 1, "comparing");
+    const auto compared = compareTangents(document, optionsOf(o, progress));
+    if (!compared)
+        return compared.error();
+    for (const PrimitiveTangents& p : compared->primitives) {
+        auto row = describe(p);
+        reportDifference(o, p, row);
+        report["primitives"].push_back(std::move(row));
+    }
+    const bool any = compared->whole.corners > 0;
+    std::string verdict = any ? toText(compared->whole, referenceName(o)) : "no TANGENT is stored";
+    if (any && compared->without > 0)
+        verdict += fmt::format("; {} without TANGENT", counted(compared->without, "primitive"));
     report["model_verdict"] = verdict;
-    if (all.corners > 0)
-        report["whole"] = toJson(all);
+    if (any)
+        report["whole"] = toJson(compared->whole);
     say(o.common, "whole model: " + verdict);
+    return Done{};
 }
 
 // Generates and writes.
-Status write(const TangentsCommandOptions& o, GltfDocument& document, const std::vector<Entry>& entries,
-             nlohmann::ordered_json& report)
+Status write(const TangentsCommandOptions& o, GltfDocument& document, nlohmann::ordered_json& report)
 {
-    std::vector<GltfCornerTangents> tangents;
-    std::size_t kept = 0, skipped = 0;
+    Result<TangentsGiven> given = TangentsGiven{};
     {
-        Progress progress(o.common, entries.size(), "generating");
-        for (const Entry& entry : entries) {
-            auto row = describe(entry);
-            const bool keep = !entry.geometry.tangents.empty() && !o.replace;
-            row["generated"] = entry.cannot.empty() && !keep;
-            if (!entry.cannot.empty()) {
-                ++skipped;
-                row["cannot"] = entry.cannot;
-                warn(o.common, fmt::format("{}: {}, no tangents", entry.name, entry.cannot));
-            } else if (keep) {
-                ++kept;
-            } else {
-                tangents.push_back({entry.mesh, entry.primitive, generate(o, entry)});
-            }
-            report["primitives"].push_back(std::move(row));
-            progress.step();
-        }
+        Progress progress(o.common, 1, "generating");
+        given = giveTangents(document, optionsOf(o, progress));
     }
-    const auto added = setGltfTangents(document, tangents);
-    if (!added)
-        return added.error();
+    if (!given)
+        return given.error();
+    for (const PrimitiveTangents& p : given->primitives) {
+        auto row = describe(p);
+        row["generated"] = p.generated;
+        if (!p.cannot.empty()) {
+            row["cannot"] = p.cannot;
+            warn(o.common, fmt::format("{}: {}, no tangents", p.name, p.cannot));
+        }
+        report["primitives"].push_back(std::move(row));
+    }
     const auto written = writeGltf(document, o.common.output);
     if (!written)
         return written.error();
@@ -158,18 +98,34 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, const std:
     std::vector<std::string> files;
     for (const auto& file : written->files)
         files.push_back(file.string());
-    report["generated"] = tangents.size();
-    report["kept"] = kept;
-    report["skipped"] = skipped;
-    report["vertices_added"] = *added;
+    report["generated"] = given->generated;
+    report["kept"] = given->kept;
+    report["skipped"] = given->skipped;
+    report["vertices_added"] = given->verticesAdded;
     report["bytes_before"] = written->bytesBefore;
     report["bytes_after"] = written->bytesAfter;
     report["files"] = files;
     report["notes"] = written->notes;
-    say(o.common, fmt::format("{} got {} tangents, {} kept theirs, {} can have none; "
-                              "{} vertices added", counted(tangents.size(), "primitive"), o.frame, kept, skipped, *added));
+    say(o.common, fmt::format("{} got {} tangents, {} kept theirs, {} can have none; {} vertices added",
+                              counted(given->generated, "primitive"), o.frame, given->kept, given->skipped, given->verticesAdded));
     say(o.common, fmt::format("{}: {} bytes, before {}", o.common.output.string(),
                               written->bytesAfter, written->bytesBefore));
+    return Done{};
+}
+
+// Statistics of the frame that is derived when a model is loaded.
+Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& document, nlohmann::ordered_json& report)
+{
+    const auto primitives = gltfPrimitives(document);
+    if (!primitives)
+        return primitives.error();
+    for (const GltfPrimitiveGeometry& p : *primitives) {
+        const GltfGeometry& g = p.geometry;
+        auto row = describe({p.mesh, p.primitive, p.name, g.indices.size() / 3, !g.tangents.empty()});
+        const std::string line = p.cannot.empty() ? reportSmooth(smoothStatistics(p.view()), row) : p.cannot;
+        say(o.common, fmt::format("{}: {}", p.name, line));
+        report["primitives"].push_back(std::move(row));
+    }
     return Done{};
 }
 
@@ -196,29 +152,18 @@ Status run(const TangentsCommandOptions& o)
     auto opened = openGltfToEdit(o.model, o.common);
     if (!opened)
         return opened.error();
-    const auto entries = readEntries(opened->document);
-    if (!entries)
-        return entries.error();
     nlohmann::ordered_json report = {{"command", "tangents"},
                                      {"model", o.model},
                                      {"frame", o.frame},
                                      {"warnings", opened->warnings},
                                      {"primitives", nlohmann::ordered_json::array()}};
     const double load = watch.lap();
-    if (o.frame == "smooth") {
-        for (const Entry& entry : *entries) {
-            auto row = describe(entry);
-            const std::string line = entry.cannot.empty()
-                ? reportSmooth(entry.view(), row)
-                : entry.cannot;
-            say(o.common, fmt::format("{}: {}", entry.name, line));
-            report["primitives"].push_back(std::move(row));
-        }
-    } else if (o.common.output.empty()) {
-        compare(o, *entries, report);
-    } else if (Status written = write(o, opened->document, *entries, report); !written) {
-        return written;
-    }
+    GltfDocument& document = opened->document;
+    Status done = o.frame == "smooth"       ? describeSmooth(o, document, report)
+                  : o.common.output.empty() ? compare(o, document, report)
+                                            : write(o, document, report);
+    if (!done)
+        return done;
     report["seconds"] = {{"load", load}, {"work", watch.lap()}};
     return writeReport(o.common, report);
 }

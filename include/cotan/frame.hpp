@@ -42,6 +42,7 @@ struct FrameInfo {
     std::string_view name;    // as on the command line
     FrameSource source;
     bool total;               // no input gives NaN; otherwise degenerate input may
+    bool dependsOnView;       // changes with where it is seen from, or with the way that the target's rows run
     std::string_view summary; // one line
 };
 
@@ -50,6 +51,10 @@ const std::array<FrameInfo, kFrameCount>& frames();
 
 const FrameInfo& info(Frame frame);
 inline std::string_view name(Frame frame) { return info(frame).name; }
+
+// Whether the frame at a point of a surface changes with the view: with the place of the eye, or with the way that the
+// rows of the target run. No map can be made for such a frame.
+inline bool dependsOnView(Frame frame) { return info(frame).dependsOnView; }
 
 // The frame of that name; nothing if there is none.
 std::optional<Frame> frameFromName(std::string_view name);

@@ -17,7 +17,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/low_points.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
 
@@ -59,8 +59,7 @@ public:
             high_.nearest(probes, lift_, options_.highNormals, hits);
         else
             high_.outermost(probes, options_.highNormals, hits);
-        const bool normals = options_.kind == BakeKind::normal || options_.kind == BakeKind::objectNormal;
-        if (options_.highMaps && normals)
+        if (options_.highMaps && showsNormals(options_.kind))
             for (std::size_t i = 0; i < probes.count; ++i)
                 if (hits.found(i))
                     hits.normal.set(i, options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
@@ -200,7 +199,7 @@ private:
         if (count == 1 && options_.kind != BakeKind::objectNormal)
             return sum;
         const glm::vec3 mean = sum / float(count);
-        if (options_.kind != BakeKind::normal && options_.kind != BakeKind::objectNormal)
+        if (!showsNormals(options_.kind))
             return mean;
         const float length = glm::length(mean);
         return length > 1e-6f ? mean / length : glm::vec3(0);

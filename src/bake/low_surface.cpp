@@ -80,7 +80,7 @@ void deriveCotangents(LowSurface& s)
 
 Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentSource source)
 {
-    if (frame == Frame::nonperspective || frame == Frame::paperOrthogonal)
+    if (dependsOnView(frame))
         return usageError(fmt::format("the frame {} depends on the view: no map can be made for it", name(frame)));
     const bool needsTangents = frame == Frame::vertex || frame == Frame::mikktspace;
     LowSurface surface;

@@ -48,10 +48,19 @@ struct Writer {
 
 } // namespace
 
+NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format)
+{
+    if (kind == BakeKind::objectNormal) {
+        format.channels = COTAN_CHANNELS_XYZ;
+        format.greenAlongV = true;
+    }
+    return format;
+}
+
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
     Writer writer{makeImage(baked.width, baked.height, as.type), as.dither};
-    const bool direction = kind == BakeKind::normal || kind == BakeKind::objectNormal;
+    const bool direction = showsNormals(kind);
     float low = 0, scale = 1;
     if (kind == BakeKind::height && as.type != PixelType::float32) {
         float least = 1e30f, most = -1e30f;
@@ -63,12 +72,8 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
         low = least;
         scale = most > least ? 1 / (most - least) : 0;
     }
-    NormalMapFormat format = as.format;
-    if (kind == BakeKind::objectNormal) { // world axes have no green to turn and need all three
-        format.channels = COTAN_CHANNELS_XYZ;
-        format.greenAlongV = true;
-    }
-    const f32::cotan_normal_format portableFormat = toFormat<f32::cotan_normal_format>(format, as.type);
+    const f32::cotan_normal_format portableFormat =
+        toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type);
     const glm::vec3 empty = !direction               ? glm::vec3(0)
         : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, portableFormat.expansion))
                                          : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);

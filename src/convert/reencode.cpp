@@ -11,7 +11,7 @@
 #include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
-#include "padding.hpp"
+#include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
 
@@ -36,7 +36,7 @@ class Reencoder {
 public:
     Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits)
         : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)),
-          owner_(map.pixelCount(), convert::kNoTexel)
+          owner_(map.pixelCount(), kNoTexel)
     {
         plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
         plain_.strength = 1;
@@ -59,7 +59,7 @@ public:
             if (rowDone)
                 rowDone();
         });
-        convert::spread(owner_, map_.width, map_.height);
+        spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
         overRows([&](int y) { findPlaces(y); });
         overRows([&](int y) { padRow(y); });
@@ -208,7 +208,7 @@ private:
     {
         std::vector<bool> needed(owner_.size());
         for (std::size_t i = 0; i < owner_.size(); ++i)
-            if (owner_[i] != convert::kNoTexel && owner_[i] != i)
+            if (owner_[i] != kNoTexel && owner_[i] != i)
                 needed[owner_[i]] = true;
         for (std::size_t i = 0; i < needed.size(); ++i)
             if (needed[i])
@@ -232,7 +232,7 @@ private:
             if (owner_[i] == i)
                 continue;
             const glm::dvec3 old = oldTexel(x, y);
-            if (owner_[i] == convert::kNoTexel || !(old.z > 0)) {
+            if (owner_[i] == kNoTexel || !(old.z > 0)) {
                 keep(x, y);
                 continue;
             }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "cotan/convert/reencode.hpp"
 
 namespace cotan::convert {

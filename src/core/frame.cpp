@@ -7,22 +7,22 @@ namespace {
 using enum FrameSource;
 
 constexpr std::array<FrameInfo, kFrameCount> kFrames = {{
-    {Frame::cotangent, "cotangent", differences, true,
+    {Frame::cotangent, "cotangent", differences, true, false,
      "2013 cotangent frame, sign-corrected and total (default)"},
-    {Frame::cotangent2013, "cotangent-2013", differences, false, "cotangent frame as printed in 2013"},
-    {Frame::nonperspective, "nonperspective", differences, false, "its non-perspective shortcut"},
-    {Frame::paperFull, "paper-full", differences, false, "2006, full 3x3 inverse"},
-    {Frame::paperNodet, "paper-nodet", differences, false, "2006 _01, no determinant, unit lengths"},
-    {Frame::paperTranspose, "paper-transpose", differences, false, "2006 _02, inverse transpose"},
-    {Frame::paperOrthogonal, "paper-orthogonal", differences, false, "2006 _03, taken as orthogonal"},
-    {Frame::unit, "unit", differences, false, "cotangents, each of unit length"},
-    {Frame::orthonormal, "orthonormal", differences, true,
+    {Frame::cotangent2013, "cotangent-2013", differences, false, true, "cotangent frame as printed in 2013"},
+    {Frame::nonperspective, "nonperspective", differences, false, true, "its non-perspective shortcut"},
+    {Frame::paperFull, "paper-full", differences, false, false, "2006, full 3x3 inverse"},
+    {Frame::paperNodet, "paper-nodet", differences, false, false, "2006 _01, no determinant, unit lengths"},
+    {Frame::paperTranspose, "paper-transpose", differences, false, false, "2006 _02, inverse transpose"},
+    {Frame::paperOrthogonal, "paper-orthogonal", differences, false, true, "2006 _03, taken as orthogonal"},
+    {Frame::unit, "unit", differences, false, false, "cotangents, each of unit length"},
+    {Frame::orthonormal, "orthonormal", differences, true, false,
      "tangent first, b = +-n x t; reads MikkTSpace maps without tangents"},
-    {Frame::gradient, "gradient", differences, true, "true surface gradient, metric bump height"},
-    {Frame::exact, "exact", triangle, true, "per-triangle gradients from the three vertices"},
-    {Frame::smooth, "smooth", vertices, true, "cotangents averaged at the vertices at load"},
-    {Frame::vertex, "vertex", vertices, true, "classic per-vertex tangents, orthonormal per pixel"},
-    {Frame::mikktspace, "mikktspace", vertices, true, "MikkTSpace, per vertex, not renormalised"},
+    {Frame::gradient, "gradient", differences, true, false, "true surface gradient, metric bump height"},
+    {Frame::exact, "exact", triangle, true, false, "per-triangle gradients from the three vertices"},
+    {Frame::smooth, "smooth", vertices, true, false, "cotangents averaged at the vertices at load"},
+    {Frame::vertex, "vertex", vertices, true, false, "classic per-vertex tangents, orthonormal per pixel"},
+    {Frame::mikktspace, "mikktspace", vertices, true, false, "MikkTSpace, per vertex, not renormalised"},
 }};
 
 // One text for both precisions: N is cotan::f32 or cotan::f64, spelled by the caller.

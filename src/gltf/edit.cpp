@@ -110,6 +110,8 @@ Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const L
     }
 }
 
+const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }
+
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image,
                                               const LoadLimits& limits)
 {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "file.hpp"
 #include "problem.hpp"
 
@@ -30,13 +31,6 @@ inline std::size_t sizeOr(const OrderedJson& object, const char* member, std::si
 {
     const auto found = object.find(member);
     return found == object.end() ? fallback : found->get<std::size_t>();
-}
-
-// The length of a collection of the root; 0 where it is missing.
-inline std::size_t countOf(const OrderedJson& root, const char* collection)
-{
-    const auto found = root.find(collection);
-    return found == root.end() ? 0 : found->size();
 }
 
 // ---- gltf_edit_references.cpp -----------------------------------------------------------------

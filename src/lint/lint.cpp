@@ -11,6 +11,7 @@
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/placings.hpp"
 #include "parts.hpp"
 
 namespace cotan {
@@ -25,15 +26,9 @@ constexpr double kHalfDegree = 0.5;
 std::vector<std::vector<glm::dmat3>> placings(const Scene& scene)
 {
     std::vector<std::vector<glm::dmat3>> result(scene.meshes.size());
-    for (const Instance& i : scene.instances) {
-        auto& known = result[std::size_t(i.mesh)];
-        const glm::dmat3 here(glm::dmat4(i.toWorld));
-        if (std::none_of(known.begin(), known.end(), [&](const glm::dmat3& k) { return alikeForFrames(k, here); }))
-            known.push_back(here);
-    }
-    for (auto& known : result)
-        if (known.empty())
-            known.push_back(glm::dmat3(1));
+    for (const Instance& i : scene.instances)
+        addPlacing(result[std::size_t(i.mesh)], glm::dmat3(glm::dmat4(i.toWorld)));
+    placeUnshown(result);
     return result;
 }
 

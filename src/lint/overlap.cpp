@@ -5,7 +5,7 @@
 
 #include <glm/common.hpp>
 
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {

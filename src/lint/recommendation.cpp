@@ -194,7 +194,7 @@ const Spread& fitOf(const MapFit& fit, Advice advice)
     return advice == Advice::convertToCotangent ? fit.cotangent : advice == Advice::convertToSmooth ? fit.smooth : fit.orthonormal;
 }
 
-// Counts what `convert` would do; convert_gltf.cpp says which tangents go.
+// Counts what `convert` would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)

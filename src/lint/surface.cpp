@@ -125,22 +125,6 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     return surface;
 }
 
-bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
-{
-    const glm::dmat3 ga = glm::transpose(a) * a, gb = glm::transpose(b) * b;
-    const double ta = ga[0][0] + ga[1][1] + ga[2][2], tb = gb[0][0] + gb[1][1] + gb[2][2];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (!(std::abs(ga[i][j] * tb - gb[i][j] * ta) <= 1e-5 * ta * tb))
-                return false;
-    return true;
-}
-
-bool viewIndependent(Frame frame)
-{
-    return frame != Frame::nonperspective && frame != Frame::paperOrthogonal && frame != Frame::cotangent2013;
-}
-
 f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric)
 {

@@ -19,6 +19,9 @@ enum class BakeKind {
     occlusion,    // share of the hemisphere above the high surface that is open, cosine weighted
 };
 
+// Whether a map of the kind holds directions.
+inline bool showsNormals(BakeKind kind) { return kind == BakeKind::normal || kind == BakeKind::objectNormal; }
+
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
@@ -53,6 +56,7 @@ struct BakeStatistics {
     std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
     double rayDistance = 0;   // the search distance used
     double seconds = 0;       // of the rays and frames
+    double padSeconds = 0;    // of filling around charts, where bakeTile did so
 };
 
 // A baked map before it is stored: per texel a unit texel m (or a world normal; or the value in x),
@@ -86,6 +90,10 @@ struct StoredAs {
     PixelType type = PixelType::unorm8;
     bool dither = false; // 8 bit: rounds by a fixed pattern so that gradients do not band
 };
+
+// The format that storeBaked writes where `format` is asked for: object normals have no green to turn and need all three
+// channels.
+NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format);
 
 // The picture of a baked map. Normals by the format; heights and occlusion as grey, heights shifted
 // and scaled to [0,1] unless float. Texels without a value become flat (normals) or zero.

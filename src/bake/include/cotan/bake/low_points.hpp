@@ -5,7 +5,7 @@
 
 #include "cotan/bake/lanes.hpp"
 #include "cotan/bake/low_surface.hpp"
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
 

@@ -13,8 +13,8 @@ namespace cotan {
 inline constexpr double kDisagree = 0.5;       // degrees: about what rounding to 8 bits costs at worst
 inline constexpr std::size_t kMostPlaces = 16; // of one texel; of more, evenly chosen ones count
 
-struct Reencoded {
-    Image image;                // as large as the old one
+// What a conversion did to a map, in texels and degrees.
+struct ReencodeFigures {
     std::size_t covered = 0;    // texels whose centre some triangle covers
     std::size_t padded = 0;     // others, converted as at the nearest place
     std::size_t several = 0;    // covered by more than one place
@@ -24,6 +24,10 @@ struct Reencoded {
     Spread disagreement;        // degrees of the worst place, before rounding, of the disagreeing
     Spread unconverted;         // mapError of the old map: off by so much if it were read with the new frame
     Spread error;               // mapError of the new one, after rounding
+};
+
+struct Reencoded : ReencodeFigures {
+    Image image; // as large as the old one
 };
 
 // map: with all its data. bits: 8 or 16 a component of the result. threads: 0 for all cores. rowDone is called for every row from any thread.

@@ -44,6 +44,9 @@ struct GltfDocument {
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file,
                                       const LoadLimits& limits = {});
 
+// The file that a document was read from, for messages; empty for one that was made from a scene.
+const std::filesystem::path& gltfPath(const GltfDocument& document);
+
 // A scene as a new document: one mesh with one primitive for each of its meshes, materials of
 // metallic-roughness, images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes
 // without vertices are not for glTF: the caller keeps to scenes that were loaded or made with triangles.

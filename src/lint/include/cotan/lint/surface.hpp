@@ -41,13 +41,6 @@ struct MappedSurface {
 // finite are taken as 0, and `mikktspace`, `vertex` and cotangents stay as their generators say.
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear = glm::dmat3(1));
 
-// Whether two linear maps differ by a rotation, a mirroring and a uniform scale only: all frames go along
-// with these, so that one surface stands for both.
-bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b);
-
-// Whether the frame at a point is the same from wherever it is seen: only then a map can be made for it.
-bool viewIndependent(Frame frame);
-
 // The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are
 // made of differences take the triangle's edges, which gives the same as a pixel's differences.
 // Degenerate input: as for the functions cotan_frame_NAME; no uv, or no tangents, give t = b = 0.

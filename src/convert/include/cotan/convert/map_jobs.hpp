@@ -2,14 +2,14 @@
 // how what comes out goes back in.
 #pragma once
 
-#include <set>
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "cotan/gltf/edit.hpp"
 #include "cotan/convert/reencode.hpp"
+#include "cotan/gltf/edit.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 // An image and everything that reads it as its normal map.
 struct MapJob {
@@ -30,21 +30,8 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 // (EXT_texture_webp, KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes);
 
-// Indices of the textures that slots of an object, or of anything below it, read. glTF's slots all end in "Texture".
-std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);
+// By material: whether its normal map is in a format that is not read here, named by an extension or, against the
+// specification, by the texture itself. False where it has none.
+std::vector<bool> foreignNormalMaps(const GltfDocument& document);
 
-struct TangentBytes {
-    std::size_t vertices = 0; // that had TANGENT
-    std::size_t bytes = 0;    // of their accessors, morph targets included
-    std::size_t primitives = 0;
-};
-
-// Takes TANGENT from all primitives but those whose materials need it for something that is not converted,
-// a map in an extension or a normal map that is neither PNG nor JPEG (`notes` says so).
-Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes);
-
-// Generates tangents of that frame (mikktspace or vertex) for all primitives with a normal map. Returns
-// how many primitives got them.
-Result<std::size_t> giveTangents(GltfDocument& document, Frame frame);
-
-} // namespace cotan::app
+} // namespace cotan

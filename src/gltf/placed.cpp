@@ -1,19 +1,19 @@
-#include "gltf_placed.hpp"
+#include "cotan/gltf/placed.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "cotan/lint/surface.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/portable.hpp"
+#include "cotan/scene/placings.hpp"
 
-namespace cotan::app {
-
-namespace {
+namespace cotan {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 glm::dvec3 vectorOr(const Json& node, const char* member, glm::dvec3 otherwise)
 {
@@ -22,6 +22,9 @@ glm::dvec3 vectorOr(const Json& node, const char* member, glm::dvec3 otherwise)
     const Json& v = node[member];
     return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
 }
+
+// Of a unit vector's length in float. Quantised normals are up to 0.007 off.
+constexpr double kRounding = 2e-6;
 
 // What a node does to vectors.
 glm::dmat3 linearOf(const Json& node)
@@ -46,7 +49,7 @@ glm::dmat3 linearOf(const Json& node)
 
 } // namespace
 
-std::vector<std::vector<glm::dmat3>> placings(const Json& root)
+std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
 {
     std::vector<std::vector<glm::dmat3>> result(countOf(root, "meshes"));
     const std::size_t nodes = countOf(root, "nodes");
@@ -67,19 +70,12 @@ std::vector<std::vector<glm::dmat3>> placings(const Json& root)
             open.emplace_back(c.get<std::size_t>(), here);
         if (!node.contains("mesh"))
             continue;
-        auto& known = result[node["mesh"].get<std::size_t>()];
         const glm::dmat3 placed = node.contains("skin") ? glm::dmat3(1) : here; // a skin replaces the node
-        if (std::none_of(known.begin(), known.end(), [&, p = placed](const glm::dmat3& k) { return alikeForFrames(k, p); }))
-            known.push_back(placed);
+        addPlacing(result[node["mesh"].get<std::size_t>()], placed);
     }
-    for (auto& known : result)
-        if (known.empty())
-            known.push_back(glm::dmat3(1));
+    placeUnshown(result);
     return result;
 }
-
-// Of a unit vector's length in float. Quantised normals are up to 0.007 off.
-constexpr double kRounding = 2e-6;
 
 void makeUnit(std::vector<glm::vec3>& normals)
 {
@@ -90,7 +86,7 @@ void makeUnit(std::vector<glm::vec3>& normals)
     }
 }
 
-Mesh meshOf(GltfGeometry geometry)
+Mesh gltfMesh(GltfGeometry geometry)
 {
     Mesh mesh;
     mesh.positions = std::move(geometry.positions);
@@ -118,4 +114,4 @@ Mesh meshOf(GltfGeometry geometry)
     return flat;
 }
 
-} // namespace cotan::app
+} // namespace cotan

@@ -1,4 +1,4 @@
-#include "cotan/bake/uv_raster.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,196 @@
+// What `cotan bake` was asked for, checked, and the files that it names.
+#include "bake_options.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cotan/convention.hpp"
+#include "cotan/image/file.hpp"
+#include "gltf_open.hpp"
+#include "map_options.hpp"
+#include "parse.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+Result<NormalMapFormat> formatFromName(const std::string& option, const std::string& name)
+{
+    const auto convention = conventionFromName(name);
+    if (!convention) {
+        std::string names;
+        for (const ConventionPreset& preset : conventionPresets())
+            names += (names.empty() ? "" : ", ") + std::string(preset.name);
+        return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
+    }
+    return formatInScene(*convention);
+}
+
+Result<StoredAs> storedAs(const BakeCommandOptions& o)
+{
+    const auto format = formatFromName("--convention", o.convention);
+    if (!format)
+        return format.error();
+    StoredAs as;
+    as.format = *format;
+    as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
+    if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
+        return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
+    as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
+    as.dither = o.dither;
+    return as;
+}
+
+BakeKind kindOf(const std::string& word)
+{
+    return word == "normal" ? BakeKind::normal : word == "object-normal" ? BakeKind::objectNormal
+        : word == "height"  ? BakeKind::height : BakeKind::occlusion;
+}
+
+// What --high-normals and its options say.
+Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
+{
+    const bool map = o.highNormals == "map";
+    for (const auto& [option, given] : {std::pair("--high-map", !o.highMaps.empty()), {"--high-convention", !o.highConvention.empty()},
+                                        {"--high-frame", !o.highFrame.empty()}})
+        if (given && !map)
+            return usageError(fmt::format("{}: expected --high-normals map with it; found {}", option, o.highNormals));
+    if (o.highMaps.size() > 1 && o.highMaps.size() != o.high.size())
+        return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}", o.high.size(),
+                                      o.highMaps.size()));
+    if (!o.highConvention.empty()) {
+        const auto format = formatFromName("--high-convention", o.highConvention);
+        if (!format)
+            return format.error();
+        options.highFormat = *format;
+    }
+    options.ownMaps = map;
+    options.bake.highNormals = o.highNormals == "curved" ? HighNormals::curved
+        : o.highNormals == "face"                        ? HighNormals::face
+                                                         : HighNormals::smooth;
+    if (o.highFrame.empty())
+        return Done{};
+    const auto frame = frameFromName(o.highFrame);
+    if (!frame)
+        return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
+    if (dependsOnView(*frame))
+        return usageError(fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
+    options.highFrame = *frame;
+    return Done{};
+}
+
+Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
+{
+    BakeModelOptions options;
+    const auto size = parseSize(o.size);
+    if (!size)
+        return size.error();
+    const auto frame = parseFrame(o.frame);
+    if (!frame)
+        return frame.error();
+    const auto stored = storedAs(o);
+    if (!stored)
+        return stored.error();
+    if (Status ok = parseHigh(o, options); !ok)
+        return ok.error();
+    options.bake.kind = kindOf(o.kind);
+    options.bake.frame = *frame;
+    options.bake.width = size->first;
+    options.bake.height = size->second;
+    options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
+    options.bake.maxDistance = o.maxDistance;
+    options.bake.occlusionRays = o.occlusionRays;
+    options.bake.threads = o.common.threads;
+    options.tiles = {o.udim};
+    options.material = o.material;
+    options.tangents = o.tangents == "stored" ? TangentSource::stored : TangentSource::generated;
+    options.matchByName = o.matchByName;
+    options.padding = o.padding;
+    options.stored = *stored;
+    options.mask = !o.mask.empty();
+    return options;
+}
+
+// The high meshes, and the images of --high-map where they count.
+Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
+{
+    HighModel high;
+    for (const std::string& file : o.high) {
+        auto scene = loadSceneWithin(o.memory, file, o.highNormals == "map" ? Pixels::all : Pixels::none);
+        if (!scene)
+            return scene.error();
+        high.scenes.push_back(std::move(*scene));
+    }
+    for (std::size_t i = 0; mapsCount && i < o.highMaps.size(); ++i) {
+        auto image = readImageWithin(o.memory, o.highMaps[i]);
+        if (!image)
+            return image.error();
+        high.maps.push_back(std::move(*image));
+    }
+    return high;
+}
+
+// What was odd about the files, each line once also where both are one file.
+std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high, bool mapsCount)
+{
+    std::vector<std::string> warnings = low.warnings;
+    if (!mapsCount) {
+        if (o.highNormals == "map")
+            warnings.push_back(fmt::format("--high-normals map changes nothing in a map of the kind {}", o.kind));
+        return warnings;
+    }
+    for (const Scene& scene : high.scenes)
+        for (const std::string& line : scene.warnings)
+            if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())
+                warnings.push_back(line);
+    return warnings;
+}
+
+} // namespace
+
+Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error)
+{
+    const struct { std::string_view field; std::string words, hint; } all[] = {
+        {"options.material", "--material", ""},
+        {"options.cage", o.cage, ""},
+        {"options.matchByName", "--match-by-name", ""},
+        {"options.tiles", o.low, " (--udim)"},
+        {"document", o.low, ""},
+    };
+    for (const auto& [field, words, hint] : all)
+        if (error.message.starts_with(std::string(field) + ": "))
+            return {error.kind, words + error.message.substr(field.size()) + hint};
+    return error;
+}
+
+Result<BakeJob> loadBake(const BakeCommandOptions& o)
+{
+    auto options = parseOptions(o);
+    if (!options)
+        return options.error();
+    const bool mapsCount = options->ownMaps && showsNormals(options->bake.kind);
+    auto low = loadSceneWithin(o.memory, o.low);
+    if (!low)
+        return low.error();
+    Scene cage;
+    if (!o.cage.empty()) {
+        auto scene = loadSceneWithin(kDefaultMemory, o.cage, Pixels::none);
+        if (!scene)
+            return scene.error();
+        cage = std::move(*scene);
+        options->cage = &cage;
+    }
+    auto high = loadHigh(o, mapsCount);
+    if (!high)
+        return high.error();
+    std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
+    auto setup = prepareBake(*low, std::move(*high), *options);
+    if (!setup)
+        return inWordsOfCommand(o, setup.error());
+    warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
+    return BakeJob{std::move(*low), std::move(*setup), std::move(warnings)};
+}
+
+} // namespace cotan::app

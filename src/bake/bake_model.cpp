@@ -1,0 +1,74 @@
+#include "cotan/bake/bake_model.hpp"
+
+#include <atomic>
+#include <chrono>
+
+#include <fmt/format.h>
+
+namespace cotan {
+
+namespace {
+
+constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards
+constexpr int kUdimColumns = 10;
+
+// The unit square of uv of a UDIM tile. The numbers count v upwards from the bottom of the first
+// tile, our v runs down from its top.
+glm::ivec2 squareOf(int udim)
+{
+    const int n = udim - kFirstUdim;
+    return {n % kUdimColumns, -(n / kUdimColumns)};
+}
+
+} // namespace
+
+Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const std::function<void(double)>& progress)
+{
+    if (tile < kFirstUdim)
+        return usageError(fmt::format("options.tiles: expected numbers from {} on; found {}", kFirstUdim, tile));
+    BakeOptions options = setup.options.bake;
+    options.tile = squareOf(tile);
+    std::atomic<int> rows = 0;
+    std::function<void()> rowDone;
+    if (progress)
+        rowDone = [&] { progress(double(++rows) / options.height); };
+    auto baked = bake(setup.low, setup.high, options, rowDone);
+    if (!baked)
+        return baked.error();
+    if (baked->statistics.covered + baked->statistics.touched == 0)
+        return inputError(fmt::format("options.tiles: no triangle lies on tile {} of the texture coordinates", tile));
+    const auto start = std::chrono::steady_clock::now();
+    if (setup.options.padding >= 0)
+        padCharts(*baked, setup.options.padding);
+    baked->statistics.padSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    BakedMap map;
+    map.tile = tile;
+    map.image = storeBaked(*baked, options.kind, setup.options.stored);
+    map.format = storedFormat(options.kind, setup.options.stored.format);
+    if (setup.options.mask)
+        map.mask = maskOf(*baked);
+    map.statistics = baked->statistics;
+    return map;
+}
+
+Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
+                             const std::function<void(double)>& progress)
+{
+    auto setup = prepareBake(low, std::move(high), options);
+    if (!setup)
+        return setup.error();
+    BakedModel model;
+    model.warnings = std::move(setup->warnings);
+    for (const int tile : options.tiles) {
+        std::function<void(double)> within;
+        if (progress)
+            within = [&](double share) { progress((double(model.maps.size()) + share) / double(options.tiles.size())); };
+        auto map = bakeTile(*setup, tile, within);
+        if (!map)
+            return map.error();
+        model.maps.push_back(std::move(*map));
+    }
+    return model;
+}
+
+} // namespace cotan

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "cotan/bake/bake_model.hpp"
+#include "cotan/scene/put_normal_map.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
+
+Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+{
+    const BakeOptions& b = options.bake;
+    if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
+        return usageError(fmt::format("options.bake: expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
+                                      b.width, b.height));
+    if (b.samples != 1 && b.samples != 2 && b.samples != 4)
+        return usageError(fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
+    if (options.material >= int(low.materials.size()))
+        return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material));
+    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
+        return usageError(fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
+                                      high.scenes.size(), high.maps.size()));
+    return Done{};
+}
+
+// The cage's corner positions, brought to the vertices of the low surface.
+Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface& low)
+{
+    std::vector<glm::vec3> corners;
+    for (const Instance& instance : cage.instances) {
+        const Mesh& mesh = cage.meshes[std::size_t(instance.mesh)];
+        for (std::uint32_t i : mesh.indices)
+            corners.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[i], 1)));
+    }
+    if (corners.size() != low.indices.size())
+        return inputError(fmt::format("options.cage: expected a cage of {} triangles, as the low mesh has; found {}",
+                                      low.triangleCount(), corners.size() / 3));
+    std::vector<glm::vec3> positions(low.positions.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        positions[low.indices[i]] = corners[i];
+    return positions;
+}
+
+// Makes the materials say what HighModel::maps and highFormat say.
+void applyMaps(HighModel& high, const std::optional<NormalMapFormat>& format)
+{
+    for (std::size_t i = 0; i < high.scenes.size() && !high.maps.empty(); ++i) {
+        Scene& scene = high.scenes[i];
+        for (Material& material : scene.materials)
+            material.normalMap = {}; // the image is read by uv set 0 as it is
+        putNormalMap(scene, high.maps.size() > 1 ? std::move(high.maps[i]) : high.maps.front(), {});
+    }
+    if (format)
+        for (Scene& scene : high.scenes)
+            for (Material& material : scene.materials)
+                material.normalFormat = *format;
+}
+
+// The normal maps of the detailed scenes, whose images are moved out.
+Status readOwnMaps(HighModel& high, BakeSetup& setup)
+{
+    applyMaps(high, setup.options.highFormat);
+    auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
+    if (!maps)
+        return maps.error();
+    if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
+        setup.warnings.push_back(fmt::format("{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there",
+                                             bare, maps->instanceCount()));
+    setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
+    return Done{};
+}
+
+// Whether what is baked has tangents everywhere and they count.
+bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
+{
+    return options.tangents == TangentSource::stored && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+        return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty() || !mesh.tangents.empty();
+    });
+}
+
+// "door_low" and "door_high" are of one name: what stands before the last low or high.
+std::string stem(std::string name)
+{
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* word : {"low", "high"})
+        if (const std::size_t at = name.rfind(word); at != std::string::npos)
+            return name.substr(0, at);
+    return name;
+}
+
+Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& high)
+{
+    std::vector<std::int64_t> result;
+    for (const Instance& instance : low.instances) {
+        const std::string& name =
+            !instance.name.empty() ? instance.name : low.meshes[std::size_t(instance.mesh)].name;
+        const auto& names = high.names();
+        const auto found =
+            std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
+        if (found == names.end())
+            return inputError(fmt::format("options.matchByName: no high mesh is named like the low mesh '{}'", name));
+        result.push_back(found - names.begin());
+    }
+    return result;
+}
+
+} // namespace
+
+Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+{
+    if (Status ok = checkRanges(low, high, options); !ok)
+        return ok.error();
+    auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
+    if (!lowSurface)
+        return lowSurface.error();
+    std::vector<glm::vec3> cage;
+    if (options.cage) {
+        auto positions = cagePositions(*options.cage, *lowSurface);
+        if (!positions)
+            return positions.error();
+        cage = std::move(*positions);
+    }
+    auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
+    if (!highSurface)
+        return highSurface.error();
+    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
+    BakeOptions& bake = setup.options.bake;
+    setup.options.cage = nullptr;
+    bake.cage = std::move(cage);
+    bake.highMaps = nullptr;
+    bake.matched.clear();
+    if (bake.highNormals == HighNormals::curved)
+        setup.high.curve(bake.threads);
+    if (options.ownMaps && showsNormals(bake.kind))
+        if (Status read = readOwnMaps(high, setup); !read)
+            return read.error();
+    if (options.matchByName) {
+        auto matched = matches(low, setup.high);
+        if (!matched)
+            return matched.error();
+        bake.matched = std::move(*matched);
+    }
+    return setup;
+}
+
+} // namespace cotan

@@ -1,0 +1,159 @@
+#include "cotan/convert/convert_model.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "cotan/convert/map_jobs.hpp"
+#include "cotan/gltf/tangents.hpp"
+#include "cotan/image/file.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
+constexpr double kMostCopies = 2e6; // of the image under all triangles together
+
+class ModelConverter {
+public:
+    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options) : options_(options), document_(document) {}
+
+    Status run()
+    {
+        const auto jobs = mapJobs(document_, report_.notes);
+        if (!jobs)
+            return jobs.error();
+        if (jobs->empty())
+            report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
+        for (std::size_t k = 0; k < jobs->size(); ++k) {
+            const auto share = [&, k](double ofMap) {
+                if (options_.progress)
+                    options_.progress((double(k) + ofMap) / double(jobs->size()));
+            };
+            auto map = convertMap((*jobs)[k], share);
+            if (!map)
+                return map.error();
+            share(1);
+            if (options_.mapDone)
+                options_.mapDone(*map);
+            report_.maps.push_back(std::move(*map));
+        }
+        if (Status settled = settleTangents(); !settled)
+            return settled;
+        const bool changed = std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
+        if (changed && options_.frames.to != Frame::mikktspace)
+            report_.notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
+                                                "missing, as glTF asks, will show them wrongly", name(options_.frames.to)));
+        return Done{};
+    }
+
+    GltfDocument& document() { return document_; }
+    ConvertModelReport& report() { return report_; }
+
+private:
+    // Converts one image and puts it back.
+    Result<ConvertedMap> convertMap(const MapJob& job, const std::function<void(double)>& share)
+    {
+        const std::filesystem::path& file = gltfPath(document_);
+        const std::string field = file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
+        const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
+        if (!bytes)
+            return bytes.error();
+        const auto map = decodeImage(*bytes, field, options_.limits);
+        if (!map)
+            return map.error();
+        ConvertedMap done{job.image, job.name, job.uses.size(), map->width, map->height};
+        done.alsoElsewhere = job.alsoElsewhere;
+        done.bytesBefore = done.bytesAfter = bytes->size();
+        // Where the old map serves as well as a rounded new one, it stays, byte for byte.
+        done.figures.unconverted = errorAsItIs(*map, job);
+        done.kept = done.figures.unconverted.count == 0 || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
+        if (done.kept)
+            return done;
+        if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
+            return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", field, copies, kMostCopies));
+        done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
+        std::atomic<int> rows = 0;
+        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads,
+                                     [&] { share(double(++rows) / double(map->height)); });
+        auto png = encodePng(r.image);
+        if (!png)
+            return png.error();
+        done.figures = r;
+        done.bytesAfter = png->size();
+        replaceMap(document_, job, std::move(*png), report_.notes);
+        noteWhatStaysOff(done);
+        return done;
+    }
+
+    // How far the old map is off when it is read with the new frame.
+    Spread errorAsItIs(const Image& map, const MapJob& job) const
+    {
+        std::vector<const MapUse*> uses;
+        for (const MapUse& use : job.uses)
+            uses.push_back(&use);
+        return mapError(map, map, uses, options_.frames);
+    }
+
+    void noteWhatStaysOff(const ConvertedMap& map)
+    {
+        const ReencodeFigures& r = map.figures;
+        const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
+        if (share * r.disagreement.mean > kSeen)
+            report_.notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
+                                                "on average at the worst of them: no one map fits; give such parts texels of their own",
+                                                map.name, 100 * share, r.disagreement.mean));
+        else if (r.error.mean > kSeen)
+            report_.notes.push_back(fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for "
+                                                "how the surface changes under them", map.name, r.error.mean));
+    }
+
+    Status settleTangents()
+    {
+        if (readsTangents(options_.frames.to)) {
+            report_.tangents = TangentsAfter::given;
+            const auto given = giveTangents(
+                document_, {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads});
+            if (!given)
+                return given.error();
+            report_.primitivesGiven = given->generated;
+            return Done{};
+        }
+        if (options_.keepTangents) {
+            report_.tangents = TangentsAfter::kept;
+            report_.notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
+            return Done{};
+        }
+        const auto dropped = dropTangents(document_, report_.notes);
+        if (!dropped)
+            return dropped.error();
+        report_.dropped = *dropped;
+        return Done{};
+    }
+
+    const ConvertModelOptions& options_;
+    GltfDocument document_; // a copy, so that an error leaves the caller's as it was
+    ConvertModelReport report_;
+};
+
+} // namespace
+
+bool readsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
+
+Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
+{
+    for (const Frame frame : {options.frames.from, options.frames.to})
+        if (dependsOnView(frame))
+            return usageError(fmt::format("convert: the frame {} depends on the view: no map can be made for it", name(frame)));
+    if (options.bits != 0 && options.bits != 8 && options.bits != 16)
+        return usageError(fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
+    ModelConverter converter(document, options);
+    if (Status done = converter.run(); !done)
+        return done.error();
+    document = std::move(converter.document());
+    return std::move(converter.report());
+}
+
+} // namespace cotan

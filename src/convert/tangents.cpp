@@ -1,0 +1,76 @@
+#include "cotan/convert/tangents.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cotan/convert/map_jobs.hpp"
+#include "cotan/gltf/lookup.hpp"
+
+namespace cotan {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// What of a material reads tangents and is not converted; empty if nothing.
+std::string whyTangentsStay(const Json& root, std::size_t material, bool foreign)
+{
+    if (foreign)
+        return "its normal map, neither PNG nor JPEG,";
+    const Json& extensions = root["materials"][material].value("extensions", Json::object());
+    if (extensions.contains("KHR_materials_anisotropy"))
+        return "KHR_materials_anisotropy reads tangents and";
+    if (extensions.contains("KHR_materials_clearcoat") && extensions["KHR_materials_clearcoat"].contains("clearcoatNormalTexture"))
+        return "KHR_materials_clearcoat reads tangents and";
+    return {};
+}
+
+} // namespace
+
+Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes)
+{
+    TangentBytes dropped;
+    std::set<std::size_t> seen, told;
+    const std::vector<bool> foreign = foreignNormalMaps(document);
+    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
+        const Json& root = document.root;
+        const Json& primitive = root["meshes"][m]["primitives"][p];
+        if (!primitive["attributes"].contains("TANGENT"))
+            return Done{};
+        for (const std::size_t material : materialsOf(root, primitive)) {
+            const std::string reason = whyTangentsStay(root, material, foreign[material]);
+            if (reason.empty())
+                continue;
+            if (told.insert(material).second)
+                notes.push_back(fmt::format("materials[{}]: {} is not converted; TANGENT stays", material, reason));
+            return Done{};
+        }
+        auto count = [&](const Json& attributes, bool base) {
+            if (!attributes.contains("TANGENT"))
+                return;
+            const std::size_t index = attributes["TANGENT"].get<std::size_t>();
+            if (!seen.insert(index).second)
+                return;
+            const Json& accessor = root["accessors"][index];
+            const int type = accessor["componentType"].get<int>();
+            const std::size_t component = type == 5126 ? 4 : type == 5122 || type == 5123 ? 2 : 1;
+            const std::size_t vertices = accessor["count"].get<std::size_t>();
+            dropped.vertices += base ? vertices : 0;
+            dropped.bytes += vertices * component * (base ? 4 : 3);
+        };
+        count(primitive["attributes"], true);
+        for (const Json& target : primitive.value("targets", Json::array()))
+            count(target, false);
+        const auto done = dropGltfTangents(document, m, p);
+        if (!done)
+            return done.error();
+        dropped.primitives += *done;
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    return dropped;
+}
+
+} // namespace cotan

@@ -1,0 +1,44 @@
+// Finding one's way in the JSON of a glTF file. All functions want a root as openGltfDocument has checked it.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cotan/result.hpp"
+
+namespace cotan {
+
+// The length of a collection of the root; 0 where it is missing.
+inline std::size_t countOf(const nlohmann::ordered_json& root, const char* collection)
+{
+    const auto found = root.find(collection);
+    return found == root.end() ? 0 : found->size();
+}
+
+// Calls visit(mesh, primitive), which returns a Status, for every primitive of the file in order, up to the first error.
+template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root, const Visit& visit)
+{
+    for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)
+        for (std::size_t p = 0; p < root["meshes"][m]["primitives"].size(); ++p)
+            if (Status status = visit(m, p); !status)
+                return status;
+    return Done{};
+}
+
+// Indices of the materials that a primitive is seen with: its own, then those of KHR_materials_variants. Empty where it
+// has none.
+std::vector<std::size_t> materialsOf(const nlohmann::ordered_json& root, const nlohmann::ordered_json& primitive);
+
+// What a material says of its normal map (`normalTexture`); null where it has none. Points into root.
+const nlohmann::ordered_json* normalTextureOf(const nlohmann::ordered_json& root, std::size_t material);
+
+// Indices of the textures that slots of an object, or of anything below it, read. glTF's slots all end in "Texture".
+std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);
+
+// The same for a material, its normalTexture left out.
+std::set<std::size_t> texturesBesideNormalMap(const nlohmann::ordered_json& material);
+
+} // namespace cotan

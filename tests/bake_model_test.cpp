@@ -1,0 +1,231 @@
+// The one call that bakes a model, as a program uses it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/bake/bake_model.hpp"
+#include "cotan/convention.hpp"
+
+namespace cotan {
+namespace {
+
+// A square that runs along `along` from `corner` and along +y; its uv fill the unit square of uv whose corner is `tile`.
+Mesh square(glm::vec3 corner, glm::vec3 along, glm::vec2 tile = {0, 0})
+{
+    Mesh mesh;
+    const glm::vec3 n = glm::normalize(glm::cross(along, glm::vec3(0, 1, 0)));
+    for (const glm::vec2 c : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+        mesh.positions.push_back(corner + along * c.x + glm::vec3(0, c.y, 0));
+        mesh.normals.push_back(n);
+        mesh.texcoords[0].push_back(tile + glm::vec2(c.x, 1 - c.y)); // v down
+    }
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+Scene sceneWith(std::vector<Mesh> meshes)
+{
+    Scene scene;
+    scene.name = "scene";
+    scene.materials.emplace_back();
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        scene.instances.push_back({"", int(i), glm::mat4(1)});
+    scene.meshes = std::move(meshes);
+    return scene;
+}
+
+HighModel highOf(Scene scene)
+{
+    HighModel high;
+    high.scenes.push_back(std::move(scene));
+    return high;
+}
+
+BakeModelOptions smallOptions(Frame frame = Frame::cotangent)
+{
+    BakeModelOptions options;
+    options.bake.frame = frame;
+    options.bake.width = 12;
+    options.bake.height = 8;
+    options.bake.maxDistance = 0.5f;
+    options.bake.threads = 1;
+    return options;
+}
+
+// Red, green and blue of a texel of 8 bits.
+glm::ivec3 codes(const Image& image, int x, int y)
+{
+    const std::uint8_t* p = image.bytes8() + 4 * (y * image.width + x);
+    return {p[0], p[1], p[2]};
+}
+
+// What 8 bits hold of a component, 128 for zero.
+int code(double component) { return int(std::lround(128 + 127 * component)); }
+
+std::string errorOf(const Result<BakedModel>& baked) { return baked ? "no error" : baked.error().message; }
+
+TEST(BakeModel, aFlatSquareOnItselfIsFlatForEveryFrameThatDoesNotDependOnTheView)
+{
+    const Scene flat = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    int baked = 0;
+    for (const FrameInfo& frame : frames()) {
+        const auto model = bakeModel(flat, highOf(flat), smallOptions(frame.frame));
+        if (dependsOnView(frame.frame)) {
+            ASSERT_FALSE(model) << frame.name;
+            EXPECT_EQ(model.error().kind, ErrorKind::usage);
+            continue;
+        }
+        ASSERT_TRUE(model) << frame.name << ": " << model.error().message;
+        ASSERT_EQ(model->maps.size(), 1u);
+        const BakedMap& map = model->maps.front();
+        EXPECT_EQ(map.statistics.covered, 12u * 8u);
+        EXPECT_EQ(map.statistics.missed, 0u);
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 12; ++x)
+                EXPECT_EQ(codes(map.image, x, y), glm::ivec3(128, 128, 255)) << frame.name << " " << x << " " << y;
+        ++baked;
+    }
+    EXPECT_EQ(baked, kFrameCount - 3);
+}
+
+TEST(BakeModel, aTiltedSquareGivesItsNormalAndTheFormatSaysHow)
+{
+    // z grows by 0.3 along x: the normal is (-0.3, 0, 1), and u runs along x.
+    const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 0, 1));
+    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    const Scene high = sceneWith({square({0, 0, 0}, {1, 0, 0.3f})});
+    const auto model = bakeModel(low, highOf(high), smallOptions());
+    ASSERT_TRUE(model);
+    EXPECT_EQ(codes(model->maps[0].image, 5, 3), glm::ivec3(code(n.x), 128, code(n.z)));
+    EXPECT_FALSE(model->maps[0].format.greenAlongV);
+    EXPECT_TRUE(model->warnings.empty());
+
+    BakeModelOptions object = smallOptions();
+    object.bake.kind = BakeKind::objectNormal;
+    object.stored.format.channels = COTAN_CHANNELS_ORTHOGRAPHIC; // world axes need all three
+    const auto world = bakeModel(low, highOf(high), object);
+    ASSERT_TRUE(world);
+    EXPECT_EQ(world->maps[0].format.channels, COTAN_CHANNELS_XYZ);
+    EXPECT_EQ(codes(world->maps[0].image, 5, 3), glm::ivec3(code(n.x), 128, code(n.z)));
+}
+
+TEST(BakeModel, aMeshWithoutUvIsRefusedWithOneLine)
+{
+    Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    low.meshes[0].name = "lid";
+    low.meshes[0].texcoords[0].clear();
+    const auto model = bakeModel(low, highOf(low), smallOptions());
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().kind, ErrorKind::input);
+    EXPECT_EQ(model.error().message, "scene: mesh 'lid' has no texture coordinates (uv set 0)");
+}
+
+TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
+{
+    // Tile 1002 lies to the right, tile 1011 above: there v is below zero, since ours runs down.
+    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0}, {1, 0}), square({0, 2, 0}, {1, 0, 0}, {0, -1})});
+    const Scene high = sceneWith({square({0, 0, 0}, {1, 0, 0.3f}), square({0, 2, 0}, {1, 0, -0.3f})});
+    BakeModelOptions options = smallOptions();
+    options.tiles = {1002, 1011};
+    options.mask = true;
+    std::vector<double> shares;
+    const auto model = bakeModel(low, highOf(high), options, [&](double share) { shares.push_back(share); });
+    ASSERT_TRUE(model) << model.error().message;
+    ASSERT_EQ(model->maps.size(), 2u);
+    EXPECT_EQ(model->maps[0].tile, 1002);
+    EXPECT_EQ(model->maps[1].tile, 1011);
+    EXPECT_LT(codes(model->maps[0].image, 5, 3).x, 100);
+    EXPECT_GT(codes(model->maps[1].image, 5, 3).x, 150);
+    EXPECT_EQ(model->maps[0].mask.width, 12);
+    EXPECT_EQ(shares.size(), 2u * 8u); // rows
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GT(shares.front(), 0);
+    EXPECT_EQ(shares.back(), 1);
+
+    options.tiles = {1005};
+    const auto empty = bakeModel(low, highOf(high), options);
+    ASSERT_FALSE(empty);
+    EXPECT_EQ(empty.error().kind, ErrorKind::input);
+    EXPECT_EQ(errorOf(empty), "options.tiles: no triangle lies on tile 1005 of the texture coordinates");
+}
+
+TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
+{
+    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})}), cage = sceneWith({square({0, 0, 2}, {1, 0, 0})});
+    const Scene high = sceneWith({square({0, 0, 1}, {1, 0, 0.3f})});
+    BakeModelOptions options = smallOptions();
+    const auto without = bakeModel(low, highOf(high), options);
+    options.cage = &cage;
+    const auto with = bakeModel(low, highOf(high), options);
+    ASSERT_TRUE(without && with);
+    EXPECT_EQ(without->maps[0].statistics.missed, 12u * 8u);
+    EXPECT_EQ(with->maps[0].statistics.missed, 0u);
+}
+
+TEST(BakeModel, meshesAreMatchedByName)
+{
+    // Both detailed squares lie before the simple one; the nearer is not its own.
+    Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    Scene high = sceneWith({square({0, 0, 0.01f}, {1, 0, 0.3f}), square({0, 0, 0.1f}, {1, 0, -0.05f})});
+    low.meshes[0].name = "Door_LOW";
+    high.meshes[0].name = "wall_high";
+    high.meshes[1].name = "door_high";
+    BakeModelOptions options = smallOptions();
+    const auto all = bakeModel(low, highOf(high), options);
+    options.matchByName = true;
+    const auto matched = bakeModel(low, highOf(high), options);
+    ASSERT_TRUE(all && matched);
+    EXPECT_LT(codes(all->maps[0].image, 0, 3).x, 128);
+    EXPECT_GT(codes(matched->maps[0].image, 0, 3).x, 128);
+    high.meshes[1].name = "gate_high";
+    EXPECT_EQ(errorOf(bakeModel(low, highOf(high), options)),
+              "options.matchByName: no high mesh is named like the low mesh 'Door_LOW'");
+}
+
+TEST(BakeModel, aMapGivenForTheDetailedSceneCounts)
+{
+    // One direction everywhere, with green as DirectX has it: down the picture.
+    const glm::dvec3 m = glm::normalize(glm::dvec3(0.2, 0.4, 1));
+    HighModel high = highOf(sceneWith({square({0, 0, 0}, {1, 0, 0})}));
+    high.maps.push_back(makeImage(1, 1, PixelType::unorm8));
+    const glm::ivec3 stored(code(m.x), code(-m.y), code(m.z));
+    for (int k = 0; k < 3; ++k)
+        high.maps[0].bytes8()[k] = std::uint8_t(stored[k]);
+    BakeModelOptions options = smallOptions();
+    options.ownMaps = true;
+    options.highFrame = Frame::cotangent;
+    options.highFormat = NormalMapFormat{.greenAlongV = true};
+    const auto model = bakeModel(sceneWith({square({0, 0, 0}, {1, 0, 0})}), std::move(high), options);
+    ASSERT_TRUE(model) << model.error().message;
+    const glm::ivec3 found = codes(model->maps[0].image, 5, 3);
+    EXPECT_LE(std::abs(found.x - code(m.x)), 1); // rounded twice
+    EXPECT_LE(std::abs(found.y - code(m.y)), 1);
+    EXPECT_LE(std::abs(found.z - code(m.z)), 1);
+}
+
+TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
+{
+    const Scene flat = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    const Scene two = sceneWith({square({0, 0, 0}, {1, 0, 0}), square({0, 2, 0}, {1, 0, 0})});
+    const auto errorWith = [&](const std::function<void(BakeModelOptions&, HighModel&)>& change) {
+        BakeModelOptions options = smallOptions();
+        HighModel high = highOf(flat);
+        change(options, high);
+        return errorOf(bakeModel(flat, std::move(high), options));
+    };
+    using O = BakeModelOptions;
+    using H = HighModel;
+    EXPECT_EQ(errorWith([](O& o, H&) { o.material = 1; }), "options.material: expected 0 to 0; found 1");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.height = 0; }), "options.bake: expected a width and a height from 1 to 65535; found 12x0");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }), "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }), "options.tiles: expected numbers from 1001 on; found 1000");
+    EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }), "high.maps: expected none, one, or one for each of the 1 scenes; found 2");
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }), "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,273 @@
+// A whole glTF document for another frame, by one call and without files: texels that are known by hand, what the report
+// says, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <mutex>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "cotan/convention.hpp"
+#include "cotan/convert/convert_model.hpp"
+#include "cotan/gltf/tangents.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/lint/texel.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+constexpr f64::cotan_normal_format kStored{0, 0, -1, 1}; // glTF: green against +v
+
+Image mapOf(glm::dvec3 m)
+{
+    Image image = makeImage(16, 16, PixelType::unorm8, "map");
+    const glm::dvec3 stored = f64::cotan_encode_texel(glm::normalize(m), kStored);
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+        image.bytes8()[i] = i % 4 == 3 ? std::uint8_t(255) : std::uint8_t(std::lround(255 * stored[int(i % 4)]));
+    return image;
+}
+
+// A rectangle in xy whose uv fill the unit square, v down, with a map.
+GltfDocument documentOf(float width, const Image& map, float uvScale = 1, bool tangents = false)
+{
+    Scene scene;
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {width, 0, 0}, {width, 1, 0}, {0, 1, 0}};
+    mesh.normals.assign(4, {0, 0, 1});
+    if (tangents)
+        mesh.tangents.assign(4, {1, 0, 0, 1});
+    mesh.texcoords[0] = {{0, uvScale}, {uvScale, uvScale}, {uvScale, 0}, {0, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes = {mesh};
+    scene.images = {map};
+    scene.materials.emplace_back();
+    scene.materials[0].normalMap.image = 0;
+    scene.instances.push_back({});
+    auto document = gltfDocumentOf(scene);
+    if (!document)
+        ADD_FAILURE() << document.error().message;
+    return *document;
+}
+
+Image normalMapIn(const GltfDocument& document, std::size_t image = 0)
+{
+    const auto bytes = gltfImageBytes(document, image);
+    const auto decoded = bytes ? decodeImage(*bytes, "map") : Result<Image>(bytes.error());
+    if (!decoded) {
+        ADD_FAILURE() << decoded.error().message;
+        return {};
+    }
+    return *decoded;
+}
+
+glm::dvec3 directionAt(const Image& image, int x, int y)
+{
+    f64::cotan_normal_format format = kStored;
+    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
+}
+
+double largestAngle(const Image& a, const Image& b)
+{
+    double largest = a.width == b.width && a.height == b.height ? 0 : 180;
+    for (int y = 0; y < a.height && largest < 180; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const glm::dvec3 p = directionAt(a, x, y), q = directionAt(b, x, y);
+            largest = std::max(largest, glm::degrees(std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q))));
+        }
+    return largest;
+}
+
+bool has(const GltfDocument& document, const char* attribute)
+{
+    return document.root["meshes"][0]["primitives"][0]["attributes"].contains(attribute);
+}
+
+constexpr FramePair kThere{Frame::mikktspace, Frame::cotangent};
+constexpr FramePair kBack{Frame::cotangent, Frame::mikktspace};
+
+TEST(ConvertModel, aFlatMapStaysFlatInEveryFrame)
+{
+    for (const FrameInfo& to : frames()) {
+        if (to.dependsOnView)
+            continue;
+        GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
+        const auto before = gltfImageBytes(document, 0);
+        const auto kept = convertModel(document, {.frames = {Frame::mikktspace, to.frame}});
+        ASSERT_TRUE(kept) << kept.error().message;
+        ASSERT_EQ(kept->maps.size(), 1u);
+        EXPECT_TRUE(kept->maps[0].kept) << to.name;
+        EXPECT_LT(kept->maps[0].figures.unconverted.maximum, 1e-4) << to.name; // float positions and tangents
+        EXPECT_EQ(*before, *gltfImageBytes(document, 0)) << to.name;
+        const auto anew = convertModel(document, {.frames = {Frame::mikktspace, to.frame}, .bits = 16});
+        ASSERT_TRUE(anew) << anew.error().message;
+        EXPECT_EQ(anew->maps[0].bits, 16);
+        const Image map = normalMapIn(document);
+        ASSERT_EQ(map.type, PixelType::unorm16);
+        for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+            EXPECT_NEAR(map.words()[4 * i], 32768, 1) << to.name; // the code of zero
+            EXPECT_NEAR(map.words()[4 * i + 1], 32768, 1) << to.name;
+            EXPECT_EQ(map.words()[4 * i + 2], 65535) << to.name;
+        }
+    }
+}
+
+TEST(ConvertModel, onATwiceAsWideRectangleTheSlopeAlongUDoublesForCotangent)
+{
+    const Image map = mapOf({0.3, 0.2, 1});
+    GltfDocument document = documentOf(2, map);
+    const auto report = convertModel(document, {.frames = kThere, .bits = 16});
+    ASSERT_TRUE(report) << report.error().message;
+    const glm::dvec3 old = directionAt(map, 3, 3), found = directionAt(normalMapIn(document), 3, 3);
+    EXPECT_NEAR(found.x / found.z, 2 * old.x / old.z, 2e-4); // 16 bits: 1.5e-5 a component, slopes under 1
+    EXPECT_NEAR(found.y / found.z, old.y / old.z, 2e-4);
+    const ConvertedMap& m = report->maps.at(0);
+    EXPECT_EQ(m.width, 16);
+    EXPECT_EQ(m.height, 16);
+    EXPECT_EQ(m.surfaces, 1u);
+    EXPECT_EQ(m.figures.covered, 256u);
+    EXPECT_EQ(m.bytesAfter, gltfImageBytes(document, 0)->size());
+    EXPECT_LT(m.figures.error.maximum, 0.01); // 16 bits
+    EXPECT_GT(m.figures.unconverted.mean, 3);
+}
+
+TEST(ConvertModel, thereAndBackIsWithinRounding)
+{
+    const Image map = makeReliefMap(Relief::waves, 32);
+    GltfDocument document = documentOf(2, map);
+    ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16}));
+    EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // and it does something
+    ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16}));
+    EXPECT_LT(largestAngle(map, normalMapIn(document)), 0.02); // 16 bits, twice
+}
+
+TEST(ConvertModel, tangentsAreDroppedGivenOrKept)
+{
+    const Image map = mapOf({0.3, 0.2, 1});
+    GltfDocument document = documentOf(2, map, 1, true);
+    const auto kept = convertModel(document, {.frames = kThere, .keepTangents = true});
+    ASSERT_TRUE(kept) << kept.error().message;
+    EXPECT_EQ(kept->tangents, TangentsAfter::kept);
+    EXPECT_TRUE(has(document, "TANGENT"));
+    const auto dropped = convertModel(document, {.frames = {Frame::cotangent, Frame::orthonormal}});
+    ASSERT_TRUE(dropped) << dropped.error().message;
+    EXPECT_EQ(dropped->tangents, TangentsAfter::dropped);
+    EXPECT_EQ(dropped->dropped.primitives, 1u);
+    EXPECT_EQ(dropped->dropped.vertices, 4u);
+    EXPECT_EQ(dropped->dropped.bytes, 4u * 16u);
+    EXPECT_FALSE(has(document, "TANGENT"));
+    const auto given = convertModel(document, {.frames = {Frame::orthonormal, Frame::vertex}});
+    ASSERT_TRUE(given) << given.error().message;
+    EXPECT_EQ(given->tangents, TangentsAfter::given);
+    EXPECT_EQ(given->primitivesGiven, 1u);
+    EXPECT_TRUE(has(document, "TANGENT"));
+}
+
+TEST(ConvertModel, progressRunsToOneAndEachMapIsToldOfOnce)
+{
+    GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
+    std::mutex mutex;
+    double last = 0, most = 0;
+    std::size_t told = 0;
+    const auto report = convertModel(document, {.frames = kThere, .threads = 2,
+                                                .progress = [&](double share) {
+                                                    const std::lock_guard lock(mutex);
+                                                    last = share;
+                                                    most = std::max(most, share);
+                                                },
+                                                .mapDone = [&](const ConvertedMap& map) { told += map.image == 0; }});
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(last, 1);
+    EXPECT_EQ(most, 1);
+    EXPECT_EQ(told, 1u);
+}
+
+TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
+{
+    const auto refused = [](GltfDocument document, const ConvertModelOptions& options, ErrorKind kind, const char* word) {
+        const auto before = document.root;
+        const auto result = convertModel(document, options);
+        ASSERT_FALSE(result) << word;
+        EXPECT_EQ(result.error().kind, kind) << word;
+        EXPECT_NE(result.error().message.find(word), std::string::npos) << result.error().message;
+        EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
+        EXPECT_EQ(document.root, before) << word;
+    };
+    const Image map = mapOf({0.3, 0.2, 1});
+    for (const FrameInfo& f : frames())
+        if (f.dependsOnView) {
+            refused(documentOf(2, map), {.frames = {Frame::mikktspace, f.frame}}, ErrorKind::usage, "depends on the view");
+            refused(documentOf(2, map), {.frames = {f.frame, Frame::cotangent}}, ErrorKind::usage, "depends on the view");
+        }
+    refused(documentOf(2, map), {.frames = kThere, .bits = 12}, ErrorKind::usage, "found 12");
+    refused(documentOf(2, map, 1e5f), {.frames = kThere}, ErrorKind::input, "repeat the map");
+    ConvertModelOptions small{.frames = kThere};
+    small.limits.imageSide = 8;
+    refused(documentOf(2, map), small, ErrorKind::input, "16 x 16");
+    GltfDocument broken = documentOf(2, map);
+    replaceGltfImage(broken, 0, std::vector<std::byte>(5), "image/png");
+    refused(broken, {.frames = kThere}, ErrorKind::input, "map");
+}
+
+// ---- tangents alone -------------------------------------------------------------------------
+
+TEST(GiveTangents, aFlatRectangleGetsTheDirectionOfUAndThenDiffersFromItByNothing)
+{
+    for (const Frame frame : {Frame::mikktspace, Frame::vertex}) {
+        GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
+        const auto bare = compareTangents(document, {.frame = frame});
+        ASSERT_TRUE(bare);
+        EXPECT_EQ(bare->without, 1u);
+        EXPECT_EQ(verdictOf(bare->whole), TangentVerdict::nothing);
+        const auto given = giveTangents(document, {.frame = frame});
+        ASSERT_TRUE(given) << given.error().message;
+        EXPECT_EQ(given->generated, 1u);
+        EXPECT_EQ(given->verticesAdded, 0u);
+        const auto geometry = gltfGeometry(document, 0, 0);
+        ASSERT_TRUE(geometry);
+        ASSERT_EQ(geometry->tangents.size(), 4u);
+        for (const glm::vec4& t : geometry->tangents)
+            EXPECT_LT(glm::length(t - glm::vec4(1, 0, 0, 1)), 1e-6f); // u along x; cross(n, t) up the picture
+        const auto compared = compareTangents(document, {.frame = frame});
+        ASSERT_TRUE(compared);
+        EXPECT_EQ(compared->whole.corners, 6u);
+        EXPECT_EQ(verdictOf(compared->whole), TangentVerdict::equal);
+    }
+}
+
+TEST(GiveTangents, whatIsThereStaysUnlessItIsToBeReplaced)
+{
+    GltfDocument document = documentOf(2, mapOf({0, 0, 1}), 1, true);
+    GltfCornerTangents turned{0, 0, std::vector<glm::vec4>(6, {-1, 0, 0, -1})};
+    ASSERT_TRUE(setGltfTangents(document, {&turned, 1}));
+    const auto kept = giveTangents(document, {});
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->kept, 1u);
+    EXPECT_EQ(kept->generated, 0u);
+    const auto off = compareTangents(document, {});
+    ASSERT_TRUE(off);
+    EXPECT_EQ(verdictOf(off->whole), TangentVerdict::inverted);
+    EXPECT_EQ(turnedShare(off->whole), 1);
+    const auto replaced = giveTangents(document, {.replace = true});
+    ASSERT_TRUE(replaced);
+    EXPECT_TRUE(replaced->primitives.at(0).stored);
+    EXPECT_TRUE(replaced->primitives.at(0).generated);
+    EXPECT_EQ(verdictOf(compareTangents(document, {})->whole), TangentVerdict::equal);
+}
+
+TEST(GiveTangents, framesThatHaveNoneAreRefused)
+{
+    GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
+    for (const FrameInfo& f : frames()) {
+        const auto given = giveTangents(document, {.frame = f.frame});
+        EXPECT_EQ(bool(given), readsTangents(f.frame)) << f.name;
+        if (!given) {
+            EXPECT_EQ(given.error().kind, ErrorKind::usage);
+        }
+    }
+}
+
+} // namespace
+} // namespace cotan
