@@ -63,9 +63,22 @@ TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_GT(compared->views[0].degrees.count, 1000u); // from the front
     EXPECT_GT(compared->views[2].degrees.count, 1000u); // from behind
-    EXPECT_EQ(compared->views[4].degrees.count, 0u);    // from above the quad is a line
+    for (std::size_t side : {1, 3, 4})                  // from the sides and from above the quad is a line
+        EXPECT_EQ(compared->views[side].degrees.count, 0u) << side;
     EXPECT_NEAR(compared->all.mean, tilt, 1e-3);        // float
     EXPECT_NEAR(compared->all.maximum, tilt, 1e-2);
+}
+
+TEST(VerifyConversion, theSecondModelIsSeenWithTheCamerasOfTheFirst)
+{
+    const auto painter = reference();
+    const Scene here = quadWith(kFlatTexel);
+    Scene there = here;
+    there.instances[0].toWorld[3][0] = 10; // out of their sight
+    const auto compared = verifyConversion(*painter, {here, Frame::cotangent}, {there, Frame::cotangent}, kPixels);
+    ASSERT_TRUE(compared) << compared.error().message;
+    EXPECT_TRUE(compared->mapped);
+    EXPECT_EQ(compared->all.count, 0u);
 }
 
 TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
@@ -135,6 +148,8 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
     ASSERT_TRUE(off) << off.error().message;
     EXPECT_NEAR(off->views[0].degrees.mean, std::atan(slope) * 57.295779513, 1e-3);
     EXPECT_EQ(off->views[0].degrees.count, fits->views[0].degrees.count);
+    for (std::size_t side : {1, 3}) // from there the low quad is a line
+        EXPECT_EQ(off->views[side].degrees.count, 0u) << side;
 }
 
 TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)

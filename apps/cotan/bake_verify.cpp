@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/painter.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/verify/bake.hpp"
+#include "device.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
@@ -28,11 +28,9 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
 {
     if (Status made = makeFolder(o.verify); !made)
         return made.error();
-    const auto painter = openPainter(o.device, o.common.threads);
+    const auto painter = openDevice(o.device, o.common);
     if (!painter)
         return painter.error();
-    if (!(*painter)->note.empty())
-        warn(o.common, (*painter)->note);
     Progress progress(o.common, kBakeViews, "drawing and comparing");
     (*painter)->progress = progress.within();
     const auto compared = cotan::verifyBake(**painter, {job.lowScene, job.setup.low, job.setup.high, job.setup.options.bake, map,

@@ -9,6 +9,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/files/output.hpp"
+#include "device.hpp"
 #include "figures/figure.hpp"
 #include "figures/stage.hpp"
 #include "figures/studio.hpp"
@@ -143,11 +144,9 @@ Status run(const FiguresCommandOptions& o)
         return figures.error();
     if (Status planned = planOutputs(o.common, plannedIn("-o", o.common.output, {"index.html", "overview.png"})); !planned)
         return planned;
-    auto painter = openPainter(o.device, o.common.threads);
+    auto painter = openDevice(o.device, o.common);
     if (!painter)
         return painter.error();
-    if (!(*painter)->note.empty())
-        warn(o.common, (*painter)->note);
     if (Status made = makeFolder(o.common.output); !made)
         return made;
 

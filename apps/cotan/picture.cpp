@@ -7,6 +7,7 @@
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
+#include "device.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
 
@@ -123,11 +124,9 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
                                                     const Picture& picture)
 {
     const bool reference = options.device == "auto" && options.lighting != "world";
-    auto painter = openPainter(reference ? "reference" : options.device, common.threads);
+    auto painter = openDevice(reference ? "reference" : options.device, common);
     if (!painter)
         return painter;
-    if (!(*painter)->note.empty())
-        warn(common, (*painter)->note);
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
     return painter;

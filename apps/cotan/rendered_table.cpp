@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/painter.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 #include "cotan/truth/painted.hpp"
 #include "cotan/truth/patch.hpp"
+#include "device.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
@@ -86,11 +86,9 @@ Scene sceneFor(const PaintedScene& painted, const FrameGroup& group)
 Result<std::vector<Measurement>> measureRendered(const std::string& device, const CommonOptions& options,
                                                  const AccuracySelection& selection)
 {
-    const auto painter = openPainter(device, options.threads);
+    const auto painter = openDevice(device, options);
     if (!painter)
         return painter.error();
-    if (!(*painter)->note.empty())
-        warn(options, (*painter)->note);
     const std::string arithmetic = (*painter)->device() == "reference" ? "reference" : "vulkan";
     std::vector<Measurement> rows;
     const std::vector<Subject> list = subjects(selection);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/painter.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/verify/conversion.hpp"
+#include "device.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
@@ -29,11 +29,9 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
     auto before = loadSceneWithin(o.memory, o.before);
     if (!before)
         return before.error();
-    const auto painter = openPainter(o.device, common.threads);
+    const auto painter = openDevice(o.device, common);
     if (!painter)
         return painter.error();
-    if (!(*painter)->note.empty())
-        warn(common, (*painter)->note);
     device = (*painter)->device();
     const auto first = drawModel(**painter, o.before, {std::move(*before), o.from, o.fromGenerated}, common);
     if (!first)
