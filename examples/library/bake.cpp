@@ -1,0 +1,21 @@
+// The normal map of a detailed model for a simple one, read without tangents: bake LOW HIGH PICTURE
+#include <cstdio>
+
+#include <cotan/bake/bake_model.hpp>
+#include <cotan/image/file.hpp>
+#include <cotan/model/load.hpp>
+
+int main(int argc, char** argv)
+{
+    using namespace cotan;
+    auto low = loadScene(argc > 1 ? argv[1] : ""), high = loadScene(argc > 2 ? argv[2] : "");
+    if (!low || !high)
+        return std::fprintf(stderr, "%s\n", (low ? high : low).error().message.c_str()), 2;
+    BakeModelOptions options;
+    options.bake.frame = Frame::cotangent;
+    options.bake.width = options.bake.height = 256;
+    const auto baked = bakeModel(*low, {.scenes = {*std::move(high)}, .maps = {}}, options);
+    const auto written = baked ? writeImage(argc > 3 ? argv[3] : "map.png", baked->maps[0].image) : Status(baked.error());
+    if (!written)
+        return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 2;
+}
