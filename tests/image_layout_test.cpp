@@ -477,6 +477,15 @@ TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
     }
 }
 
+TEST_F(PictureFile, ddsOfMoreLevelsThanAPictureCanHaveIsRefused)
+{
+    const std::string file = dx10(4, 4, 83) + std::string(16, '\0');
+    EXPECT_TRUE(decodeImage(bytesOf(std::string(file).replace(28, 1, 1, '\x03')), "a.dds"));
+    const auto image = decodeImage(bytesOf(std::string(file).replace(28, 4, 4, '\x47')), "a.dds");
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find("it has 1195853639 levels"), std::string::npos) << image.error().message;
+}
+
 TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
 {
     for (const std::string& name : {std::string("ATI1"), std::string("BC4U"), std::string("ATI2")}) {
