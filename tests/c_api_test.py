@@ -119,6 +119,9 @@ call("cotan_map_blend", c.byref(base), c.byref(detail), b"gltf", b"reoriented", 
 assert max(abs(a - b) for a, b in zip(result, small)) <= 1, list(result)
 for words, name in ((b"gltf,nonsense", "from"), (b"", "from")):
     assert call("cotan_map_convert", c.byref(base), words, b"gltf", c.byref(target), expect=1).startswith(name + ": expected gltf")
+assert "signed values need" in call("cotan_map_convert", c.byref(base), b"gltf", b"gltf,signed", c.byref(target), expect=1)
+assert "signed values need" in call("cotan_map_blend", c.byref(base), c.byref(detail), b"gltf,signed", b"udn", c.c_double(1), c.byref(target), expect=1)
+assert "signed values need" in call("cotan_map_mips", c.byref(base), b"gltf,signed", c.c_double(0.3), Take(lambda *a: 0), None, expect=1)
 target.width = 3
 assert "expected 2 x 2 pixels" in call("cotan_map_convert", c.byref(base), b"gltf", b"gltf", c.byref(target), expect=1)
 

@@ -50,21 +50,26 @@ template<class T> T valueOf(Result<T> result, const char* name)
     return *std::move(result);
 }
 
+// Cut to the place that there is, with a zero at its end.
+inline void copyText(std::string_view text, char* to, std::size_t size)
+{
+    if (!to || size == 0)
+        return;
+    const std::size_t length = std::min(text.size(), size - 1);
+    std::memcpy(to, text.data(), length);
+    to[length] = '\0';
+}
+
 inline cotan_status refused(const Error& error, char* message, std::size_t size)
 {
-    if (message && size > 0) {
-        const std::size_t length = std::min(error.message.size(), size - 1);
-        std::memcpy(message, error.message.data(), length);
-        message[length] = '\0';
-    }
+    copyText(error.message, message, size);
     return cotan_status(error.kind);
 }
 
 // Runs the work of one function.
 template<class Work> cotan_status call(char* message, std::size_t size, Work work)
 try {
-    if (message && size > 0)
-        message[0] = '\0';
+    copyText("", message, size);
     work();
     return COTAN_OK;
 } catch (const Failure& failure) {

@@ -63,6 +63,15 @@ void put(const Image& image, const cotan_picture& p)
 
 Convention conventionOf(const char* words, const char* name) { return valueOf(conventionFromWords(word(words, name)), name); }
 
+// Of a result with such components.
+Convention storableAs(const char* words, const char* name, PixelType type)
+{
+    const Convention convention = conventionOf(words, name);
+    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
+        fail(ErrorKind::usage, std::string(name) + ": signed values need a picture of 32 bits");
+    return convention;
+}
+
 maps::BlendMode modeOf(const char* text)
 {
     using M = maps::BlendMode;
@@ -92,7 +101,7 @@ cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char*
         green->swapped = v.swapped == maps::Swapped::yes ? 1 : v.swapped == maps::Swapped::no ? 0 : -1;
         green->confidence = v.confidence == maps::Confidence::certain ? 2 : v.confidence == maps::Confidence::likely ? 1 : 0;
         green->agreement = v.agreement;
-        refused({ErrorKind::usage, v.reason}, green->reason, sizeof green->reason); // copies, cut to its size
+        copyText(v.reason, green->reason, sizeof green->reason);
     });
 }
 
@@ -104,10 +113,8 @@ cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const
         const cotan_picture& out = output(to_map, "to_map", image);
         maps::RecodeSettings settings;
         settings.from = conventionOf(from, "from");
-        settings.to = conventionOf(to, "to");
         settings.type = typeOf(out, "to_map");
-        require(settings.to.expansion != Expansion::signedValues || settings.type == PixelType::float32,
-                "to: signed values need a picture of 32 bits");
+        settings.to = storableAs(to, "to", settings.type);
         require((settings.from.kind == MapKind::objectSpace) == (settings.to.kind == MapKind::objectSpace),
                 "to: expected a map of the same space; object space needs the mesh");
         maps::RecodeCounts counts;
@@ -125,10 +132,8 @@ cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, 
         maps::FromHeightSettings settings;
         settings.scaleX = scale_x;
         settings.scaleY = scale_y;
-        settings.to = conventionOf(to, "to");
         settings.type = typeOf(out, "map");
-        require(settings.to.expansion != Expansion::signedValues || settings.type == PixelType::float32,
-                "to: signed values need a picture of 32 bits");
+        settings.to = storableAs(to, "to", settings.type);
         std::size_t invalid = 0;
         put(maps::normalsFromHeight(image, settings, invalid), out);
     });
@@ -154,10 +159,10 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
         const cotan_picture& out = output(map, "map", under);
         require(std::isfinite(strength), "strength: expected a finite number");
         maps::BlendSettings settings;
-        settings.base = settings.detail = settings.to = conventionOf(convention, "convention");
+        settings.type = typeOf(out, "map");
+        settings.base = settings.detail = settings.to = storableAs(convention, "convention", settings.type);
         settings.mode = modeOf(mode);
         settings.strength = float(strength);
-        settings.type = typeOf(out, "map");
         std::size_t invalid = 0;
         put(maps::blend(under, over, settings, invalid), out);
     });
@@ -171,9 +176,9 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
         require(take, "take: expected a function, found null");
         require(roughness >= 0 && roughness <= 1, "roughness: expected 0 to 1");
         maps::MipSettings settings;
-        settings.from = settings.to = conventionOf(convention, "convention");
-        settings.roughness = roughness;
         settings.type = image.type;
+        settings.from = settings.to = storableAs(convention, "convention", settings.type);
+        settings.roughness = roughness;
         auto levels = maps::mipChain(image, settings);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             const cotan_picture normals = pictureOf(levels[i].normals), rough = pictureOf(levels[i].roughness);

@@ -95,19 +95,7 @@ OrderedJson withImage(GltfDocument& document, OrderedJson image, std::vector<std
 
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits)
 {
-    const auto failed = [&](const std::string& what) {
-        const std::string name = file.string();
-        return inputError(oneLine(what.starts_with(name) ? what : name + ": " + what));
-    };
-    try {
-        return open(file, limits);
-    } catch (const GltfProblem& problem) {
-        return failed(problem.message);
-    } catch (const std::bad_alloc&) {
-        return failed("not enough memory for what the file asks for");
-    } catch (const std::exception& problem) {
-        return failed(problem.what());
-    }
+    return caughtGltf(file, [&] { return open(file, limits); });
 }
 
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }

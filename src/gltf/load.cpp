@@ -182,20 +182,7 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 
 Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits)
 {
-    const auto failed = [&](const std::string& what) {
-        const std::string name = file.string();
-        const std::string message = what.starts_with(name) ? what : name + ": " + what;
-        return inputError(oneLine(message));
-    };
-    try {
-        return load(file, limits);
-    } catch (const GltfProblem& problem) {
-        return failed(problem.message);
-    } catch (const std::bad_alloc&) {
-        return failed("not enough memory for what the file asks for");
-    } catch (const std::exception& problem) {
-        return failed(problem.what());
-    }
+    return caughtGltf(file, [&] { return load(file, limits); });
 }
 
 } // namespace cotan

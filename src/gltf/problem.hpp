@@ -1,17 +1,22 @@
-// How the parts of the glTF reader report trouble to loadGltf.
+// How the parts of the glTF reader report trouble to loadGltf and openGltfDocument.
 #pragma once
 
 #include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cotan/result.hpp"
+
 namespace cotan {
 
-// Thrown by the parts of the glTF reader, caught by loadGltf alone, which turns it into an Error.
-// The message says field, expected, found; loadGltf puts the file in front.
+// Thrown by the parts of the glTF reader, caught by caughtGltf alone, which turns it into an Error.
+// The message says field, expected, found; caughtGltf puts the file in front.
 struct GltfProblem {
     std::string message;
 };
@@ -49,5 +54,23 @@ private:
 
 // Text from a file made fit for a one-line message: control characters replaced, length capped.
 std::string oneLine(const std::string& text);
+
+// What load() returns, and what it throws as an error: one line with the file's name in front, once.
+template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
+{
+    const auto failed = [&](const std::string& what) {
+        const std::string name = file.string();
+        return inputError(oneLine(what.starts_with(name) ? what : name + ": " + what));
+    };
+    try {
+        return load();
+    } catch (const GltfProblem& problem) {
+        return failed(problem.message);
+    } catch (const std::bad_alloc&) {
+        return failed("not enough memory for what the file asks for");
+    } catch (const std::exception& problem) {
+        return failed(problem.what());
+    }
+}
 
 } // namespace cotan
