@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "bake_scene.hpp"
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/convention.hpp"
 
@@ -16,26 +17,10 @@ namespace {
 // A square that runs along `along` from `corner` and along +y; its uv fill the unit square of uv whose corner is `tile`.
 Mesh square(glm::vec3 corner, glm::vec3 along, glm::vec2 tile = {0, 0})
 {
-    Mesh mesh;
-    const glm::vec3 n = glm::normalize(glm::cross(along, glm::vec3(0, 1, 0)));
-    for (const glm::vec2 c : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-        mesh.positions.push_back(corner + along * c.x + glm::vec3(0, c.y, 0));
-        mesh.normals.push_back(n);
-        mesh.texcoords[0].push_back(tile + glm::vec2(c.x, 1 - c.y)); // v down
-    }
-    mesh.indices = {0, 1, 2, 0, 2, 3};
+    Mesh mesh = rectangle(corner, along, {0, 1, 0});
+    for (glm::vec2& uv : mesh.texcoords[0])
+        uv += tile;
     return mesh;
-}
-
-Scene sceneWith(std::vector<Mesh> meshes)
-{
-    Scene scene;
-    scene.name = "scene";
-    scene.materials.emplace_back();
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        scene.instances.push_back({"", int(i), glm::mat4(1)});
-    scene.meshes = std::move(meshes);
-    return scene;
 }
 
 HighModel highOf(Scene scene)
@@ -70,7 +55,7 @@ std::string errorOf(const Result<BakedModel>& baked) { return baked ? "no error"
 
 TEST(BakeModel, aFlatSquareOnItselfIsFlatForEveryFrameThatDoesNotDependOnTheView)
 {
-    const Scene flat = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    const Scene flat = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
     int baked = 0;
     for (const FrameInfo& frame : frames()) {
         const auto model = bakeModel(flat, highOf(flat), smallOptions(frame.frame));
@@ -96,8 +81,8 @@ TEST(BakeModel, aTiltedSquareGivesItsNormalAndTheFormatSaysHow)
 {
     // z grows by 0.3 along x: the normal is (-0.3, 0, 1), and u runs along x.
     const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 0, 1));
-    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
-    const Scene high = sceneWith({square({0, 0, 0}, {1, 0, 0.3f})});
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+    const Scene high = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0.3f})});
     const auto model = bakeModel(low, highOf(high), smallOptions());
     ASSERT_TRUE(model);
     EXPECT_EQ(codes(model->maps[0].image, 5, 3), glm::ivec3(code(n.x), 128, code(n.z)));
@@ -115,7 +100,7 @@ TEST(BakeModel, aTiltedSquareGivesItsNormalAndTheFormatSaysHow)
 
 TEST(BakeModel, aMeshWithoutUvIsRefusedWithOneLine)
 {
-    Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
+    Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
     low.meshes[0].name = "lid";
     low.meshes[0].texcoords[0].clear();
     const auto model = bakeModel(low, highOf(low), smallOptions());
@@ -127,8 +112,8 @@ TEST(BakeModel, aMeshWithoutUvIsRefusedWithOneLine)
 TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
 {
     // Tile 1002 lies to the right, tile 1011 above: there v is below zero, since ours runs down.
-    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0}, {1, 0}), square({0, 2, 0}, {1, 0, 0}, {0, -1})});
-    const Scene high = sceneWith({square({0, 0, 0}, {1, 0, 0.3f}), square({0, 2, 0}, {1, 0, -0.3f})});
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0}, {1, 0}), square({0, 2, 0}, {1, 0, 0}, {0, -1})});
+    const Scene high = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0.3f}), square({0, 2, 0}, {1, 0, -0.3f})});
     BakeModelOptions options = smallOptions();
     options.tiles = {1002, 1011};
     options.mask = true;
@@ -155,8 +140,8 @@ TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
 
 TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
 {
-    const Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})}), cage = sceneWith({square({0, 0, 2}, {1, 0, 0})});
-    const Scene high = sceneWith({square({0, 0, 1}, {1, 0, 0.3f})});
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}), cage = sceneOfMeshes({square({0, 0, 2}, {1, 0, 0})});
+    const Scene high = sceneOfMeshes({square({0, 0, 1}, {1, 0, 0.3f})});
     BakeModelOptions options = smallOptions();
     const auto without = bakeModel(low, highOf(high), options);
     options.cage = &cage;
@@ -169,8 +154,8 @@ TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
 TEST(BakeModel, meshesAreMatchedByName)
 {
     // Both detailed squares lie before the simple one; the nearer is not its own.
-    Scene low = sceneWith({square({0, 0, 0}, {1, 0, 0})});
-    Scene high = sceneWith({square({0, 0, 0.01f}, {1, 0, 0.3f}), square({0, 0, 0.1f}, {1, 0, -0.05f})});
+    Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+    Scene high = sceneOfMeshes({square({0, 0, 0.01f}, {1, 0, 0.3f}), square({0, 0, 0.1f}, {1, 0, -0.05f})});
     low.meshes[0].name = "Door_LOW";
     high.meshes[0].name = "wall_high";
     high.meshes[1].name = "door_high";
@@ -190,7 +175,7 @@ TEST(BakeModel, aMapGivenForTheDetailedSceneCounts)
 {
     // One direction everywhere, with green as DirectX has it: down the picture.
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.2, 0.4, 1));
-    HighModel high = highOf(sceneWith({square({0, 0, 0}, {1, 0, 0})}));
+    HighModel high = highOf(sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}));
     high.maps.push_back(makeImage(1, 1, PixelType::unorm8));
     const glm::ivec3 stored(code(m.x), code(-m.y), code(m.z));
     for (int k = 0; k < 3; ++k)
@@ -199,7 +184,7 @@ TEST(BakeModel, aMapGivenForTheDetailedSceneCounts)
     options.ownMaps = true;
     options.highFrame = Frame::cotangent;
     options.highFormat = NormalMapFormat{.greenAlongV = true};
-    const auto model = bakeModel(sceneWith({square({0, 0, 0}, {1, 0, 0})}), std::move(high), options);
+    const auto model = bakeModel(sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}), std::move(high), options);
     ASSERT_TRUE(model) << model.error().message;
     const glm::ivec3 found = codes(model->maps[0].image, 5, 3);
     EXPECT_LE(std::abs(found.x - code(m.x)), 1); // rounded twice
@@ -209,8 +194,8 @@ TEST(BakeModel, aMapGivenForTheDetailedSceneCounts)
 
 TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
 {
-    const Scene flat = sceneWith({square({0, 0, 0}, {1, 0, 0})});
-    const Scene two = sceneWith({square({0, 0, 0}, {1, 0, 0}), square({0, 2, 0}, {1, 0, 0})});
+    const Scene flat = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+    const Scene two = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0}), square({0, 2, 0}, {1, 0, 0})});
     const auto errorWith = [&](const std::function<void(BakeModelOptions&, HighModel&)>& change) {
         BakeModelOptions options = smallOptions();
         HighModel high = highOf(flat);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bake_scene.hpp"
 #include "cotan/bake/bake.hpp"
 
 namespace cotan {
@@ -14,31 +15,7 @@ namespace {
 
 constexpr float kRounding = 1e-6f; // of a few operations on numbers around one
 
-Mesh rectangle(glm::vec3 corner, glm::vec3 along, glm::vec3 across)
-{
-    Mesh mesh;
-    const glm::vec3 n = glm::normalize(glm::cross(along, across));
-    for (const glm::vec2 c : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-        mesh.positions.push_back(corner + along * c.x + across * c.y);
-        mesh.normals.push_back(n);
-        mesh.texcoords[0].emplace_back(c.x, 1 - c.y); // v down
-    }
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    return mesh;
-}
-
 Mesh unitSquare(float z) { return rectangle({0, 0, z}, {1, 0, 0}, {0, 1, 0}); }
-
-Scene sceneOfMeshes(std::vector<Mesh> meshes)
-{
-    Scene scene;
-    scene.name = "scene";
-    scene.materials.emplace_back();
-    for (std::size_t i = 0; i < meshes.size(); ++i)
-        scene.instances.push_back({"", int(i), glm::mat4(1)});
-    scene.meshes = std::move(meshes);
-    return scene;
-}
 
 Baked bakeScenes(const Scene& low, const Scene& high, const BakeOptions& options)
 {
