@@ -1,5 +1,6 @@
 #include "cotan/draw/painter.hpp"
 
+#include "cotan/not_built.hpp"
 #include "cotan/reference/render.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
@@ -54,7 +55,7 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string& device)
 #else
 Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 {
-    return unavailableError("this cotan was built without Vulkan");
+    return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
 #endif
 

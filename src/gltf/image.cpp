@@ -4,10 +4,9 @@
 #include <atomic>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
 #include "cotan/image/file.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "material.hpp"
 
 namespace cotan {
@@ -132,7 +131,7 @@ void GltfMaterials::decodeImages()
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     std::vector<std::string> problems(jobs.size()), foreign(jobs.size());
     Budget budget(model_.limits);
-    tbb::parallel_for(std::size_t(0), jobs.size(), [&](std::size_t i) {
+    parallelFor(std::size_t(0), jobs.size(), [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {
             Image decoded = decode(findImage(model_, image), budget.next(), foreign[i]);
