@@ -2,6 +2,7 @@
 
 #include "cotan/not_built.hpp"
 #include "cotan/reference/render.hpp"
+#include "cotan/scene/check.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
 #endif
@@ -63,7 +64,9 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 
 Status Painter::load(const Scene& scene)
 {
-    Status status = loadScene(scene);
+    Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
+    if (status)
+        status = loadScene(scene);
     loaded_ = bool(status);
     return status;
 }

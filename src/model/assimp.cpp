@@ -20,9 +20,9 @@
 #include "collada_check.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/scene/check.hpp"
 #include "source_material.hpp"
 #include "ply_check.hpp"
-#include "scene_check.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.
