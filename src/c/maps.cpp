@@ -3,74 +3,18 @@
 #include <cmath>
 
 #include "call.hpp"
-#include "cotan/convention_words.hpp"
 #include "cotan/maps/blend.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/height.hpp"
 #include "cotan/maps/mips.hpp"
+#include "cotan/maps/normal_statistics.hpp"
 #include "cotan/maps/recode.hpp"
+#include "pictures.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
 
 namespace {
-
-constexpr int kMostSide = 65536;
-
-PixelType typeOf(const cotan_picture& p, const char* name)
-{
-    if (p.bits == 8)
-        return PixelType::unorm8;
-    if (p.bits != 16 && p.bits != 32)
-        fail(ErrorKind::usage, std::string(name) + ".bits: expected 8, 16 or 32, found " + std::to_string(p.bits));
-    return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
-}
-
-const cotan_picture& checkedPicture(const cotan_picture* given, const char* name)
-{
-    const cotan_picture& p = checked(given, name);
-    typeOf(p, name);
-    if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
-        fail(ErrorKind::usage, std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width)
-                                   + " x " + std::to_string(p.height));
-    if (!p.pixels)
-        fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
-    return p;
-}
-
-Image imageOf(const cotan_picture* given, const char* name)
-{
-    const cotan_picture& p = checkedPicture(given, name);
-    Image image = makeImage(p.width, p.height, typeOf(p, name));
-    std::memcpy(image.data.data(), p.pixels, image.pixelCount() * image.bytesPerPixel());
-    return image;
-}
-
-// The picture that gets a result of that size.
-const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
-{
-    const cotan_picture& p = checkedPicture(given, name);
-    if (p.width != like.width || p.height != like.height)
-        fail(ErrorKind::usage, std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
-                                   + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
-    return p;
-}
-
-void put(const Image& image, const cotan_picture& p)
-{
-    std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
-}
-
-Convention conventionOf(const char* words, const char* name) { return valueOf(conventionFromWords(word(words, name)), name); }
-
-// Of a result with such components.
-Convention storableAs(const char* words, const char* name, PixelType type)
-{
-    const Convention convention = conventionOf(words, name);
-    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
-        fail(ErrorKind::usage, std::string(name) + ": signed values need a picture of 32 bits");
-    return convention;
-}
 
 maps::BlendMode modeOf(const char* text)
 {
@@ -82,12 +26,6 @@ maps::BlendMode modeOf(const char* text)
         if (name == wanted)
             return mode;
     fail(ErrorKind::usage, "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
-}
-
-cotan_picture pictureOf(Image& image)
-{
-    const int bits = image.type == PixelType::unorm8 ? 8 : image.type == PixelType::unorm16 ? 16 : 32;
-    return {sizeof(cotan_picture), image.width, image.height, bits, image.data.data()};
 }
 
 } // namespace
@@ -102,6 +40,23 @@ cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char*
         green->confidence = v.confidence == maps::Confidence::certain ? 2 : v.confidence == maps::Confidence::likely ? 1 : 0;
         green->agreement = v.agreement;
         copyText(v.reason, green->reason, sizeof green->reason);
+    });
+}
+
+cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        checked(info, "info");
+        const maps::NormalStatistics s = maps::statisticsOfMap(imageOf(map, "map"));
+        copyText(maps::describe(s.content), info->content, sizeof info->content);
+        info->zero = s.centre == maps::Centre::exact ? 128 : s.centre == maps::Centre::biased ? 127 : 0;
+        info->srgb = s.transfer == maps::Transfer::srgb ? 1 : s.transfer == maps::Transfer::linearised ? -1 : 0;
+        info->background = s.background;
+        info->invalid = s.invalid;
+        info->below_horizon = s.belowHorizon;
+        info->mean_length = s.meanLength;
+        info->mean_tilt = s.meanTilt;
+        std::copy(s.mean.begin(), s.mean.end(), info->mean);
     });
 }
 

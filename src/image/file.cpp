@@ -57,7 +57,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
                           const LoadLimits& limits)
 {
     try {
-        return decode(bytes, name, limits);
+        return limits.decode ? limits.decode(bytes, name) : decode(bytes, name, limits);
     } catch (const std::bad_alloc&) {
         return inputError(fmt::format("{}: not enough memory for the image", name));
     }
