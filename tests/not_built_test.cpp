@@ -17,8 +17,9 @@ template<class T> void expectOneLine(const Result<T>& result, const std::string&
 TEST(NotBuilt, namesTheLibraryAndWhatToInstall)
 {
     expectOneLine(HighSurface::make({}, 1), "not built with Embree: install libembree-dev and build Cotan again");
-    expectOneLine(loadWithAssimp("a/b.fbx"), "a/b.fbx: not built with Assimp: install libassimp-dev and build Cotan again; or "
-                                             "convert the file to glTF or OBJ");
+    expectOneLine(loadWithAssimp("a/b.fbx"),
+                  "a/b.fbx: not built with Assimp: install libassimp-dev and build Cotan again; or "
+                  "convert the file to glTF or OBJ");
 }
 
 } // namespace

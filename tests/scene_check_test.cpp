@@ -58,12 +58,15 @@ struct Fault {
 const Fault kBroken[] = {
     {[](Scene& s) { s.images[0].data.resize(7); }, "image 0: expected the bytes of 16 x 16 pixels, found 7"},
     {[](Scene& s) { s.images[0].width = 1 << 30; }, "image 0: expected the bytes"},
-    {[](Scene& s) { s.materials[0].normalMap.image = 1; }, "material 0: normal map: expected an image below 1, found 1"},
-    {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; }, "material 0: normal map: expected uv set 0 or 1, found 2"},
+    {[](Scene& s) { s.materials[0].normalMap.image = 1; },
+     "material 0: normal map: expected an image below 1, found 1"},
+    {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; },
+     "material 0: normal map: expected uv set 0 or 1, found 2"},
     {[](Scene& s) { s.materials[0].normalFormat.channels = 77; }, "material 0: expected a way to store normals"},
     {[](Scene& s) { s.materials.clear(); }, "mesh 0: expected a material below 0, found 0"},
     {[](Scene& s) { s.meshes[0].material = -1; }, "mesh 0: expected a material below 1, found -1"},
-    {[](Scene& s) { s.meshes[0].indices[4] = 1u << 31; }, "mesh 0: triangle 1: expected an index below 9, found 2147483648"},
+    {[](Scene& s) { s.meshes[0].indices[4] = 1u << 31; },
+     "mesh 0: triangle 1: expected an index below 9, found 2147483648"},
     {[](Scene& s) { s.meshes[0].indices.pop_back(); }, "mesh 0: expected three indices a triangle"},
     {[](Scene& s) { s.meshes[0].positions.resize(2); }, "mesh 0: normals: expected 2 entries, one a vertex, found 9"},
     {[](Scene& s) { s.meshes[0].normals.clear(); }, "mesh 0: normals: expected 9 entries, one a vertex, found 0"},
@@ -105,7 +108,8 @@ TEST(SceneCheck, everybodyRefusesIndicesAndSizesThatLeadOutOfTheScene)
         expectRefused((*painter)->load(scene), "scene: " + where);
         expectRefused(gltfDocumentOf(scene), "scene: " + where);
         expectRefused(bakeModel(scene, {.scenes = {sound}, .maps = {}}, smallBake()), "low: " + where);
-        expectRefused(bakeModel(sound, {.scenes = {sound, scene}, .maps = {}}, smallBake()), "high.scenes[1]: " + where);
+        expectRefused(bakeModel(sound, {.scenes = {sound, scene}, .maps = {}}, smallBake()),
+                      "high.scenes[1]: " + where);
         BakeModelOptions caged = smallBake();
         caged.cage = &scene;
         expectRefused(bakeModel(sound, {.scenes = {sound}, .maps = {}}, caged), "options.cage: " + where);

@@ -26,7 +26,8 @@ int main(void)
     printf("cotan %s, %d frames\n", cotan_version(), cotan_frame_count());
 
     /* A triangle in the plane z = 0 whose u runs against x. */
-    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1}, uv[] = {1, 1, 0, 1, 1, 0};
+    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1},
+                uv[] = {1, 1, 0, 1, 1, 0};
     const uint32_t indices[] = {0, 1, 2};
     const cotan_mesh mesh = {sizeof mesh, 3, positions, normals, uv, 3, indices};
     float tangents[12];
@@ -70,8 +71,10 @@ int main(void)
     else
         check(made, message);
     /* u runs against x, so that the normal leans towards +u: 0.6 of 127 steps above 128. */
-    const int baked_right = made == COTAN_UNAVAILABLE || (baked[0] == 204 && baked[1] == 128 && baked[2] == 230 && done == 1);
-    printf("baked %d %d %d\n", made == COTAN_OK ? baked[0] : 0, made == COTAN_OK ? baked[1] : 0, made == COTAN_OK ? baked[2] : 0);
+    const int baked_right =
+        made == COTAN_UNAVAILABLE || (baked[0] == 204 && baked[1] == 128 && baked[2] == 230 && done == 1);
+    printf("baked %d %d %d\n", made == COTAN_OK ? baked[0] : 0, made == COTAN_OK ? baked[1] : 0,
+           made == COTAN_OK ? baked[2] : 0);
 
     /* What is wrong is said in one line. */
     const cotan_status status = cotan_frame_apply("nonsense", &place, texel, normal, message, sizeof message);

@@ -42,7 +42,8 @@ BakeKind kindOf(std::string_view wanted)
     for (const auto& [name, kind] : kKinds)
         if (name == wanted)
             return kind;
-    fail(ErrorKind::usage, "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
+    fail(ErrorKind::usage,
+         "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
 }
 
 BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture& map)
@@ -69,15 +70,16 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
-    const Convention convention = storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
+    const Convention convention =
+        storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
     options.stored.format = {int(convention.expansion), int(convention.channels), !convention.greenUp};
     return options;
 }
 
 } // namespace
 
-cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options, cotan_picture* map,
-                        cotan_bake_result* result, char* message, size_t message_size)
+cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
+                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
@@ -87,7 +89,9 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
             checked(result, "result");
         HighModel model;
         model.scenes.push_back(sceneOf(detailed));
-        const BakedModel baked = valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)), "bake");
+        const BakedModel baked =
+            valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)),
+                    "bake");
         put(baked.maps[0].image, out);
         if (result) {
             const BakeStatistics& s = baked.maps[0].statistics;

@@ -61,8 +61,9 @@ template<class T> const T& checked(const T* argument, const char* name)
     if (!argument)
         fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
     if (argument->size < sizeof(T))
-        fail(ErrorKind::usage, std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
-                                   + std::to_string(argument->size));
+        fail(ErrorKind::usage,
+             std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
+                 + std::to_string(argument->size));
     return *argument;
 }
 

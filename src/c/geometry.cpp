@@ -7,9 +7,9 @@
 #include <glm/vec4.hpp>
 
 #include "call.hpp"
-#include "meshes.hpp"
 #include "cotan/cotangent_frame.hpp"
 #include "cotan/tangents.hpp"
+#include "meshes.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -34,7 +34,8 @@ template<class Work> void forEachPlace(const char* frame, const cotan_places* gi
 {
     const Frame kind = frameFromDifferences(frame);
     const cotan_places& p = checked(given, "places");
-    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy), "places: expected five arrays, found null");
+    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
+            "places: expected five arrays, found null");
     for (std::size_t i = 0; i < p.count; ++i) {
         Differences<float> d;
         d.dpdx = Vector3f(vec3At(p.dpdx, i));
@@ -57,11 +58,13 @@ public:
     {
         const auto kind = frameFromName(word(frame, "frame"));
         if (!kind || info(*kind).source != FrameSource::vertices)
-            fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+            fail(ErrorKind::usage,
+                 "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
         kind_ = *kind;
         const bool smooth = kind_ == Frame::smooth;
         require(p_.count == 0 || (p_.normals && (smooth ? p_.cotangents_u && p_.cotangents_v : p_.tangents != nullptr)),
-                smooth ? "places: expected normals and two arrays of cotangents, found null" : "places: expected normals and tangents, found null");
+                smooth ? "places: expected normals and two arrays of cotangents, found null"
+                       : "places: expected normals and tangents, found null");
     }
 
     std::size_t count() const { return p_.count; }
@@ -73,7 +76,8 @@ public:
             return f32::cotan_frame_smooth(n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
         const float* t = p_.tangents + 4 * i;
         const glm::vec3 tangent(t[0], t[1], t[2]);
-        return kind_ == Frame::vertex ? f32::cotan_frame_vertex(n, tangent, -t[3]) : f32::cotan_frame_mikktspace(n, tangent, -t[3]);
+        return kind_ == Frame::vertex ? f32::cotan_frame_vertex(n, tangent, -t[3])
+                                      : f32::cotan_frame_mikktspace(n, tangent, -t[3]);
     }
 
 private:
@@ -121,8 +125,8 @@ cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, c
     });
 }
 
-cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels, float* normals,
-                                      char* message, size_t message_size)
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+                                      float* normals, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         require(texels && normals, "texels and normals: expected arrays, found null");
@@ -132,8 +136,8 @@ cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_plac
     });
 }
 
-cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals, float* texels,
-                                       char* message, size_t message_size)
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+                                       float* texels, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         require(texels && normals, "texels and normals: expected arrays, found null");
@@ -153,7 +157,8 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made = which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
+        const std::vector<glm::vec4> made =
+            which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
         std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
     });
 }

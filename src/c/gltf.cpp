@@ -28,7 +28,8 @@ Bytes copied(const void* bytes, std::size_t size)
 // The caller's functions as the library takes them.
 class ModelFiles {
 public:
-    ModelFiles(const void* model, std::size_t size, const cotan_model_files* given) : model_(model), size_(size), f_(optionsOf(given, "files"))
+    ModelFiles(const void* model, std::size_t size, const cotan_model_files* given)
+        : model_(model), size_(size), f_(optionsOf(given, "files"))
     {
         require(model || size == 0, "model: expected bytes, found null");
     }
@@ -48,7 +49,9 @@ public:
             return read(file);
         };
         if (f_.decode)
-            limits.decode = [this](std::span<const std::byte> bytes, const std::string& picture) { return decode(bytes, picture); };
+            limits.decode = [this](std::span<const std::byte> bytes, const std::string& picture) {
+                return decode(bytes, picture);
+            };
         return limits;
     }
 
@@ -63,7 +66,8 @@ public:
             const bool fine = f_.encode(f_.user, &picture, &bytes, &size) == 0 && (bytes || size == 0);
             Bytes png = fine ? copied(bytes, size) : Bytes();
             done();
-            return fine ? Result<Bytes>(std::move(png)) : outputError(image.name + ": the caller did not encode the picture");
+            return fine ? Result<Bytes>(std::move(png))
+                        : outputError(image.name + ": the caller did not encode the picture");
         };
     }
 
@@ -108,7 +112,10 @@ private:
 };
 
 // Null for numbers of an empty set.
-Json toJson(const Spread& s) { return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}}; }
+Json toJson(const Spread& s)
+{
+    return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
+}
 
 void giveText(const Json& json, cotan_bytes** to)
 {
@@ -121,7 +128,10 @@ void giveText(const Json& json, cotan_bytes** to)
 
 // ---- lint -----------------------------------------------------------------------------------
 
-std::string adviceOf(const LintReport& report) { return report.advice == Advice::nothing ? "" : std::string(name(frameOf(report.advice))); }
+std::string adviceOf(const LintReport& report)
+{
+    return report.advice == Advice::nothing ? "" : std::string(name(frameOf(report.advice)));
+}
 
 double worst(const LintReport& report, Spread MapFit::*frame)
 {
@@ -134,10 +144,19 @@ double worst(const LintReport& report, Spread MapFit::*frame)
 
 Json primitiveOf(const PrimitiveLint& p)
 {
-    Json json = {{"mesh", p.mesh}, {"material", p.material}, {"normal_map", p.image}, {"not_judged", p.notJudged}, {"triangles", p.triangles}};
-    json["uv"] = {{"degenerate", p.uv.degenerate}, {"mirrored", p.uv.mirrored}, {"overlapping", p.uv.overlapping},
-                  {"stretch", toJson(p.uv.stretch)}, {"shear_degrees", toJson(p.uv.shear)}};
-    json["edge_steps"] = {{"edges", p.steps.edges}, {"cotangent", toJson(p.steps.cotangent)}, {"orthonormal", toJson(p.steps.orthonormal)}};
+    Json json = {{"mesh", p.mesh},
+                 {"material", p.material},
+                 {"normal_map", p.image},
+                 {"not_judged", p.notJudged},
+                 {"triangles", p.triangles}};
+    json["uv"] = {{"degenerate", p.uv.degenerate},
+                  {"mirrored", p.uv.mirrored},
+                  {"overlapping", p.uv.overlapping},
+                  {"stretch", toJson(p.uv.stretch)},
+                  {"shear_degrees", toJson(p.uv.shear)}};
+    json["edge_steps"] = {{"edges", p.steps.edges},
+                          {"cotangent", toJson(p.steps.cotangent)},
+                          {"orthonormal", toJson(p.steps.orthonormal)}};
     for (const Reading& r : p.readings)
         json["read_with"][r.name] = toJson(r.error);
     return json;
@@ -145,17 +164,31 @@ Json primitiveOf(const PrimitiveLint& p)
 
 Json lintJson(const LintReport& report, const Scene& scene)
 {
-    Json json = {{"recommendation", report.recommendation}, {"advice", adviceOf(report)}, {"distance", report.distance},
-                 {"maps_converted", report.mapsConverted}, {"maps_kept", report.mapsKept}, {"drops_tangents", report.dropsTangents},
-                 {"distrust_stored", report.distrustStored}, {"primitives", Json::array()}, {"maps", Json::array()}};
+    Json json = {{"recommendation", report.recommendation},
+                 {"advice", adviceOf(report)},
+                 {"distance", report.distance},
+                 {"maps_converted", report.mapsConverted},
+                 {"maps_kept", report.mapsKept},
+                 {"drops_tangents", report.dropsTangents},
+                 {"distrust_stored", report.distrustStored},
+                 {"primitives", Json::array()},
+                 {"maps", Json::array()}};
     for (const PrimitiveLint& p : report.primitives)
         json["primitives"].push_back(primitiveOf(p));
     for (const GreenEvidence& g : report.maps)
-        json["maps"].push_back({{"image", g.image}, {"name", g.name}, {"decided", g.decided()}, {"as_declared", g.asDeclared()},
-                                {"green", name(g.verdict.green)}, {"confidence", name(g.verdict.confidence)}, {"reason", g.verdict.reason}});
+        json["maps"].push_back({{"image", g.image},
+                                {"name", g.name},
+                                {"decided", g.decided()},
+                                {"as_declared", g.asDeclared()},
+                                {"green", name(g.verdict.green)},
+                                {"confidence", name(g.verdict.confidence)},
+                                {"reason", g.verdict.reason}});
     for (const MapFit& f : report.fits)
-        json["fits"].push_back({{"image", f.image}, {"name", f.name}, {"orthonormal", toJson(f.orthonormal)},
-                                {"cotangent", toJson(f.cotangent)}, {"smooth", toJson(f.smooth)}});
+        json["fits"].push_back({{"image", f.image},
+                                {"name", f.name},
+                                {"orthonormal", toJson(f.orthonormal)},
+                                {"cotangent", toJson(f.cotangent)},
+                                {"smooth", toJson(f.smooth)}});
     json["warnings"] = scene.warnings;
     return json;
 }
@@ -167,7 +200,8 @@ void fill(const LintReport& report, cotan_lint_result& r)
     copyText(adviceOf(report), r.advice, sizeof r.advice);
     r.maps_to_convert = report.mapsConverted;
     r.distrust_stored = report.distrustStored;
-    r.green_against = std::size_t(std::ranges::count_if(report.maps, [](const GreenEvidence& g) { return !g.asDeclared(); }));
+    r.green_against =
+        std::size_t(std::ranges::count_if(report.maps, [](const GreenEvidence& g) { return !g.asDeclared(); }));
     r.orthonormal_degrees = worst(report, &MapFit::orthonormal);
     r.cotangent_degrees = worst(report, &MapFit::cotangent);
     r.smooth_degrees = worst(report, &MapFit::smooth);
@@ -186,17 +220,27 @@ Frame frameOr(const char* given, Frame otherwise, const char* name)
 
 Json mapOf(const ConvertedMap& m)
 {
-    Json json = {{"image", m.image}, {"name", m.name}, {"surfaces", m.surfaces}, {"size", {m.width, m.height}}, {"kept", m.kept},
-                 {"degrees_unconverted", toJson(m.figures.unconverted)}, {"bytes_before", m.bytesBefore}, {"bytes_after", m.bytesAfter}};
+    Json json = {{"image", m.image},
+                 {"name", m.name},
+                 {"surfaces", m.surfaces},
+                 {"size", {m.width, m.height}},
+                 {"kept", m.kept},
+                 {"degrees_unconverted", toJson(m.figures.unconverted)},
+                 {"bytes_before", m.bytesBefore},
+                 {"bytes_after", m.bytesAfter}};
     if (!m.kept)
-        json.update({{"bits", m.bits}, {"degrees_after_rounding", toJson(m.figures.error)}, {"texels_covered", m.figures.covered}});
+        json.update({{"bits", m.bits},
+                     {"degrees_after_rounding", toJson(m.figures.error)},
+                     {"texels_covered", m.figures.covered}});
     return json;
 }
 
 Json convertJson(const ConvertModelReport& report)
 {
-    Json json = {{"maps", Json::array()}, {"primitives_given_tangents", report.primitivesGiven},
-                 {"tangent_bytes_dropped", report.dropped.bytes}, {"notes", report.notes}};
+    Json json = {{"maps", Json::array()},
+                 {"primitives_given_tangents", report.primitivesGiven},
+                 {"tangent_bytes_dropped", report.dropped.bytes},
+                 {"notes", report.notes}};
     for (const ConvertedMap& map : report.maps)
         json["maps"].push_back(mapOf(map));
     return json;
@@ -210,7 +254,8 @@ void fill(const ConvertModelReport& report, cotan_convert_result& r)
     for (const ConvertedMap& map : report.maps) {
         const Spread &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
         ++(map.kept ? r.maps_kept : r.maps_converted);
-        r.worst_degrees_before = before.count > 0 ? std::max(r.worst_degrees_before, before.mean) : r.worst_degrees_before;
+        r.worst_degrees_before =
+            before.count > 0 ? std::max(r.worst_degrees_before, before.mean) : r.worst_degrees_before;
         r.worst_degrees_after = after.count > 0 ? std::max(r.worst_degrees_after, after.mean) : r.worst_degrees_after;
     }
     r.primitives_given = report.primitivesGiven;
@@ -219,8 +264,9 @@ void fill(const ConvertModelReport& report, cotan_convert_result& r)
 
 } // namespace
 
-cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_model_files* files, const cotan_lint_options* options,
-                             cotan_lint_result* result, cotan_bytes** json, char* message, size_t message_size)
+cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_model_files* files,
+                             const cotan_lint_options* options, cotan_lint_result* result, cotan_bytes** json,
+                             char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const cotan_lint_options o = optionsOf(options, "options");
@@ -229,7 +275,8 @@ cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_m
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
         const Scene scene = valueOf(loadGltf(source.name(), source.limits()));
-        const LintReport report = lintScene(scene, {.distance = o.distance, .progress = progressOf(o.progress, o.user)});
+        const LintReport report =
+            lintScene(scene, {.distance = o.distance, .progress = progressOf(o.progress, o.user)});
         giveText(lintJson(report, scene), json);
         if (result)
             fill(report, *result);
@@ -248,8 +295,9 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
         ConvertModelOptions convert;
-        convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
-                          o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored, TangentOrigin::generated};
+        convert.frames = {
+            frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
+            o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored, TangentOrigin::generated};
         convert.bits = o.bits;
         convert.keepTangents = o.keep_tangents != 0;
         convert.threads = o.threads;

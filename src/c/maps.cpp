@@ -19,13 +19,17 @@ namespace {
 maps::BlendMode modeOf(const char* text)
 {
     using M = maps::BlendMode;
-    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {
-        {{"reoriented", M::reoriented}, {"whiteout", M::whiteout}, {"udn", M::udn}, {"slopes", M::slopes}, {"linear", M::linear}}};
+    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {{{"reoriented", M::reoriented},
+                                                                       {"whiteout", M::whiteout},
+                                                                       {"udn", M::udn},
+                                                                       {"slopes", M::slopes},
+                                                                       {"linear", M::linear}}};
     const std::string_view wanted = word(text, "mode");
     for (const auto& [name, mode] : kModes)
         if (name == wanted)
             return mode;
-    fail(ErrorKind::usage, "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
+    fail(ErrorKind::usage,
+         "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
 }
 
 } // namespace
@@ -37,7 +41,9 @@ cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char*
         const maps::GreenVerdict v = maps::greenOf(imageOf(map, "map"));
         green->direction = v.green == maps::Green::up ? 1 : v.green == maps::Green::down ? -1 : 0;
         green->swapped = v.swapped == maps::Swapped::yes ? 1 : v.swapped == maps::Swapped::no ? 0 : -1;
-        green->confidence = v.confidence == maps::Confidence::certain ? 2 : v.confidence == maps::Confidence::likely ? 1 : 0;
+        green->confidence = v.confidence == maps::Confidence::certain ? 2
+            : v.confidence == maps::Confidence::likely                ? 1
+                                                                      : 0;
         green->agreement = v.agreement;
         copyText(v.reason, green->reason, sizeof green->reason);
     });
@@ -60,8 +66,8 @@ cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, 
     });
 }
 
-cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map, char* message,
-                               size_t message_size)
+cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map,
+                               char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
@@ -77,8 +83,8 @@ cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const
     });
 }
 
-cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to, cotan_picture* map,
-                                   char* message, size_t message_size)
+cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to,
+                                   cotan_picture* map, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(height, "height");
@@ -94,7 +100,8 @@ cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, 
     });
 }
 
-cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message, size_t message_size)
+cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message,
+                                 size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
@@ -106,8 +113,8 @@ cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, flo
     });
 }
 
-cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention, const char* mode,
-                             double strength, cotan_picture* map, char* message, size_t message_size)
+cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention,
+                             const char* mode, double strength, cotan_picture* map, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
@@ -123,8 +130,8 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
     });
 }
 
-cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take, void* user,
-                            char* message, size_t message_size)
+cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
+                            void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");

@@ -5,8 +5,8 @@
 using namespace cotan;
 using namespace cotan::c;
 
-cotan_status cotan_bake(const cotan_mesh*, const cotan_mesh*, const cotan_bake_options*, cotan_picture*, cotan_bake_result*,
-                        char* message, size_t message_size)
+cotan_status cotan_bake(const cotan_mesh*, const cotan_mesh*, const cotan_bake_options*, cotan_picture*,
+                        cotan_bake_result*, char* message, size_t message_size)
 {
     return refused(notBuiltWith("Embree", "libembree-dev"), message, message_size);
 }

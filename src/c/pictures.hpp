@@ -27,11 +27,13 @@ inline const cotan_picture& checkedPicture(const cotan_picture* given, const cha
     const cotan_picture& p = checked(given, name);
     typeOf(p, name);
     if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
-        fail(ErrorKind::usage, std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width)
-                                   + " x " + std::to_string(p.height));
+        fail(ErrorKind::usage,
+             std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width) + " x "
+                 + std::to_string(p.height));
     if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMostPixels)
-        fail(ErrorKind::unavailable, std::string(name) + ": expected at most " + std::to_string(kMostPixels) + " pixels in all, found "
-                                         + std::to_string(p.width) + " x " + std::to_string(p.height));
+        fail(ErrorKind::unavailable,
+             std::string(name) + ": expected at most " + std::to_string(kMostPixels) + " pixels in all, found "
+                 + std::to_string(p.width) + " x " + std::to_string(p.height));
     if (!p.pixels)
         fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
     return p;
@@ -50,8 +52,9 @@ inline const cotan_picture& output(const cotan_picture* given, const char* name,
 {
     const cotan_picture& p = checkedPicture(given, name);
     if (p.width != like.width || p.height != like.height)
-        fail(ErrorKind::usage, std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
-                                   + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
+        fail(ErrorKind::usage,
+             std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
+                 + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
     return p;
 }
 
@@ -60,7 +63,10 @@ inline void put(const Image& image, const cotan_picture& p)
     std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
 }
 
-inline Convention conventionOf(const char* words, const char* name) { return valueOf(conventionFromWords(word(words, name)), name); }
+inline Convention conventionOf(const char* words, const char* name)
+{
+    return valueOf(conventionFromWords(word(words, name)), name);
+}
 
 // Of a result with such components.
 inline Convention storableAs(const char* words, const char* name, PixelType type)

@@ -3,6 +3,9 @@
 
 namespace cotan {
 
-std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::string&, const LoadLimits&) { return std::nullopt; }
+std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::string&, const LoadLimits&)
+{
+    return std::nullopt;
+}
 
 } // namespace cotan

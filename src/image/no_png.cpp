@@ -20,7 +20,8 @@ Result<Image> readPng(std::span<const std::byte>, const std::string& name, const
 Status writePng(const std::filesystem::path&, const Image&, const std::string& name) { return noPng(name); }
 Result<std::vector<std::byte>> encodePng(const Image& image) { return noPng(image.name); }
 
-std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, File, const LoadLimits&)
+std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, File,
+                                                              const LoadLimits&)
 {
     return noPng(file.string());
 }

@@ -81,7 +81,8 @@ private:
         const bool sized = image.width > 0 && image.height > 0;
         if (!sized || image.data.size() % image.bytesPerPixel() != 0
             || image.data.size() / image.bytesPerPixel() != std::uint64_t(image.width) * std::uint64_t(image.height))
-            return joined("expected the bytes of ", image.width, " x ", image.height, " pixels, found ", image.data.size());
+            return joined("expected the bytes of ", image.width, " x ", image.height, " pixels, found ",
+                          image.data.size());
         return std::nullopt;
     }
 
@@ -97,11 +98,12 @@ private:
 
     Problem checkMaterial(const Material& m) const
     {
-        const std::pair<const Texture*, std::string_view> textures[] = {{&m.baseColorMap, "base colour"},
-                                                                        {&m.metallicRoughnessMap, "metal and roughness"},
-                                                                        {&m.normalMap, "normal map"},
-                                                                        {&m.occlusionMap, "occlusion"},
-                                                                        {&m.emissiveMap, "emission"}};
+        const std::pair<const Texture*, std::string_view> textures[] = {
+            {&m.baseColorMap, "base colour"},
+            {&m.metallicRoughnessMap, "metal and roughness"},
+            {&m.normalMap, "normal map"},
+            {&m.occlusionMap, "occlusion"},
+            {&m.emissiveMap, "emission"}};
         for (const auto& [texture, name] : textures)
             if (Problem problem = checkTexture(*texture, name))
                 return problem;
@@ -114,7 +116,8 @@ private:
         return std::nullopt;
     }
 
-    template<class T> Problem checkArray(const std::vector<T>& values, std::size_t vertices, std::string_view name) const
+    template<class T>
+    Problem checkArray(const std::vector<T>& values, std::size_t vertices, std::string_view name) const
     {
         if (!values.empty() && values.size() != vertices)
             return joined(name, ": expected ", vertices, " entries, one a vertex, found ", values.size());
@@ -131,7 +134,8 @@ private:
         const std::size_t vertices = mesh.vertexCount();
         const auto bad = std::ranges::find_if(mesh.indices, [&](std::uint32_t i) { return i >= vertices; });
         if (bad != mesh.indices.end())
-            return joined("triangle ", (bad - mesh.indices.begin()) / 3, ": expected an index below ", vertices, ", found ", *bad);
+            return joined("triangle ", (bad - mesh.indices.begin()) / 3, ": expected an index below ", vertices,
+                          ", found ", *bad);
         return std::nullopt;
     }
 

@@ -10,7 +10,8 @@ namespace cotan::shader_text {
 inline std::string textOf(std::string_view text) { return std::string(text); }
 inline std::string textOf(int number) { return std::to_string(number); }
 
-// The pattern with its gaps filled: each "{}" by the next value, each "{N}" by value N below 10. "{{" and "}}" are braces.
+// The pattern with its gaps filled: each "{}" by the next value, each "{N}" by value N below 10. "{{" and "}}" are
+// braces.
 template<class... Values> std::string fill(std::string_view pattern, const Values&... values)
 {
     const std::vector<std::string> texts{textOf(values)...};

@@ -26,7 +26,8 @@ void expect(bool fact, const char* what)
 int main()
 {
     using namespace cotan;
-    const auto shader = shader_text::makeShaderText({.language = shader_text::Language::hlsl, .frame = Frame::cotangent});
+    const auto shader =
+        shader_text::makeShaderText({.language = shader_text::Language::hlsl, .frame = Frame::cotangent});
     expect(shader && shader->text.find("cotan_perturb") != std::string::npos, "a shader's text");
 
     const Image map = makeReliefMap(Relief::waves, 128);

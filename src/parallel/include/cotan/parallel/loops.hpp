@@ -1,5 +1,5 @@
-// Loops that may run on several threads: by oneTBB where the library is built with it, one step after the other where not.
-// Which thread does what never shows in a result.
+// Loops that may run on several threads: by oneTBB where the library is built with it, one step after the other where
+// not. Which thread does what never shows in a result.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,14 @@
 
 namespace cotan {
 
-// Calls work(begin, end) for parts of [first, last), each of at least `grain` items but for the last. Throws what a call
-// has thrown, after all have ended.
+// Calls work(begin, end) for parts of [first, last), each of at least `grain` items but for the last. Throws what a
+// call has thrown, after all have ended.
 template<class Index, class Work> void parallelRanges(Index first, Index last, Index grain, const Work& work)
 {
 #ifdef COTAN_WITH_TBB
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<Index>(first, last, std::size_t(grain)),
-                              [&](const oneapi::tbb::blocked_range<Index>& range) { work(range.begin(), range.end()); });
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<Index>(first, last, std::size_t(grain)),
+        [&](const oneapi::tbb::blocked_range<Index>& range) { work(range.begin(), range.end()); });
 #else
     static_cast<void>(grain);
     if (first < last)
@@ -62,9 +63,10 @@ inline int loopThreads()
 #endif
 }
 
-// What is made in order, worked on in any order, and taken in order: items are pointers. read() gives the next one, null
-// at the end; work(item) changes it; give(item) takes it. At most `most` items are under way.
-template<class Read, class Work, class Give> void pipeline(std::size_t most, const Read& read, const Work& work, const Give& give)
+// What is made in order, worked on in any order, and taken in order: items are pointers. read() gives the next one,
+// null at the end; work(item) changes it; give(item) takes it. At most `most` items are under way.
+template<class Read, class Work, class Give>
+void pipeline(std::size_t most, const Read& read, const Work& work, const Give& give)
 {
     using Item = decltype(read());
 #ifdef COTAN_WITH_TBB
@@ -80,9 +82,10 @@ template<class Read, class Work, class Give> void pipeline(std::size_t most, con
         return item;
     };
     const auto sink = [&](Item item) -> void { give(item); };
-    tbb::parallel_pipeline(std::max<std::size_t>(most, 1), tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, source)
-                                                                & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, stage)
-                                                                & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, sink));
+    tbb::parallel_pipeline(std::max<std::size_t>(most, 1),
+                           tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, source)
+                               & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, stage)
+                               & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, sink));
 #else
     static_cast<void>(most);
     while (Item item = read()) {
