@@ -15,8 +15,6 @@ Command addConvertCommand(CLI::App& app);
 Command addFiguresCommand(CLI::App& app);
 Command addShaderCommand(CLI::App& app);
 Command addMapCommand(CLI::App& app);
-#ifdef COTAN_WITH_VULKAN
 Command addCostCommand(CLI::App& app);
-#endif
 
 } // namespace cotan::app

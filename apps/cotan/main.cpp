@@ -54,9 +54,7 @@ int runCommandLine(int argc, char** argv)
         addLintCommand,
         addConvertCommand,
         addShaderCommand,
-#ifdef COTAN_WITH_VULKAN
         addCostCommand,
-#endif
     };
     for (auto add : kCommands)
         commands.push_back(add(app));

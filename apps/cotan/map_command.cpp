@@ -3,19 +3,16 @@
 #include <memory>
 #include <vector>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-
 #include "commands.hpp"
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::app {
 
 Status withThreads(int threads, const std::function<Status()>& work)
 {
-    using oneapi::tbb::global_control;
-    const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
-    const global_control limit(global_control::max_allowed_parallelism, std::size_t(count));
-    return work();
+    Status status = Done{};
+    cotan::withThreads(threads, [&] { status = work(); });
+    return status;
 }
 
 Command addMapCommand(CLI::App& app)

@@ -5,9 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-
+#include "cotan/parallel/loops.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
@@ -111,7 +109,6 @@ struct Part {
 Status streamStrips(const CommonOptions& options, std::span<RowReader* const> readers, const StreamPlan& plan,
                     const StripWork& work)
 {
-    namespace tbb = oneapi::tbb;
     const int width = readers[0]->width, height = readers[0]->height, rows = rowsOfStrip(width);
     std::vector<Cutter> cutters;
     for (RowReader* reader : readers)
@@ -120,7 +117,7 @@ Status streamStrips(const CommonOptions& options, std::span<RowReader* const> re
     Status readState = Done{}, takeState = Done{}; // each touched by one stage only
     std::atomic<bool> stop = false;
     int next = 0;
-    const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<Part> {
+    const auto read = [&]() -> std::shared_ptr<Part> {
         auto part = std::make_shared<Part>();
         part->first = next;
         const int last = std::min(next + rows, height);
@@ -136,16 +133,11 @@ Status streamStrips(const CommonOptions& options, std::span<RowReader* const> re
             part->strips.push_back(*std::move(strip));
         }
         next = last;
-        if (part->strips.size() < cutters.size()) {
-            control.stop();
-            return nullptr;
-        }
-        return part;
+        return part->strips.size() == cutters.size() ? part : nullptr;
     };
-    const auto run = [&](std::shared_ptr<Part> part) {
+    const auto run = [&](const std::shared_ptr<Part>& part) {
         part->take = work(part->strips, part->first);
         part->strips.clear();
-        return part;
     };
     const auto give = [&](const std::shared_ptr<Part>& part) {
         if (stop)
@@ -155,12 +147,8 @@ Status streamStrips(const CommonOptions& options, std::span<RowReader* const> re
         part->take = nullptr;
         progress.step();
     };
-    const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const std::size_t most = kAllStripBytes / (std::size_t(rows) * std::size_t(width) * 16 * readers.size());
-    tbb::parallel_pipeline(std::clamp(most, std::size_t(1), threads + 2),
-                           tbb::make_filter<void, std::shared_ptr<Part>>(tbb::filter_mode::serial_in_order, read)
-                               & tbb::make_filter<std::shared_ptr<Part>, std::shared_ptr<Part>>(tbb::filter_mode::parallel, run)
-                               & tbb::make_filter<std::shared_ptr<Part>, void>(tbb::filter_mode::serial_in_order, give));
+    pipeline(std::clamp(most, std::size_t(1), std::size_t(loopThreads()) + 2), read, run, give);
     return readState ? takeState : readState;
 }
 

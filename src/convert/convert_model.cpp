@@ -78,7 +78,7 @@ private:
         std::atomic<int> rows = 0;
         const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads,
                                      [&] { share(double(++rows) / double(map->height)); });
-        auto png = encodePng(r.image);
+        auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
         done.figures = r;

@@ -58,7 +58,7 @@ struct BakeSetup {
 
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
 // vertices and the matches.
-// Errors: those of makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins with its name,
+// Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins with its name,
 // "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of range;
 // ErrorKind::input: a cage of another number of triangles, a mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
@@ -72,7 +72,8 @@ struct BakedMap {
 };
 
 // Bakes one tile, fills around its charts and stores it. `progress` (may be empty) is called from several threads with
-// the share that is done, above 0 up to 1, not always in order.
+// the share that is done, above 0 up to 1, not always in order; it may throw to stop the bake, and what it throws comes
+// out here.
 // Errors: ErrorKind::input where no triangle lies on the tile, ErrorKind::usage for a number below 1001; both begin with
 // "options.tiles: ".
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const std::function<void(double)>& progress = {});
