@@ -9,7 +9,6 @@
 #include "cotan/convention.hpp"
 #include "cotan/image/file.hpp"
 #include "gltf_open.hpp"
-#include "map_options.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -36,7 +35,7 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
     StoredAs as;
     as.format = *format;
     as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
-    if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
+    if (namedAsGltf(o.output) && (as.format.greenAlongV || as.format.channels != 0))
         return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
     as.dither = o.dither;
@@ -102,7 +101,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
     options.bake.maxDistance = o.maxDistance;
     options.bake.occlusionRays = o.occlusionRays;
-    options.bake.threads = o.common.threads;
+    options.bake.threads = o.threads;
     options.tiles = {o.udim};
     options.material = o.material;
     options.tangents = o.tangents == "stored" ? TangentSource::stored : TangentSource::generated;
@@ -150,19 +149,17 @@ std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& lo
 
 } // namespace
 
-Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error)
+Error inWordsOfBake(const BakeCommandOptions& o, const Error& error)
 {
     const struct { std::string_view field; std::string words, hint; } all[] = {
-        {"options.material", "--material", ""},
         {"options.cage", o.cage, ""},
-        {"options.matchByName", "--match-by-name", ""},
         {"options.tiles", o.low, " (--udim)"},
         {"document", o.low, ""},
     };
     for (const auto& [field, words, hint] : all)
         if (error.message.starts_with(std::string(field) + ": "))
             return {error.kind, words + error.message.substr(field.size()) + hint};
-    return error;
+    return inWords(error);
 }
 
 Result<BakeJob> loadBake(const BakeCommandOptions& o)
@@ -188,7 +185,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)
-        return inWordsOfCommand(o, setup.error());
+        return inWordsOfBake(o, setup.error());
     warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
     return BakeJob{std::move(*low), std::move(*setup), std::move(warnings)};
 }

@@ -10,24 +10,19 @@ namespace cotan::app {
 
 namespace {
 
-std::vector<std::string> namesIn(const CLI::App& app)
-{
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
-    return names;
-}
-
-Error unknown(const std::string& before, const std::string& word, const std::vector<std::string>& names)
+Error unknown(const std::string& before, const std::string& word, const std::vector<CommandNames>& commands)
 {
     // The beginning of a name counts as one letter left out.
-    const auto distance = [&](const std::string& name) {
-        return word.size() > 1 && name.starts_with(word) ? 1 : editDistance(word, name);
+    const auto distance = [&](const CommandNames& command) {
+        return word.size() > 1 && command.name.starts_with(word) ? 1 : editDistance(word, command.name);
     };
-    const auto nearest = std::ranges::min_element(names, {}, distance);
-    const bool near = distance(*nearest) <= std::max<std::size_t>(1, nearest->size() / 3);
+    const auto nearest = std::ranges::min_element(commands, {}, distance);
+    const bool near = distance(*nearest) <= std::max<std::size_t>(1, nearest->name.size() / 3);
+    std::vector<std::string_view> names;
+    for (const CommandNames& command : commands)
+        names.push_back(command.name);
     return usageError(fmt::format("{}there is no command '{}'; {}", before, word,
-                                  near ? fmt::format("did you mean {}?", *nearest)
+                                  near ? fmt::format("did you mean {}?", nearest->name)
                                        : fmt::format("expected one of {}", fmt::join(names, ", "))));
 }
 
@@ -50,21 +45,21 @@ std::size_t editDistance(std::string_view a, std::string_view b)
     return d[a.size()][b.size()];
 }
 
-Status checkCommandWords(const CLI::App& app, std::span<char* const> words)
+Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words)
 {
-    const CLI::App* at = &app;
+    const CommandNames* at = &tool;
     std::string before;
-    for (const std::string word : words) {
-        const auto names = namesIn(*at);
-        if (names.empty() || word.starts_with('-'))
+    for (const std::string& word : words) {
+        if (at->commands.empty() || word.starts_with('-'))
             break;
-        if (std::ranges::find(names, word) == names.end()) {
+        const auto found = std::ranges::find(at->commands, word, &CommandNames::name);
+        if (found == at->commands.end()) {
             if (word.size() > 100)
                 return usageError(before + "there is no command of such a length");
-            return unknown(before, word, names);
+            return unknown(before, word, at->commands);
         }
         before = word + ": ";
-        at = at->get_subcommand(word);
+        at = &*found;
     }
     return Done{};
 }

@@ -4,16 +4,21 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include <CLI/CLI.hpp>
+#include <vector>
 
 #include "cotan/result.hpp"
 
 namespace cotan::app {
 
+// A command and those that it has.
+struct CommandNames {
+    std::string name;
+    std::vector<CommandNames> commands;
+};
+
 // Whether the words at the beginning, such as `map convert`, name a command, as far as they are there. words: those of
 // the command line, without the program. Errors: ErrorKind::usage with the word and the nearest that there is.
-Status checkCommandWords(const CLI::App& app, std::span<char* const> words);
+Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words);
 
 // Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
 std::size_t editDistance(std::string_view a, std::string_view b);

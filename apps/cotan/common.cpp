@@ -6,10 +6,13 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 
 #include "cotan/files/extension.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/report/words.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
@@ -34,38 +37,39 @@ void warnOfParts(const CommonOptions& options, const std::filesystem::path& fold
 
 } // namespace
 
-void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp)
+void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp)
 {
-    CLI::Option* output = command.add_option("-o,--output", options.output, outputHelp)->type_name("PATH");
+    Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH");
     if (outputHelp.empty())
-        output->group("")->each([&command](const std::string&) {
-            throw CLI::ArgumentMismatch(command.get_name() + " writes no files but --json FILE; leave out -o");
-        });
-    command.add_option("--json", options.json, "machine-readable report; - is standard output")
-        ->type_name("FILE");
-    command.add_flag("--quiet", options.quiet, "no notes and warnings");
-    command.add_option("--threads", options.threads, "threads to use; 0 means all cores")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-    command.add_flag("--overwrite", options.overwrite, "replace files that are read, too");
+        output.unlisted().refused([name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
+    command.option("--json", options.json, "machine-readable report; - is standard output").in("FILE");
+    command.flag("--quiet", options.quiet, "no notes and warnings");
+    command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024);
+    command.flag("--overwrite", options.overwrite, "replace files that are read, too");
 }
 
-void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value)
+void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value)
 {
-    // Not by `excludes`: the help would list it at the newer option, without a name.
-    const CLI::Option* newer = command.get_option(name);
-    command.add_option(older, value)->group("")->each([newer, older, name](const std::string&) {
-        if (newer->count() > 0)
-            throw CLI::ArgumentMismatch(older + " is another word for " + name + ": expected one of them, found both");
+    // Not by CLI11's `excludes`: the help would list it at the newer option, without a name.
+    command.option(older, value, "").unlisted().refused([newer = command.find(name), older, name] {
+        return newer.count() > 0 ? older + " is another word for " + name + ": expected one of them, found both" : "";
     });
 }
 
-void addExamples(CLI::App& command, const std::vector<std::string>& lines)
+void addExamples(Arguments& command, const std::vector<std::string>& lines)
 {
     std::string text = "Examples:\n";
     for (const std::string& line : lines)
         text += "  " + line + "\n";
     command.footer(text + "\n" + kExitCodes);
+}
+
+Status withThreads(int threads, const std::function<Status()>& work)
+{
+    using oneapi::tbb::global_control;
+    const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
+    const global_control limit(global_control::max_allowed_parallelism, std::size_t(count));
+    return work();
 }
 
 std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
@@ -116,13 +120,11 @@ Status flushOutput()
     return Done{};
 }
 
-Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& report)
+Status writeReport(const CommonOptions& options, const Json& report)
 {
     if (options.json.empty())
         return Done{};
-    // Names in files need not be UTF-8; replace what is not rather than fail.
-    const std::string text =
-        report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::string text = toText(report);
     if (options.json == "-") {
         print(text);
         return flushOutput();
@@ -153,11 +155,6 @@ void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
     const std::string extension = lowerExtension(map);
     if (extension == ".jpg" || extension == ".jpeg")
         warn(options, "JPEG loses degrees on normal maps; PNG or TIFF keep them");
-}
-
-std::string counted(std::size_t number, const std::string& noun)
-{
-    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
 Status makeFolder(const std::filesystem::path& folder)

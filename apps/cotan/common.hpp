@@ -2,14 +2,13 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
+#include "arguments.hpp"
+#include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan::app {
@@ -24,20 +23,35 @@ struct CommonOptions {
 
 // Adds -o/--output, --json, --quiet, --threads and --overwrite to a command. An empty outputHelp: the command writes
 // nothing but its report; -o is not listed, and refused.
-void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp);
+void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp);
 
 // Another name for an option of that name, which goes on working and is not listed.
-void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value);
+void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value);
 
 // Ends a command's help with commands that work, and the exit codes.
-void addExamples(CLI::App& command, const std::vector<std::string>& lines);
+void addExamples(Arguments& command, const std::vector<std::string>& lines);
 
-// A command of the table in main.cpp: adds itself to the application; `run` is called after parsing
-// when its name was given.
-struct Command {
-    CLI::App* app = nullptr;
-    std::function<Status()> run;
+// Runs work with at most `threads` threads (0: all cores).
+Status withThreads(int threads, const std::function<Status()>& work);
+
+// What a command is, for addCommand.
+struct CommandText {
+    const char *name, *summary;
+    const char* output; // what -o writes; empty: nothing
+    std::vector<std::string> examples;
 };
+
+// Adds a command whose options are CommonOptions and more: `declare` adds the others, `run` does what they ask for.
+template<class Options>
+void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Arguments&, Options&), Status (*run)(const Options&))
+{
+    Arguments command = parent.command(text.name, text.summary);
+    const auto options = std::make_shared<Options>();
+    addCommonOptions(command, *options, text.output);
+    declare(command, *options);
+    addExamples(command, text.examples);
+    command.does([options, run] { return withThreads(options->threads, [&] { return run(*options); }); });
+}
 
 // Seconds since it was made or last asked.
 class Stopwatch {
@@ -78,7 +92,7 @@ void print(const std::string& text);
 Status flushOutput();
 
 // Writes the report where --json says; nothing if it was not asked for.
-Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& report);
+Status writeReport(const CommonOptions& options, const Json& report);
 
 // Prints a line on standard output unless --quiet was given or the report goes there.
 void say(const CommonOptions& options, const std::string& line);
@@ -88,9 +102,6 @@ void warn(const CommonOptions& options, const std::string& line);
 
 // Warns where a map goes into a format that does not keep it.
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map);
-
-// "1 primitive", "2 primitives".
-std::string counted(std::size_t number, const std::string& noun);
 
 // Makes a folder and those above it. Errors: ErrorKind::output.
 Status makeFolder(const std::filesystem::path& folder);

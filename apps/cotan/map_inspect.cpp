@@ -1,22 +1,16 @@
 // `cotan map info` and `detect`: nothing is changed.
-#include "map_command.hpp"
-
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 
-#include "cotan/maps/green.hpp"
-#include "cotan/maps/normal_statistics.hpp"
+#include "cotan/map_files/inspect.hpp"
 #include "map_options.hpp"
-#include "map_stream.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-struct InspectOptions {
-    MapOptions map;
+struct InspectOptions : MapOptions {
     std::string file;
 };
 
@@ -53,51 +47,17 @@ std::string transferText(maps::Transfer t)
         : "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128";
 }
 
-// A file that was read for its statistics.
-struct Surveyed {
-    int width = 0, height = 0;
-    PixelType type = PixelType::unorm8;
-    maps::NormalStatistics statistics;
-};
-
-// Calls take(strip, first row) for the whole file; with the row below each strip, if that is asked for.
-template<class Take> Result<Surveyed> readThrough(const InspectOptions& o, Border border, Take take)
-{
-    const auto reader = openMapRows(o.file, o.map);
-    if (!reader)
-        return reader.error();
-    RowReader& in = **reader;
-    if (Status read = inOrder(o.map.common, in, border, take); !read)
-        return read.error();
-    return Surveyed{in.width, in.height, in.type, {}};
-}
-
-Result<Surveyed> survey(const InspectOptions& o)
-{
-    maps::MapSurvey found;
-    auto first = readThrough(o, Border::none, [&](const Image& strip, int) { found.first(strip); });
-    if (!first)
-        return first.error();
-    if (found.oneColour()) {
-        first->statistics = found.finish();
-        return first;
-    }
-    auto second = readThrough(o, Border::none, [&](const Image& strip, int) { found.second(strip); });
-    if (second)
-        second->statistics = found.finish();
-    return second;
-}
-
 // Whether any texel has a direction: else means and shares are of nothing.
 bool measured(const maps::NormalStatistics& s)
 {
     return std::any_of(s.tilt.begin(), s.tilt.end(), [](double share) { return share > 0; });
 }
 
-void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
+void sayInfo(const InspectOptions& o, const maps::SurveyedFile& image)
 {
-    const auto line = [&](const std::string& text) { say(o.map.common, text); };
-    line(fmt::format("{}: {} x {}, {}", o.file, image.width, image.height, bitsName(image.type)));
+    const maps::NormalStatistics& s = image.statistics;
+    const auto line = [&](const std::string& text) { say(o, text); };
+    line(fmt::format("{}: {} x {}, {}", o.file, image.width, image.height, maps::bitsName(image.type)));
     line("contents: " + maps::describe(s.content));
     if (s.background > 0)
         line(fmt::format("background (alpha 0, black, white, or fields of a colour that is no normal): {:.2f} %; left out below",
@@ -126,10 +86,11 @@ void sayInfo(const InspectOptions& o, const Surveyed& image, const maps::NormalS
     line(fmt::format("mean direction: {:.4f} {:.4f} {:.4f}", s.mean[0], s.mean[1], s.mean[2]));
 }
 
-nlohmann::ordered_json toJson(const InspectOptions& o, const Surveyed& image, const maps::NormalStatistics& s)
+Json toJson(const InspectOptions& o, const maps::SurveyedFile& image)
 {
-    nlohmann::ordered_json j = {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
-            {"bits", bitsName(image.type)}, {"contents", maps::describe(s.content)},
+    const maps::NormalStatistics& s = image.statistics;
+    Json j = {{"command", "map info"}, {"file", o.file}, {"width", image.width}, {"height", image.height},
+            {"bits", maps::bitsName(image.type)}, {"contents", maps::describe(s.content)},
             {"channels", name(s.swizzle)}, {"centre", name(s.centre)}, {"transfer", name(s.transfer)},
             {"signed", s.signedStored}, {"mean_length", s.meanLength}, {"length_spread", s.lengthSpread},
             {"shortened", s.shortened}, {"background", s.background}, {"invalid", s.invalid}, {"below_horizon", s.belowHorizon},
@@ -143,12 +104,13 @@ nlohmann::ordered_json toJson(const InspectOptions& o, const Surveyed& image, co
 
 Status runInfo(const InspectOptions& o)
 {
-    const auto image = survey(o);
+    if (Status planned = planOutputs(o, {}); !planned)
+        return planned;
+    const auto image = onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::surveyFile(o.file, files); });
     if (!image)
         return image.error();
-    const maps::NormalStatistics& s = image->statistics;
-    sayInfo(o, *image, s);
-    return writeReport(o.map.common, toJson(o, *image, s));
+    sayInfo(o, *image);
+    return writeReport(o, toJson(o, *image));
 }
 
 std::string verdictText(const maps::GreenVerdict& v)
@@ -167,25 +129,23 @@ std::string verdictText(const maps::GreenVerdict& v)
 
 Status runDetect(const InspectOptions& o)
 {
-    const auto reader = openMapRows(o.file, o.map);
-    if (!reader)
-        return reader.error();
-    RowReader& in = **reader;
-    maps::PatchSampler sampler(in.width, in.height, in.type);
-    if (Status read = inOrder(o.map.common, in, Border::none, [&](const Image& strip, int row) { sampler.add(strip, row); }); !read)
-        return read.error();
-    const maps::GreenVerdict v = maps::greenOf(sampler);
-    say(o.map.common, verdictText(v));
+    if (Status planned = planOutputs(o, {}); !planned)
+        return planned;
+    const auto found = onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::greenOfFile(o.file, files); });
+    if (!found)
+        return found.error();
+    const maps::GreenVerdict& v = found->verdict;
+    say(o, verdictText(v));
     if (v.sampled < 1)
-        say(o.map.common, fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
-                                      sampler.patches().size(), 100 * v.sampled));
+        say(o, fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
+                                      found->patches, 100 * v.sampled));
     if (v.used > 0)
-        say(o.map.common, fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
+        say(o, fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
                                       "leaves {:.3g} times as much unexplained; {:.0f} % of the picture votes so",
                                       v.agreement, v.deviations, v.exchanged, v.residualRatio, v.votes * 100));
     if (v.green != maps::Green::undecidable)
-        say(o.map.common, "bump or dent cannot be told from a normal map: this takes red to point right, as every convention does");
-    return writeReport(o.map.common,
+        say(o, "bump or dent cannot be told from a normal map: this takes red to point right, as every convention does");
+    return writeReport(o,
                        {{"command", "map detect"}, {"file", o.file}, {"green", name(v.green)},
                         {"confidence", name(v.confidence)}, {"exchanged", name(v.swapped)}, {"reason", v.reason},
                         {"contents", maps::describe(v.statistics.content)}, {"background", v.statistics.background}, {"agreement", v.agreement},
@@ -194,35 +154,26 @@ Status runDetect(const InspectOptions& o)
                         {"bump_or_dent", "cannot be told"}});
 }
 
-template<class Run> Command inspect(CLI::App* command, std::shared_ptr<InspectOptions> options, Run run)
+void declare(Arguments& a, InspectOptions& o)
 {
-    return {command, [options, run]() -> Status {
-                if (Status planned = planOutputs(options->map.common, {}); !planned)
-                    return planned;
-                return withThreads(options->map.common.threads, [&] { return run(*options); });
-            }};
+    addMemoryOption(a, o.memory);
+    a.option("FILE", o.file, "the map").required();
 }
 
 } // namespace
 
-Command addMapInfo(CLI::App& map)
+void addMapInfo(Arguments& map)
 {
-    auto options = std::make_shared<InspectOptions>();
-    CLI::App* command = map.add_subcommand("info", "what a map is: lengths, tilt, centre, channels, what is wrong");
-    addMapOptions(*command, options->map, "");
-    command->add_option("FILE", options->file, "the map")->required();
-    addExamples(*command, {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"});
-    return inspect(command, options, runInfo);
+    addCommand<InspectOptions>(map, {"info", "what a map is: lengths, tilt, centre, channels, what is wrong", "",
+                     {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
+               declare, runInfo);
 }
 
-Command addMapDetect(CLI::App& map)
+void addMapDetect(Arguments& map)
 {
-    auto options = std::make_shared<InspectOptions>();
-    CLI::App* command = map.add_subcommand("detect", "which way green points, and how sure that is");
-    addMapOptions(*command, options->map, "");
-    command->add_option("FILE", options->file, "the map")->required();
-    addExamples(*command, {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"});
-    return inspect(command, options, runDetect);
+    addCommand<InspectOptions>(map, {"detect", "which way green points, and how sure that is", "",
+                     {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"}},
+               declare, runDetect);
 }
 
 } // namespace cotan::app

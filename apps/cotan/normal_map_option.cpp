@@ -26,14 +26,11 @@ bool anyMeshShows(const Scene& scene, int material)
 
 } // namespace
 
-void addNormalMapOption(CLI::App& command, NormalMapOption& o)
+void addNormalMapOption(Arguments& a, NormalMapOption& o)
 {
-    command.add_option("--normal-map", o.file, "image that takes the place of the model's normal maps, such as one that was just baked")
-        ->type_name("FILE");
-    command.add_option("--convention", o.convention, "how that image is stored: " + conventionWords())
-        ->type_name("WORDS")->capture_default_str();
-    command.add_option("--material", o.material, "number of the only material that gets it; -1: all")
-        ->check(CLI::Range(-1, 100000))->type_name("N")->capture_default_str();
+    a.option("--normal-map", o.file, "image that takes the place of the model's normal maps, such as one that was just baked").in("FILE");
+    a.option("--convention", o.convention, "how that image is stored: " + conventionWords()).in("WORDS");
+    a.option("--material", o.material, "number of the only material that gets it; -1: all").within(-1, 100000).in("N");
 }
 
 Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)

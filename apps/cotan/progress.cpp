@@ -64,7 +64,7 @@ std::string timeText(double s)
 
 } // namespace
 
-Progress::Progress(const CommonOptions& options, std::size_t total, std::string what)
+ProgressLine::ProgressLine(const CommonOptions& options, std::size_t total, std::string what)
     : visible_(!options.quiet && ::isatty(STDERR_FILENO) == 1), total_(double(total)), what_(std::move(what)),
       start_(Clock::now()), drawn_(start_)
 {
@@ -73,9 +73,9 @@ Progress::Progress(const CommonOptions& options, std::size_t total, std::string 
         draw(start_);
 }
 
-Progress::~Progress() { wipeProgress(); }
+ProgressLine::~ProgressLine() { wipeProgress(); }
 
-std::function<void(double)> Progress::within()
+Progress ProgressLine::within()
 {
     return [this](double share) {
         const std::lock_guard lock(mutex_);
@@ -83,10 +83,11 @@ std::function<void(double)> Progress::within()
             base_ += 1;
         begun_ = true;
         at(base_ + std::clamp(share, 0.0, 1.0));
+        return true;
     };
 }
 
-void Progress::add(double steps)
+void ProgressLine::add(double steps)
 {
     const std::lock_guard lock(mutex_);
     base_ += steps;
@@ -94,7 +95,7 @@ void Progress::add(double steps)
 }
 
 // With the lock held.
-void Progress::at(double done)
+void ProgressLine::at(double done)
 {
     if (!visible_)
         return;
@@ -104,7 +105,7 @@ void Progress::at(double done)
         draw(now);
 }
 
-void Progress::draw(Clock::time_point now)
+void ProgressLine::draw(Clock::time_point now)
 {
     const double spent = seconds(now - start_), share = total_ > 0 ? done_ / total_ : 0;
     std::string tail;

@@ -3,11 +3,12 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "common.hpp"
+#include "cotan/progress.hpp"
 
 namespace cotan::app {
 
@@ -15,17 +16,18 @@ namespace cotan::app {
 // at most ten times a second, and wipes it at the end. The share never goes back; the time is shown once it has
 // something to go by and follows changes slowly. Silent under --quiet and where standard error is not a terminal. All
 // functions may be called from several threads. One at a time.
-class Progress {
+class ProgressLine {
 public:
     // total: of steps; 0: nobody knows how many, and only `what` is shown.
-    Progress(const CommonOptions& options, std::size_t total, std::string what);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
+    ProgressLine(const CommonOptions& options, std::size_t total, std::string what);
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
 
     void step() { add(1); }
-    // Steps that are themselves done bit by bit: takes the share of the present one, up to 1; 0 begins the next.
-    std::function<void(double)> within();
+    // Steps that are themselves done bit by bit: takes the share of the present one, up to 1; 0 begins the next. It
+    // never stops the work.
+    Progress within();
 
 private:
     void add(double steps);
@@ -44,5 +46,13 @@ private:
 
 // Wipes the line, if there is one, so that something else can be printed. It comes back with the next step.
 void wipeProgress();
+
+// Runs work(progress) under a line for so many steps.
+template<class Work>
+auto withProgress(const CommonOptions& options, std::size_t total, std::string what, const Work& work)
+{
+    ProgressLine line(options, total, std::move(what));
+    return work(line.within());
+}
 
 } // namespace cotan::app

@@ -4,23 +4,58 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/verify/conversion.hpp"
-#include "device.hpp"
+#include "loading.hpp"
 #include "progress.hpp"
 
 namespace cotan::app {
 
 namespace {
 
+// The names of the pictures of one view.
+struct ViewNames {
+    const char *expected, *drawn, *difference;
+};
+
+constexpr ViewNames kOfConversion = {"before", "after", "difference"}, kOfBake = {"high", "low", "error"};
+
 std::string pictureName(const char* what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
+
+std::vector<std::string> picturesOf(const ViewNames& names, std::size_t views)
+{
+    std::vector<std::string> all;
+    for (std::size_t view = 0; view < views; ++view)
+        for (const char* what : {names.expected, names.drawn, names.difference})
+            all.push_back(pictureName(what, view));
+    return all;
+}
+
+// Writes the pictures of all views.
+Status writeViews(const ComparedViews& compared, const ViewNames& names, const std::filesystem::path& folder)
+{
+    for (std::size_t k = 0; k < compared.views.size(); ++k) {
+        const ComparedView& v = compared.views[k];
+        for (const auto& [what, image] : {std::pair(names.expected, &v.expected), {names.drawn, &v.drawn}, {names.difference, &v.difference}})
+            if (Status written = writeImage(folder / pictureName(what, k), *image); !written)
+                return written;
+    }
+    return Done{};
+}
+
+Json viewsOf(const ComparedViews& compared)
+{
+    Json views = Json::array();
+    for (const ComparedView& v : compared.views)
+        views.push_back(toJson(v.degrees));
+    return views;
+}
 
 Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model, const CommonOptions& common,
                              std::vector<Camera> cameras = {})
 {
-    Progress progress(common, kConversionViews, fmt::format("drawing {}", file.string()));
-    painter.progress = progress.within();
-    auto sides = drawSides(painter, std::move(model), std::move(cameras));
-    painter.progress = {};
-    return sides;
+    return withProgress(common, kConversionViews, fmt::format("drawing {}", file.string()), [&](Progress progress) {
+        painter.progress = std::move(progress);
+        return drawSides(painter, std::move(model), std::move(cameras));
+    });
 }
 
 // One model at a time is in memory.
@@ -47,16 +82,10 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
 
 } // namespace
 
-std::vector<std::string> verifyPictures()
-{
-    std::vector<std::string> names;
-    for (std::size_t view = 0; view < kConversionViews; ++view)
-        for (const char* what : {"before", "after", "difference"})
-            names.push_back(pictureName(what, view));
-    return names;
-}
+std::vector<std::string> conversionPictures() { return picturesOf(kOfConversion, kConversionViews); }
+std::vector<std::string> bakePictures() { return picturesOf(kOfBake, kBakeViews); }
 
-Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
+Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
 {
     if (Status made = makeFolder(o.folder); !made)
         return made.error();
@@ -64,23 +93,40 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
     const auto compared = drawAndCompare(o, common, device);
     if (!compared)
         return compared.error();
-    nlohmann::ordered_json views = nlohmann::ordered_json::array();
-    for (std::size_t k = 0; k < compared->views.size(); ++k) {
-        const ComparedView& v = compared->views[k];
-        views.push_back(toJson(v.degrees));
-        for (const auto& [what, image] : {std::pair("before", &v.expected), {"after", &v.drawn}, {"difference", &v.difference}})
-            if (Status written = writeImage(o.folder / pictureName(what, k), *image); !written)
-                return written.error();
-    }
+    if (Status written = writeViews(*compared, kOfConversion, o.folder); !written)
+        return written.error();
     const AngleStatistics& s = compared->all;
     say(common, fmt::format("drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
                             name(o.to), name(o.from), toText(s)));
     if (s.count == 0)
-        warn(common, compared->mapped ? "--verify compared nothing: no pixel shows the inside of a surface in both"
-                                      : "--verify compared nothing: no normal map is drawn");
+        warn(common, fmt::format("--verify compared nothing: {}",
+                                 compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap));
     say(common, fmt::format("pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
                             "yellow 5, red 15, white 45 degrees)", o.folder.string()));
-    return nlohmann::ordered_json{{"device", device}, {"degrees", toJson(s)}, {"views", views}};
+    return Json{{"device", device}, {"degrees", toJson(s)}, {"views", viewsOf(*compared)}};
+}
+
+Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, const std::filesystem::path& folder,
+                        const CommonOptions& common)
+{
+    if (Status made = makeFolder(folder); !made)
+        return made.error();
+    const auto painter = openDevice(device, common);
+    if (!painter)
+        return painter.error();
+    const auto compared = withProgress(common, kBakeViews, "drawing and comparing", [&](Progress progress) {
+        (*painter)->progress = std::move(progress);
+        return cotan::verifyBake(**painter, bake);
+    });
+    if (!compared)
+        return compared.error();
+    for (std::size_t k = 0; k < compared->views.size(); ++k)
+        say(common, fmt::format("view {}: {}", k, toText(compared->views[k].degrees)));
+    if (Status written = writeViews(*compared, kOfBake, folder); !written)
+        return written.error();
+    say(common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
+                            toText(compared->all)));
+    return Json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", viewsOf(*compared)}};
 }
 
 } // namespace cotan::app

@@ -297,7 +297,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
 }
 
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const std::function<void()>& progress)
+                   const Progress& progress)
 {
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
@@ -312,23 +312,26 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                           options.height * options.samples, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
+    CountedSteps done(progress, std::size_t(options.height)); // rows
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     arena.execute([&] {
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
         tbb::parallel_for(tbb::blocked_range<int>(0, raster.blocks()), [&](const tbb::blocked_range<int>& range) {
             BlockBaker baking(low, baker, raster, options, out);
             Counts counts;
-            for (int block = range.begin(); block != range.end(); ++block) {
+            for (int block = range.begin(); block != range.end() && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
                 baking.bake(block, first, last, counts);
-                for (int y = first; progress && y < last; ++y)
-                    progress();
+                for (int y = first; y < last; ++y)
+                    done.step();
             }
             const std::lock_guard lock(counting);
             out.statistics.rays += counts.rays;
             countTexels(counts.states, out.statistics);
         });
     });
+    if (done.stopped())
+        return stoppedError();
     BakeStatistics& s = out.statistics;
     countTriangles(low, s);
     s.rayDistance = baker.distance();

@@ -6,8 +6,6 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace cotan {
 
 namespace {
@@ -142,12 +140,12 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
     return rows;
 }
 
-nlohmann::ordered_json toJson(const std::vector<Measurement>& rows)
+Json toJson(const std::vector<Measurement>& rows)
 {
-    auto list = nlohmann::ordered_json::array();
+    auto list = Json::array();
     for (const Measurement& m : rows) {
         const bool any = m.samples > 0 && m.invalid < 1; // finite results
-        const auto figure = [&](double degrees) { return any ? nlohmann::ordered_json(degrees) : nlohmann::ordered_json(); };
+        const auto figure = [&](double degrees) { return any ? Json(degrees) : Json(); };
         list.push_back({{"table", m.table}, {"scene", m.scene}, {"setting", m.setting}, {"frame", m.frame},
                         {"truth", m.truth}, {"arithmetic", m.arithmetic}, {"samples", m.samples},
                         {"mean", figure(m.mean)}, {"percentile95", figure(m.percentile95)}, {"maximum", figure(m.maximum)},

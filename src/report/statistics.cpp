@@ -6,8 +6,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace cotan {
 
 namespace {
@@ -94,7 +92,7 @@ std::string toText(const AngleStatistics& s)
                        s.over5 * 100);
 }
 
-nlohmann::ordered_json toJson(const AngleStatistics& s)
+Json toJson(const AngleStatistics& s)
 {
     return {{"pixels", s.count},
             {"mean_degrees", s.mean},

@@ -3,8 +3,6 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include "cotan/report/statistics.hpp"
 
 namespace cotan {
@@ -69,9 +67,9 @@ std::string toText(const TangentDifference& d, const std::string& reference)
     return line;
 }
 
-nlohmann::ordered_json toJson(const TangentDifference& d)
+Json toJson(const TangentDifference& d)
 {
-    nlohmann::ordered_json directions = toJson(statisticsOf(d.degrees));
+    Json directions = toJson(statisticsOf(d.degrees));
     directions.erase("pixels"); // corners here
     return {{"verdict", name(verdictOf(d))},
             {"corners", d.corners},

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
 #include "cotan/truth/measurement.hpp"
 
@@ -21,7 +20,7 @@ std::string toCsv(const std::vector<Measurement>& rows);
 Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, const std::string& name);
 
 // Figures of rows without a finite result are null.
-nlohmann::ordered_json toJson(const std::vector<Measurement>& rows);
+Json toJson(const std::vector<Measurement>& rows);
 
 // Markdown tables, one for each table, scene, truth and arithmetic; frames downwards, settings
 // across, in each cell "mean / 95 % / max" in degrees and the share that was not finite.

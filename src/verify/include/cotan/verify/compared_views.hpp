@@ -23,4 +23,7 @@ struct ComparedViews {
     bool mapped = false;  // a normal map was drawn; if not, nothing is compared, as no frame has a part in the normals
 };
 
+// Why a comparison with mapped == false has nothing in it.
+inline constexpr const char* kNoNormalMap = "no normal map is drawn";
+
 } // namespace cotan
