@@ -8,7 +8,7 @@
 
 #include "cotan/convert/convert_model.hpp"
 #include "cotan/draw/painter.hpp"
-#include "cotan/report/words.hpp"
+#include "cotan/report/convert_report.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
@@ -68,66 +68,6 @@ Result<FramePair> checkUsage(const ConvertCommandOptions& o)
                      TangentOrigin::generated};
 }
 
-// What is to be said of a map that stays.
-std::string whyKept(const ConvertCommandOptions& o, const ConvertedMap& map)
-{
-    const Spread& off = map.figures.unconverted;
-    if (off.count == 0)
-        return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it", map.name);
-    return fmt::format("{}: stays as it is: read with {} it is off by {} degrees on {}, no more than rounding a new one costs", map.name,
-                       o.to, toText(off), counted(map.surfaces, "surface"));
-}
-
-void sayMap(const ConvertCommandOptions& o, const ConvertedMap& map)
-{
-    if (map.kept)
-        return say(o, whyKept(o, map));
-    const ReencodeFigures& r = map.figures;
-    const double texels = double(map.width) * double(map.height);
-    say(o, fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", map.name, map.width, map.height,
-                              100 * double(r.covered) / texels, counted(map.surfaces, "surface"), o.to, toText(r.unconverted)));
-    if (r.several > 0)
-        say(o, fmt::format("  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} degrees{}",
-                                  r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
-                                  kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
-    say(o, fmt::format("  converted and rounded to {} bits, off by {} degrees; {} texels of padding converted too; PNG {} bytes, before {}",
-                              map.bits, toText(r.error), r.padded, map.bytesAfter, map.bytesBefore));
-    if (r.belowHorizon > 0)
-        say(o, fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
-}
-
-// Of a map that stays, no texel was looked at: those figures are missing.
-Json describe(const ConvertedMap& map)
-{
-    const ReencodeFigures& r = map.figures;
-    if (map.kept)
-        return {{"image", map.image}, {"name", map.name}, {"surfaces", map.surfaces}, {"size", {map.width, map.height}}, {"kept", true},
-                {"degrees_unconverted", toJson(r.unconverted)}, {"bytes_before", map.bytesBefore}, {"bytes_after", map.bytesAfter}};
-    return {{"image", map.image}, {"name", map.name}, {"surfaces", map.surfaces}, {"size", {map.width, map.height}},
-            {"kept", false}, {"bits", map.bits}, {"texels_covered", r.covered}, {"texels_padded", r.padded},
-            {"texels_in_several_places", r.several}, {"texels_that_disagree", r.disagreeing},
-            {"disagreement_degrees", toJson(r.disagreement)}, {"moved_degrees", toJson(r.moved)},
-            {"degrees_unconverted", toJson(r.unconverted)}, {"degrees_after_rounding", toJson(r.error)}, {"below_horizon", r.belowHorizon},
-            {"kept_elsewhere", map.alsoElsewhere}, {"bytes_before", map.bytesBefore}, {"bytes_after", map.bytesAfter}};
-}
-
-// Says what became of the tangents, and returns it for the report.
-Json reportTangents(const ConvertCommandOptions& o, const ConvertModelReport& done)
-{
-    if (done.tangents == TangentsAfter::kept)
-        return {{"kept", true}};
-    if (done.tangents == TangentsAfter::given) {
-        say(o, fmt::format("{} got TANGENT for {}", counted(done.primitivesGiven, "primitive"), o.to));
-        return {{"given_primitives", done.primitivesGiven}};
-    }
-    const TangentBytes& d = done.dropped;
-    const double each = d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0;
-    say(o, d.bytes > 0 ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
-                                            counted(d.primitives, "primitive"), each, d.vertices, d.bytes)
-                              : "no TANGENT to drop");
-    return {{"dropped_primitives", d.primitives}, {"bytes_per_vertex", each}, {"vertices", d.vertices}, {"bytes", d.bytes}};
-}
-
 // Converts, and says what became of each map when it is done.
 Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document)
 {
@@ -135,7 +75,8 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
     const auto mapDone = [&](const ConvertedMap& map) {
         if (std::exchange(first, false))
             say(o, "three figures are: mean / 95 % / maximum, by area of the surface");
-        sayMap(o, map);
+        for (const std::string& line : linesOf(map, o.to))
+            say(o, line);
     };
     auto done = withProgress(o, 1, "converting " + o.model, [&](Progress progress) {
         return convertModel(document, {.frames = frames, .bits = o.bits, .keepTangents = o.keepTangents, .threads = o.threads,
@@ -180,8 +121,10 @@ Status run(const ConvertCommandOptions& o)
                                      {"tangents_read", o.tangents}, {"output", o.output.string()},
                                      {"maps", Json::array()}};
     for (const ConvertedMap& map : done->maps)
-        report["maps"].push_back(describe(map));
-    report["tangents"] = reportTangents(o, *done);
+        report["maps"].push_back(toJson(map));
+    if (const std::string line = tangentsLine(*done, o.to); !line.empty())
+        say(o, line);
+    report["tangents"] = tangentsJson(*done);
     if (!o.verify.empty()) // before anything is written
         if (Status made = makeFolder(o.verify); !made)
             return made;

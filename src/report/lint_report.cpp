@@ -13,7 +13,7 @@ namespace cotan {
 
 namespace {
 
-std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+std::string percentOf(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 std::string greenVerdict(const GreenEvidence& g)
 {
@@ -33,9 +33,9 @@ void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::
     }
     lines.push_back(fmt::format("  uv: degenerate {}, mirrored {}, overlapping {} (in both orientations {}), stretched over {:.1f} {}, "
                                 "sheared over {:.0f} degrees {} of the area",
-                                percent(p.uv.degenerate), percent(p.uv.mirrored), percent(p.uv.overlapping),
-                                percent(p.uv.overlappingMirrored), kStretched, percent(p.uv.stretched), kSheared,
-                                percent(p.uv.sheared)));
+                                percentOf(p.uv.degenerate), percentOf(p.uv.mirrored), percentOf(p.uv.overlapping),
+                                percentOf(p.uv.overlappingMirrored), kStretched, percentOf(p.uv.stretched), kSheared,
+                                percentOf(p.uv.sheared)));
     lines.push_back(fmt::format("  stretch {}, shear {} degrees", toText(p.uv.stretch), toText(p.uv.shear)));
     lines.push_back(fmt::format("  steps at {} interior edges, texel tilted {:.0f} degrees: cotangent {}, orthonormal {}", p.steps.edges,
                                 kTestTilt, toText(p.steps.cotangent), toText(p.steps.orthonormal)));
@@ -44,7 +44,7 @@ void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::
     else if (p.stored.present)
         lines.push_back(fmt::format("  stored tangents: w against the uv on {}, turned over {:.0f} degrees on {} of the area; "
                                     "{} degrees from dP/du",
-                                    percent(p.stored.reversedW), kTurned, percent(p.stored.turned), toText(p.stored.angle)));
+                                    percentOf(p.stored.reversedW), kTurned, percentOf(p.stored.turned), toText(p.stored.angle)));
     if (!p.notJudged.empty())
         lines.push_back("  normal map not judged: " + p.notJudged);
     else
@@ -134,7 +134,7 @@ std::vector<std::string> detailLines(const LintReport& report)
     for (const GreenEvidence& g : report.maps)
         lines.push_back(fmt::format("normal map {}{}: green, taking red as right, {}; agreement {:+.2f} for green up, {} of the detail agrees",
                                     g.image, g.name.empty() ? "" : " " + g.name, greenVerdict(g), g.verdict.agreement,
-                                    percent(g.verdict.votes)));
+                                    percentOf(g.verdict.votes)));
     for (const MapFit& f : report.fits)
         lines.push_back(fmt::format("normal map {}{}: read as it is, orthonormal {}, cotangent {}, smooth {}", f.image,
                                     f.name.empty() ? "" : " " + f.name, toText(f.orthonormal), toText(f.cotangent), toText(f.smooth)));
