@@ -1,19 +1,15 @@
 #include "commands.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
-#include "cotan/files/account.hpp"
 #include "cotan/figures/rendered_table.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/report/measurements.hpp"
 #include "cotan/truth/measurement.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -47,8 +43,7 @@ Result<ChosenTables> chooseTables(const std::string& text)
             continue;
         }
         const auto& all = accuracyTables();
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&](const AccuracyTable& t) { return t.name == word; });
+        const auto found = std::find_if(all.begin(), all.end(), [&](const AccuracyTable& t) { return t.name == word; });
         if (found == all.end())
             return usageError(fmt::format("--tables: expected names out of {}; found '{}'", names, word));
         chosen.computed.push_back(&*found);
@@ -74,40 +69,23 @@ Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
     return selection;
 }
 
-Result<std::vector<Measurement>> readCsv(const std::filesystem::path& file)
-{
-    if (Status free = noteInput(file); !free)
-        return free.error();
-    std::error_code error;
-    const auto size = std::filesystem::file_size(file, error);
-    constexpr std::uintmax_t kLimit = 64u << 20;
-    if (error)
-        return inputError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
-    if (size > kLimit)
-        return inputError(fmt::format("{}: {} bytes; expected at most {}", file.string(), size, kLimit));
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return measurementsFromCsv(text.str(), file.string());
-}
-
 // Says what has become worse than in the file --against names.
 Status compareWith(const AccuracyCommandOptions& o, const std::vector<Measurement>& rows)
 {
-    const auto before = readCsv(o.against);
+    const auto before = readMeasurements(o.against);
     if (!before)
         return before.error();
     std::size_t compared = 0;
     const auto worse = worsenings(*before, rows, compared);
     for (const Worsening& w : worse)
-        fmt::print(stderr, "worse: {}, {}, {}, {}, {}, {}: {}\n", w.now.table, w.now.scene, w.now.setting,
-                   w.now.frame, w.now.truth, w.now.arithmetic, w.what);
+        fmt::print(stderr, "worse: {}, {}, {}, {}, {}, {}: {}\n", w.now.table, w.now.scene, w.now.setting, w.now.frame,
+                   w.now.truth, w.now.arithmetic, w.what);
     if (!worse.empty())
-        return Error{ErrorKind::limit, fmt::format("{} of {} figures are worse than in {}", worse.size(), compared,
-                                                   o.against.string())};
+        return Error{ErrorKind::limit,
+                     fmt::format("{} of {} figures are worse than in {}", worse.size(), compared, o.against.string())};
     if (compared == 0)
         return inputError(fmt::format("{}: holds none of the figures that were measured", o.against.string()));
-    say(o, fmt::format("{} figures compared with {}: none is worse", compared, o.against.string()));
+    say(o, "{} figures compared with {}: none is worse", compared, o.against.string());
     return Done{};
 }
 
@@ -115,7 +93,7 @@ Status listTables(const AccuracyCommandOptions& o)
 {
     auto tables = Json::array();
     const auto add = [&](std::string_view name, std::string_view summary) {
-        say(o, fmt::format("{:<16}{}", name, summary));
+        say(o, "{:<16}{}", name, summary);
         tables.push_back({{"name", name}, {"summary", summary}});
     };
     for (const AccuracyTable& table : accuracyTables())
@@ -131,7 +109,7 @@ Status run(const AccuracyCommandOptions& o)
     if (o.list)
         return listTables(o);
     if (!o.against.empty()) // read first: hours may pass before it is compared
-        if (const auto before = readCsv(o.against); !before)
+        if (const auto before = readMeasurements(o.against); !before)
             return before.error();
     const auto tables = chooseTables(o.tables);
     if (!tables)
@@ -177,11 +155,11 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
     a.option("--tables", o.tables, "names, separated by commas (default: all; see --list)").in("A,B");
     a.option("--frames", o.frames, "frames, separated by commas (default: all): " + frameNames()).in("A,B");
     a.option("--device", o.device,
-                        "draws the table rendered: auto, reference, a part of a Vulkan device's name, or none").in("DEVICE");
+             "draws the table rendered: auto, reference, a part of a Vulkan device's name, or none")
+        .in("DEVICE");
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
     a.option("--csv", o.csv, "write all figures as CSV").in("FILE");
-    a.option("--against", o.against,
-                        "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
+    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
     a.flag("--list", o.list, "name the tables and stop");
 }
 
@@ -189,11 +167,13 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
 
 void addAccuracyCommand(Arguments& tool)
 {
-    addCommand<AccuracyCommandOptions>(tool, {"accuracy", "every frame against analytic truth, in degrees",
-                      "write the tables (Markdown) there instead of printing them",
-                      {"cotan accuracy --list",
-                      "cotan accuracy --tables flat --frames cotangent,orthonormal --csv flat.csv"}},
-               declare, run);
+    addCommand<AccuracyCommandOptions>(
+        tool,
+        {"accuracy",
+         "every frame against analytic truth, in degrees",
+         "write the tables (Markdown) there instead of printing them",
+         {"cotan accuracy --list", "cotan accuracy --tables flat --frames cotangent,orthonormal --csv flat.csv"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "command_words.hpp"
+#include "cotan/terminal/command_words.hpp"
 
 namespace cotan::app {
 
@@ -20,19 +20,6 @@ std::string positiveNumber(const std::string& text)
     const float value = std::strtof(text.c_str(), &end);
     const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
     return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
-}
-
-template<class Value> Argument added(CLI::App& app, const std::string& names, Value& value, const std::string& help)
-{
-    CLI::Option* option = app.add_option(names, value, help);
-    const auto empty = [&] {
-        if constexpr (requires { value.empty(); })
-            return value.empty();
-        return false;
-    };
-    if (!empty())
-        option->capture_default_str();
-    return Argument(*option);
 }
 
 CommandNames namesOf(const CLI::App& app)
@@ -64,12 +51,6 @@ Argument& Argument::from(std::initializer_list<int> numbers)
 }
 
 Argument& Argument::within(int least, int most)
-{
-    option_->check(CLI::Range(least, most));
-    return *this;
-}
-
-Argument& Argument::within(float least, float most)
 {
     option_->check(CLI::Range(least, most));
     return *this;
@@ -142,14 +123,28 @@ Arguments Arguments::command(const std::string& name, const std::string& summary
     return {tool_, *app_->add_subcommand(name, summary)};
 }
 
-Argument Arguments::option(const std::string& names, std::string& value, const std::string& help) { return added(*app_, names, value, help); }
-Argument Arguments::option(const std::string& names, std::filesystem::path& value, const std::string& help) { return added(*app_, names, value, help); }
-Argument Arguments::option(const std::string& names, int& value, const std::string& help) { return added(*app_, names, value, help); }
-Argument Arguments::option(const std::string& names, float& value, const std::string& help) { return added(*app_, names, value, help); }
-Argument Arguments::option(const std::string& names, double& value, const std::string& help) { return added(*app_, names, value, help); }
-Argument Arguments::option(const std::string& names, std::vector<std::string>& values, const std::string& help) { return added(*app_, names, values, help); }
+template<class Value> Argument Arguments::option(const std::string& names, Value& value, const std::string& help)
+{
+    CLI::Option* option = app_->add_option(names, value, help);
+    bool empty = false;
+    if constexpr (requires { value.empty(); })
+        empty = value.empty();
+    if (!empty)
+        option->capture_default_str();
+    return Argument(*option);
+}
 
-void Arguments::flag(const std::string& name, bool& value, const std::string& help) { app_->add_flag(name, value, help); }
+template Argument Arguments::option(const std::string&, std::string&, const std::string&);
+template Argument Arguments::option(const std::string&, std::filesystem::path&, const std::string&);
+template Argument Arguments::option(const std::string&, int&, const std::string&);
+template Argument Arguments::option(const std::string&, float&, const std::string&);
+template Argument Arguments::option(const std::string&, double&, const std::string&);
+template Argument Arguments::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+void Arguments::flag(const std::string& name, bool& value, const std::string& help)
+{
+    app_->add_flag(name, value, help);
+}
 
 Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name)); }
 

@@ -28,7 +28,6 @@ public:
     Argument& from(std::initializer_list<std::string> words);
     Argument& from(std::initializer_list<int> numbers);
     Argument& within(int least, int most);
-    Argument& within(float least, float most);
     Argument& within(double least, double most);
     Argument& above0(); // and at most 1e6
     Argument& required();
@@ -52,13 +51,9 @@ public:
     // A command of this one, which then needs one of its commands.
     Arguments command(const std::string& name, const std::string& summary);
 
-    // "-o,--output" are names of one option; "MODEL" is a positional argument.
-    Argument option(const std::string& names, std::string& value, const std::string& help);
-    Argument option(const std::string& names, std::filesystem::path& value, const std::string& help);
-    Argument option(const std::string& names, int& value, const std::string& help);
-    Argument option(const std::string& names, float& value, const std::string& help);
-    Argument option(const std::string& names, double& value, const std::string& help);
-    Argument option(const std::string& names, std::vector<std::string>& values, const std::string& help);
+    // "-o,--output" are names of one option; "MODEL" is a positional argument. A value is a std::string, a
+    // std::filesystem::path, an int, float or double, or several strings in a vector.
+    template<class Value> Argument option(const std::string& names, Value& value, const std::string& help);
     void flag(const std::string& name, bool& value, const std::string& help);
     Argument find(const std::string& name);
 

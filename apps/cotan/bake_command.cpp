@@ -7,9 +7,9 @@
 #include "cotan/convert/put_map.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/verify/views.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
@@ -25,11 +25,18 @@ double peakMegabytes()
 
 Json describe(const BakeStatistics& s)
 {
-    return {{"texels", s.texels},       {"covered", s.covered},       {"touched", s.touched},
-            {"missed", s.missed},       {"negative_z", s.negative},   {"claimed_twice", s.twice},
-            {"rays", s.rays},           {"ray_distance", s.rayDistance},
-            {"triangles_mirrored", s.mirroredTriangles},              {"triangles_without_uv_area", s.degenerateTriangles},
-            {"seconds", s.seconds},     {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
+    return {{"texels", s.texels},
+            {"covered", s.covered},
+            {"touched", s.touched},
+            {"missed", s.missed},
+            {"negative_z", s.negative},
+            {"claimed_twice", s.twice},
+            {"rays", s.rays},
+            {"ray_distance", s.rayDistance},
+            {"triangles_mirrored", s.mirroredTriangles},
+            {"triangles_without_uv_area", s.degenerateTriangles},
+            {"seconds", s.seconds},
+            {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
 }
 
 double percent(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : 100.0 * double(part) / double(whole); }
@@ -37,23 +44,29 @@ double percent(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : 10
 // What the statistics mean for the one who baked.
 void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatistics& s)
 {
-    say(o, fmt::format("{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays a second",
-                              s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6));
+    say(o, "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays a second",
+        s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
-        warn(o, fmt::format("no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim));
+        warn(o, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim);
     if (s.missed > 0)
-        warn(o, fmt::format("{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask shows where)",
-                                   percent(s.missed, s.covered), s.rayDistance));
+        warn(o,
+             "{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask "
+             "shows where)",
+             percent(s.missed, s.covered), s.rayDistance);
     if (s.negative > 0)
-        warn(o, fmt::format("{:.2f} % of the covered texels look below the frame's horizon (negative z): the low mesh is too coarse there, or rays hit another part",
-                                   percent(s.negative, s.covered)));
+        warn(o,
+             "{:.2f} % of the covered texels look below the frame's horizon (negative z): the low mesh is too coarse "
+             "there, or rays hit another part",
+             percent(s.negative, s.covered));
     if (s.twice > 0)
-        warn(o, fmt::format("{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
-                                   percent(s.twice, s.covered)));
+        warn(o, "{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
+             percent(s.twice, s.covered));
     const bool perTriangle = info(job.frame()).source != FrameSource::vertices && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
-        warn(o, fmt::format("the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
-                                   "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame())));
+        warn(o,
+             "the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
+             "edges of curved meshes; bake and draw with smooth to avoid it",
+             name(job.frame()));
 }
 
 // What can be said of an -o that names a glTF model before anything is loaded. Errors: ErrorKind::usage.
@@ -62,38 +75,28 @@ Status checkModelOutput(const BakeCommandOptions& o)
     if (!namedAsGltf(o.output))
         return Done{};
     if (o.kind != "normal")
-        return usageError(fmt::format("-o {}: a model takes a map of the kind normal; found {}", o.output.string(), o.kind));
+        return usageError(
+            fmt::format("-o {}: a model takes a map of the kind normal; found {}", o.output.string(), o.kind));
     if (o.bits == 32)
-        return usageError(fmt::format("-o {}: expected --bits 8 or 16, as a picture in a model has; found 32", o.output.string()));
+        return usageError(
+            fmt::format("-o {}: expected --bits 8 or 16, as a picture in a model has; found 32", o.output.string()));
     if (o.udim != 1001)
-        return usageError(fmt::format("-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}",
-                                      o.output.string(), o.udim));
+        return usageError(
+            fmt::format("-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}",
+                        o.output.string(), o.udim));
     return Done{};
 }
 
-// Writes the low model with the map in it: a glTF model keeps all else as it was, another format is written as glTF.
-// TANGENT is what readers of the frame need. Warns where readers that make MikkTSpace would show the map wrongly.
+// Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
-    auto document = namedAsGltf(o.low) ? openGltfDocument(o.low) : gltfDocumentOf(job.lowScene);
-    if (!document)
-        return document.error();
-    auto png = encodePng(map);
-    if (!png)
-        return png.error();
-    PutMapOptions options;
-    options.frame = job.frame();
+    PutMapOptions options{.frame = job.frame(), .material = {}, .keepTangents = job.setup.storedTangents};
     if (o.material >= 0) // a scene numbers its materials as meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
-    options.keepTangents = job.setup.storedTangents;
-    std::vector<std::string> notes;
-    if (Status put = putNormalMap(*document, std::move(*png), options, notes); !put)
-        return inWordsOfBake(o, put.error());
-    const auto written = writeGltf(*document, o.output);
+    const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
     if (!written)
-        return written.error();
-    notes.insert(notes.end(), written->notes.begin(), written->notes.end());
-    for (const std::string& note : notes)
+        return inWordsOfBake(o, written.error());
+    for (const std::string& note : written->notes)
         warn(o, note);
     return Done{};
 }
@@ -109,10 +112,11 @@ Status checkOutputs(const BakeCommandOptions& o)
         return ok;
     const std::string extension = lowerExtension(o.output);
     if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
-        return usageError(fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.output.string()));
+        return usageError(
+            fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.output.string()));
     std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
     if (!o.verify.empty())
-        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, bakePictures()))
+        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
             files.push_back(picture);
     warnIfLossy(o, o.output);
     return planOutputs(o, files);
@@ -129,7 +133,8 @@ Status run(const BakeCommandOptions& o)
     for (const std::string& line : job->warnings)
         warn(o, line);
     const double loadSeconds = watch.lap();
-    const auto baked = withProgress(o, 1, "baking", [&](const Progress& progress) { return bakeTile(job->setup, o.udim, progress); });
+    const auto baked =
+        withProgress(o, 1, "baking", [&](const Progress& progress) { return bakeTile(job->setup, o.udim, progress); });
     if (!baked)
         return inWordsOfBake(o, baked.error());
     const Image& image = baked->image;
@@ -141,19 +146,24 @@ Status run(const BakeCommandOptions& o)
     if (Status w = namedAsGltf(o.output) ? writeBakedModel(o, *job, image) : writeImage(o.output, image); !w)
         return w;
     const double writeSeconds = watch.lap();
-    say(o, fmt::format("map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,
-                              o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes()));
-    Json report{{"command", "bake"}, {"low", o.low}, {"high", o.high}, {"frame", o.frame},
-                                  {"kind", o.kind}, {"size", {image.width, image.height}},
-                                  {"high_normals", o.highNormals},
-                                  {"triangles_high", job->setup.high.triangleCount()},
-                                  {"triangles_low", job->setup.low.triangleCount()},
-                                  {"bake", describe(baked->statistics)},
-                                  {"seconds", {{"load", loadSeconds}, {"pad", baked->statistics.padSeconds}, {"write", writeSeconds}}},
-                                  {"peak_megabytes", peakMegabytes()}};
+    say(o, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,
+        o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes());
+    Json report{{"command", "bake"},
+                {"low", o.low},
+                {"high", o.high},
+                {"frame", o.frame},
+                {"kind", o.kind},
+                {"size", {image.width, image.height}},
+                {"high_normals", o.highNormals},
+                {"triangles_high", job->setup.high.triangleCount()},
+                {"triangles_low", job->setup.low.triangleCount()},
+                {"bake", describe(baked->statistics)},
+                {"seconds", {{"load", loadSeconds}, {"pad", baked->statistics.padSeconds}, {"write", writeSeconds}}},
+                {"peak_megabytes", peakMegabytes()}};
     if (!o.verify.empty()) {
-        const auto verified = verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake, image,
-                                           job->setup.options.stored.format, o.material, o.tangents != "stored"}, o.device, o.verify, o);
+        const auto verified = verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake,
+                                          image, job->setup.options.stored.format, o.material, o.tangents != "stored"},
+                                         o.device, o.verify, o);
         if (!verified)
             return verified.error();
         report["verify"] = *verified;
@@ -166,24 +176,49 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE");
     a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE");
     a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME");
-    a.option("--kind", o.kind, "normal, object-normal, height (model units) or ao").from({"normal", "object-normal", "height", "ao"}).in("NAME");
+    a.option("--kind", o.kind, "normal, object-normal, height (model units) or ao")
+        .from({"normal", "object-normal", "height", "ao"})
+        .in("NAME");
     a.option("--size", o.size, "width and height in texels").in("WxH");
     a.option("--samples", o.samples, "samples a texel: 1, 4 or 16").from({1, 4, 16}).in("N");
-    a.option("--max-distance", o.maxDistance, "how far rays look forward and back, model units; 0: 5 % of the high mesh's diagonal").within(0.0f, 1e9f).in("D");
-    a.option("--cage", o.cage, "mesh of the same triangles as the low one, around both; rays run from it inwards").in("FILE");
+    a.option("--max-distance", o.maxDistance,
+             "how far rays look forward and back, model units; 0: 5 % of the high mesh's diagonal")
+        .within(0.0, 1e9)
+        .in("D");
+    a.option("--cage", o.cage, "mesh of the same triangles as the low one, around both; rays run from it inwards")
+        .in("FILE");
     a.flag("--match-by-name", o.matchByName, "a low mesh NAME_low sees only the high mesh NAME_high");
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
-    addTangentsOption(a, o.tangents, "for the frames vertex and mikktspace: stored (generated where missing) or generated");
-    a.option("--high-normals", o.highNormals, "normals of the high mesh: smooth, curved (where its triangles are larger than texels), face (flat triangles) or map (its own normal map)").from({"smooth", "curved", "face", "map"}).in("NAME");
-    a.option("--high-frame", o.highFrame, "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says").in("NAME");
-    a.option("--high-map", o.highMaps, "image that takes the place of the high mesh's normal maps; one, or one for each --high").in("FILE");
-    a.option("--high-convention", o.highConvention, "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for --high-map").in("NAME");
+    addTangentsOption(a, o.tangents,
+                      "for the frames vertex and mikktspace: stored (generated where missing) or generated");
+    a.option("--high-normals", o.highNormals,
+             "normals of the high mesh: smooth, curved (where its triangles are larger than texels), face (flat "
+             "triangles) or map (its own normal map)")
+        .from({"smooth", "curved", "face", "map"})
+        .in("NAME");
+    a.option(
+         "--high-frame", o.highFrame,
+         "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")
+        .in("NAME");
+    a.option("--high-map", o.highMaps,
+             "image that takes the place of the high mesh's normal maps; one, or one for each --high")
+        .in("FILE");
+    a.option("--high-convention", o.highConvention,
+             "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
+             "--high-map")
+        .in("NAME");
     a.option("--bits", o.bits, "8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
     a.flag("--dither", o.dither, "8 bit: round by a fixed pattern");
-    a.option("--convention", o.convention, "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...").in("NAME");
-    a.option("--unsigned", o.expansion, "which code is zero: exact (128; 32768 of 16 bits), biased (none: 2c - 1)").from({"exact", "biased"}).in("NAME");
-    a.option("--padding", o.padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none").within(-1, 65536).in("N");
+    a.option("--convention", o.convention,
+             "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
+        .in("NAME");
+    a.option("--unsigned", o.expansion, "which code is zero: exact (128; 32768 of 16 bits), biased (none: 2c - 1)")
+        .from({"exact", "biased"})
+        .in("NAME");
+    a.option("--padding", o.padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none")
+        .within(-1, 65536)
+        .in("N");
     a.option("--ao-rays", o.occlusionRays, "rays a sample for ao").within(1, 65536).in("N");
     a.option("--mask", o.mask, "picture of what became of each texel").in("FILE");
     addMemoryOption(a, o.memory);
@@ -195,11 +230,14 @@ void declare(Arguments& a, BakeCommandOptions& o)
 
 void addBakeCommand(Arguments& tool)
 {
-    addCommand<BakeCommandOptions>(tool, {"bake", "normal map of a detailed mesh for a simple one, in a named frame",
-                      "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
-                      {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
-                      "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
-               declare, run);
+    addCommand<BakeCommandOptions>(
+        tool,
+        {"bake",
+         "normal map of a detailed mesh for a simple one, in a named frame",
+         "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
+         {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
+          "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -13,7 +13,8 @@ namespace cotan::app {
 struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact", tangents = "stored";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact",
+                tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;

@@ -2,18 +2,16 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <set>
-#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/account.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
-#include "cotan/report/words.hpp"
-#include "progress.hpp"
+#include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
 
@@ -24,24 +22,14 @@ constexpr const char* kExitCodes =
 
 int printErrno = 0; // of the first print that failed
 
-// What a killed run has left where this one writes.
-void warnOfParts(const CommonOptions& options, const std::filesystem::path& folder)
-{
-    const auto parts = leftParts(folder);
-    if (parts.empty())
-        return;
-    warn(options, fmt::format("{}: {} of a run that was killed, {}{}; delete what is not needed",
-                              folder.string(), counted(parts.size(), "unfinished file"), parts.front().filename().string(),
-                              parts.size() > 1 ? " and others" : ""));
-}
-
 } // namespace
 
 void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp)
 {
     Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH");
     if (outputHelp.empty())
-        output.unlisted().refused([name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
+        output.unlisted().refused(
+            [name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
     command.option("--json", options.json, "machine-readable report; - is standard output").in("FILE");
     command.flag("--quiet", options.quiet, "no notes and warnings");
     command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024);
@@ -72,36 +60,16 @@ Status withThreads(int threads, const std::function<Status()>& work)
     return work();
 }
 
-std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
-                                     const std::vector<std::string>& names)
-{
-    std::vector<PlannedOutput> files;
-    for (const std::string& name : names)
-        files.push_back({option, folder / name, /*makesFolder*/ true});
-    return files;
-}
-
-Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput>& files)
+Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)
 {
     guardInputs(options.overwrite);
-    std::vector<PlannedOutput> all = files;
     if (options.json != "-")
-        all.push_back({"--json", options.json});
-    std::erase_if(all, [](const PlannedOutput& output) { return output.file.empty(); });
-    for (const PlannedOutput& output : all)
-        if (Status planned = planOutput(output.option, output.file); !planned)
-            return planned;
-    std::set<std::filesystem::path> folders, made;
-    for (const PlannedOutput& output : all) {
-        const std::filesystem::path folder = (output.file.has_parent_path() ? output.file.parent_path() : ".").lexically_normal();
-        folders.insert(folder);
-        if (output.makesFolder)
-            made.insert(folder);
-        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
-            return writable;
-    }
-    for (const std::filesystem::path& folder : folders)
-        warnOfParts(options, folder);
+        files.push_back({"--json", options.json});
+    const auto left = cotan::planOutputs(std::move(files));
+    if (!left)
+        return left.error();
+    for (const std::string& line : *left)
+        warn(options, line);
     return Done{};
 }
 
@@ -134,20 +102,18 @@ Status writeReport(const CommonOptions& options, const Json& report)
 
 void say(const CommonOptions& options, const std::string& line)
 {
-    if (!options.quiet && options.json != "-")
-    {
-        wipeProgress();
-        print(line + "\n");
-    }
+    if (options.quiet || options.json == "-")
+        return;
+    wipeProgress();
+    print(line + "\n");
 }
 
 void warn(const CommonOptions& options, const std::string& line)
 {
-    if (!options.quiet)
-    {
-        wipeProgress();
-        std::fputs(fmt::format("cotan: warning: {}\n", line).c_str(), stderr);
-    }
+    if (options.quiet)
+        return;
+    wipeProgress();
+    std::fputs(fmt::format("cotan: warning: {}\n", line).c_str(), stderr);
 }
 
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
@@ -155,16 +121,6 @@ void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
     const std::string extension = lowerExtension(map);
     if (extension == ".jpg" || extension == ".jpeg")
         warn(options, "JPEG loses degrees on normal maps; PNG or TIFF keep them");
-}
-
-Status makeFolder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder))
-        return outputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
-                                       error ? error.message() : "a file is in the way"));
-    return Done{};
 }
 
 } // namespace cotan::app

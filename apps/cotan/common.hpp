@@ -5,19 +5,24 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "arguments.hpp"
+#include "cotan/files/plan.hpp"
 #include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
+#include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
 
 struct CommonOptions {
     std::filesystem::path output;
-    std::string json;  // a file, "-" for standard output, empty for none
+    std::string json; // a file, "-" for standard output, empty for none
     bool quiet = false;
-    int threads = 0;   // 0: all cores
+    int threads = 0;        // 0: all cores
     bool overwrite = false; // inputs, and one output by another
 };
 
@@ -43,7 +48,8 @@ struct CommandText {
 
 // Adds a command whose options are CommonOptions and more: `declare` adds the others, `run` does what they ask for.
 template<class Options>
-void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Arguments&, Options&), Status (*run)(const Options&))
+void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Arguments&, Options&),
+                Status (*run)(const Options&))
 {
     Arguments command = parent.command(text.name, text.summary);
     const auto options = std::make_shared<Options>();
@@ -68,22 +74,11 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// A file that a command will write.
-struct PlannedOutput {
-    std::string option; // that asked for it, for messages
-    std::filesystem::path file;
-    bool makesFolder = false; // the command makes its folder
-};
-
-// The files of these names in a folder that an option names.
-std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
-                                     const std::vector<std::string>& names);
-
 // What every command calls before it reads anything: says what it will write, --json included; empty names are left
 // out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
 // what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output
 // where a file cannot be written.
-Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput>& files);
+Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
 
 // Prints on standard output. It does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);
@@ -100,10 +95,27 @@ void say(const CommonOptions& options, const std::string& line);
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);
 
+// The same, formatted.
+template<class First, class... Others>
+void say(const CommonOptions& options, fmt::format_string<First, Others...> text, First&& first, Others&&... others)
+{
+    say(options, fmt::format(text, std::forward<First>(first), std::forward<Others>(others)...));
+}
+template<class First, class... Others>
+void warn(const CommonOptions& options, fmt::format_string<First, Others...> text, First&& first, Others&&... others)
+{
+    warn(options, fmt::format(text, std::forward<First>(first), std::forward<Others>(others)...));
+}
+
+// Runs work(progress) under a line for so many steps; 0: nobody knows how many.
+template<class Work>
+auto withProgress(const CommonOptions& options, std::size_t steps, std::string what, const Work& work)
+{
+    ProgressLine line(options.quiet, steps, std::move(what));
+    return work(line.within());
+}
+
 // Warns where a map goes into a format that does not keep it.
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map);
-
-// Makes a folder and those above it. Errors: ErrorKind::output.
-Status makeFolder(const std::filesystem::path& folder);
 
 } // namespace cotan::app

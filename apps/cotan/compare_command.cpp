@@ -9,7 +9,6 @@
 #include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -66,8 +65,9 @@ Status run(const CompareCommandOptions& o)
 
     if (Status made = makeFolder(o.output); !made)
         return made;
-    const std::map<std::string, const Image*> files = {
-        {a + ".png", &compared->shaded[0]}, {b + ".png", &compared->shaded[1]}, {"difference.png", &compared->difference}};
+    const std::map<std::string, const Image*> files = {{a + ".png", &compared->shaded[0]},
+                                                       {b + ".png", &compared->shaded[1]},
+                                                       {"difference.png", &compared->difference}};
     for (const auto& [file, image] : files)
         if (Status written = writeImage(o.output / file, *image); !written)
             return written;
@@ -81,10 +81,12 @@ Status run(const CompareCommandOptions& o)
     report["bitangents_opposed"] = compared->bitangentsOpposed;
     report["verdict"] = compared->verdict;
     report["seconds"] = {{"load", picture->loadSeconds}, {"draw", drawSeconds}, {"write", watch.lap()}};
-    say(o, fmt::format("{} against {}, {} pixels: {}", a, b, compared->normals.count, toText(*compared)));
+    say(o, "{} against {}, {} pixels: {}", a, b, compared->normals.count, toText(*compared));
     say(o, compared->verdict);
-    say(o, fmt::format("pictures in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
-                              "green 2, yellow 5, red 15, white 45 degrees)", o.output.string(), a, b));
+    say(o,
+        "pictures in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
+        "green 2, yellow 5, red 15, white 45 degrees)",
+        o.output.string(), a, b);
     return writeReport(o, report);
 }
 
@@ -98,11 +100,14 @@ void declare(Arguments& a, CompareCommandOptions& o)
 
 void addCompareCommand(Arguments& tool)
 {
-    addCommand<CompareCommandOptions>(tool, {"compare", "draw a model with two frames and measure the difference in degrees",
-                      "folder for both pictures and the heat map",
-                      {"cotan compare model.glb --frames cotangent,mikktspace -o difference",
-                      "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"}},
-               declare, run);
+    addCommand<CompareCommandOptions>(
+        tool,
+        {"compare",
+         "draw a model with two frames and measure the difference in degrees",
+         "folder for both pictures and the heat map",
+         {"cotan compare model.glb --frames cotangent,mikktspace -o difference",
+          "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"}},
+        declare, run);
 }
 
 } // namespace cotan::app

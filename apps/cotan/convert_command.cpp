@@ -9,10 +9,11 @@
 #include "cotan/convert/convert_model.hpp"
 #include "cotan/draw/painter.hpp"
 #include "cotan/report/convert_report.hpp"
+#include "cotan/verify/conversion.hpp"
+#include "cotan/verify/views.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
@@ -36,8 +37,9 @@ Result<Frame> frameFor(const char* option, const std::string& text)
     if (!frame)
         return usageError(fmt::format("{}: {}", option, frame.error().message));
     if (dependsOnView(*frame))
-        return usageError(fmt::format("{}: expected a frame that is the same from every side; {} is not, so no map can be made for it",
-                                      option, text));
+        return usageError(fmt::format(
+            "{}: expected a frame that is the same from every side; {} is not, so no map can be made for it", option,
+            text));
     return *frame;
 }
 
@@ -57,7 +59,8 @@ Result<FramePair> checkUsage(const ConvertCommandOptions& o)
         return names.error();
     std::vector<PlannedOutput> files = {{"-o", o.output}};
     if (!o.verify.empty())
-        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, conversionPictures()))
+        for (const PlannedOutput& picture :
+             plannedIn("--verify", o.verify, picturesOf(kConversionNames, kConversionViews)))
             files.push_back(picture);
     if (Status planned = planOutputs(o, files); !planned)
         return planned.error();
@@ -79,8 +82,14 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
             say(o, line);
     };
     auto done = withProgress(o, 1, "converting " + o.model, [&](Progress progress) {
-        return convertModel(document, {.frames = frames, .bits = o.bits, .keepTangents = o.keepTangents, .threads = o.threads,
-                                       .limits = limitsFor(o.memory), .progress = std::move(progress), .mapDone = mapDone});
+        return convertModel(document,
+                            {.frames = frames,
+                             .bits = o.bits,
+                             .keepTangents = o.keepTangents,
+                             .threads = o.threads,
+                             .limits = limitsFor(o.memory),
+                             .progress = std::move(progress),
+                             .mapDone = mapDone});
     });
     return done ? std::move(done) : Result<ConvertModelReport>(inWords(done.error()));
 }
@@ -94,9 +103,9 @@ Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, 
     report["bytes_before"] = written->bytesBefore;
     report["bytes_after"] = written->bytesAfter;
     const double before = double(written->bytesBefore), after = double(written->bytesAfter);
-    say(o, fmt::format("{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", o.output.string(), written->bytesAfter,
-                              written->bytesBefore, std::abs(before - after), 100 * std::abs(before - after) / std::max(before, 1.0),
-                              after > before ? "more" : "less"));
+    say(o, "{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", o.output.string(), written->bytesAfter,
+        written->bytesBefore, std::abs(before - after), 100 * std::abs(before - after) / std::max(before, 1.0),
+        after > before ? "more" : "less");
     return Done{};
 }
 
@@ -117,9 +126,13 @@ Status run(const ConvertCommandOptions& o)
     const auto done = convert(o, *frames, document);
     if (!done)
         return done.error();
-    Json report = {{"command", "convert"}, {"model", o.model}, {"from", o.from}, {"to", o.to},
-                                     {"tangents_read", o.tangents}, {"output", o.output.string()},
-                                     {"maps", Json::array()}};
+    Json report = {{"command", "convert"},
+                   {"model", o.model},
+                   {"from", o.from},
+                   {"to", o.to},
+                   {"tangents_read", o.tangents},
+                   {"output", o.output.string()},
+                   {"maps", Json::array()}};
     for (const ConvertedMap& map : done->maps)
         report["maps"].push_back(toJson(map));
     if (const std::string line = tangentsLine(*done, o.to); !line.empty())
@@ -135,7 +148,8 @@ Status run(const ConvertCommandOptions& o)
     report["notes"] = done->notes;
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
-        auto verified = verifyConversion({o.model, o.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device, o.memory}, o);
+        auto verified = verifyConversion(
+            {o.model, o.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device, o.memory}, o);
         if (!verified)
             return verified.error();
         report["verify"] = std::move(*verified);
@@ -148,14 +162,23 @@ void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required();
     a.option("--from-frame", o.from, "frame that the maps were made for").in("FRAME");
-    a.option("--to-frame", o.to, "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it").in("FRAME");
+    a.option("--to-frame", o.to,
+             "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it")
+        .in("FRAME");
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
-    addTangentsOption(a, o.tangents, "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
+    addTangentsOption(
+        a, o.tangents,
+        "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-tangents", o.keepTangents, "leave TANGENT where it is");
-    a.option("--bits", o.bits, "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)").from({8, 16}).in("N").withoutDefault();
+    a.option("--bits", o.bits,
+             "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)")
+        .from({8, 16})
+        .in("N")
+        .withoutDefault();
     addMemoryOption(a, o.memory);
-    a.option("--verify", o.verify, "folder: draw both models from five sides, compare normals, write the pictures").in("FOLDER");
+    a.option("--verify", o.verify, "folder: draw both models from five sides, compare normals, write the pictures")
+        .in("FOLDER");
     addDeviceOption(a, o.device, "for --verify: ");
 }
 
@@ -163,11 +186,14 @@ void declare(Arguments& a, ConvertCommandOptions& o)
 
 void addConvertCommand(Arguments& tool)
 {
-    addCommand<ConvertCommandOptions>(tool, {"convert", "make a glTF model's normal maps for another frame, and drop the tangents",
-                      "the converted model, .glb or .gltf",
-                      {"cotan convert model.glb --to-frame smooth -o out.glb",
-                      "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check"}},
-               declare, run);
+    addCommand<ConvertCommandOptions>(
+        tool,
+        {"convert",
+         "make a glTF model's normal maps for another frame, and drop the tangents",
+         "the converted model, .glb or .gltf",
+         {"cotan convert model.glb --to-frame smooth -o out.glb",
+          "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check"}},
+        declare, run);
 }
 
 } // namespace cotan::app

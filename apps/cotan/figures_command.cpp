@@ -5,7 +5,6 @@
 #include "cotan/figures/figures.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -46,23 +45,32 @@ Status run(const FiguresCommandOptions& o)
         return made;
     const auto only = splitAtCommas(o.only);
     const auto figures = withProgress(o, 1, "drawing figures", [&](Progress progress) {
-        return figures::drawFigures(**painter, o.output,
-                                    {.only = only, .width = size->first, .height = size->second, .threads = o.threads,
-                                     .command = commandOf(o),
-                                     .made = [&](std::string_view name, const std::string& title) { say(o, fmt::format("{}: {}", name, title)); },
-                                     .progress = std::move(progress)});
+        return figures::drawFigures(
+            **painter, o.output,
+            {.only = only,
+             .width = size->first,
+             .height = size->second,
+             .threads = o.threads,
+             .command = commandOf(o),
+             .made = [&](std::string_view name, const std::string& title) { say(o, "{}: {}", name, title); },
+             .progress = std::move(progress)});
     });
     if (!figures)
         return inWords(figures.error());
-    say(o, fmt::format("page: {}", (o.output / "index.html").string()));
-    return writeReport(o, {{"command", "figures"}, {"device", (*painter)->device()}, {"size", {size->first, size->second}},
-                           {"figures", *figures}});
+    say(o, "page: {}", (o.output / "index.html").string());
+    return writeReport(o,
+                       {{"command", "figures"},
+                        {"device", (*painter)->device()},
+                        {"size", {size->first, size->second}},
+                        {"figures", *figures}});
 }
 
 void declare(Arguments& a, FiguresCommandOptions& o)
 {
     a.option("--size", o.size, "width and height of a panel in pixels; square panels take the height").in("WxH");
-    a.option("--only", o.only, fmt::format("figures to make, separated by commas: {}", fmt::join(figures::figureNames(), ", "))).in("NAMES");
+    a.option("--only", o.only,
+             fmt::format("figures to make, separated by commas: {}", fmt::join(figures::figureNames(), ", ")))
+        .in("NAMES");
     addDeviceOption(a, o.device);
 }
 
@@ -70,11 +78,13 @@ void declare(Arguments& a, FiguresCommandOptions& o)
 
 void addFiguresCommand(Arguments& tool)
 {
-    addCommand<FiguresCommandOptions>(tool, {"figures", "draw the figures, with their errors in degrees, as one HTML page and PNGs",
-                                             "folder for index.html and the pictures",
-                                             {"cotan figures --only mirrored -o figures",
-                                              "cotan figures --only 2.6.4,decode --size 240x180 -o figures"}},
-                                      declare, run);
+    addCommand<FiguresCommandOptions>(
+        tool,
+        {"figures",
+         "draw the figures, with their errors in degrees, as one HTML page and PNGs",
+         "folder for index.html and the pictures",
+         {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,decode --size 240x180 -o figures"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -4,7 +4,6 @@
 
 #include "cotan/files/extension.hpp"
 #include "cotan/model/load.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -28,7 +27,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)
 {
-    const ProgressLine loading(common, 0, "loading " + model);
+    const ProgressLine loading(common.quiet, 0, "loading " + model);
     LoadLimits limits;
     limits.pixels = Pixels::none;
     auto scene = loadGltf(model, limits);

@@ -4,10 +4,10 @@
 
 #include "cotan/lint/limits.hpp"
 #include "cotan/report/lint_report.hpp"
+#include "cotan/terminal/command_words.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
 #include "normal_map_option.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -23,17 +23,6 @@ struct LintCommandOptions : CommonOptions {
     LintLimits limits;
 };
 
-// A path as a word of a shell's command line.
-std::string quoted(const std::string& path)
-{
-    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./")
-        == std::string::npos;
-    std::string text = "'";
-    for (char c : path)
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return plain && !path.empty() ? path : text + "'";
-}
-
 // What does what is advised; empty where that would do nothing.
 std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
@@ -45,8 +34,9 @@ std::string commandFor(const LintCommandOptions& o, const LintReport& report)
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
     if (report.mapsConverted == 0 && !report.dropsTangents)
         return {};
-    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{} -o {} --verify {}", quoted(o.model), to,
-                       report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"), quoted(stem + "-verify"));
+    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{} -o {} --verify {}", quoted(o.model),
+                       to, report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
+                       quoted(stem + "-verify"));
 }
 
 Status checkUsage(const LintCommandOptions& o)
@@ -85,32 +75,41 @@ Status run(const LintCommandOptions& o)
         return linted.error();
     const LintReport& report = *linted;
     const std::string command = commandFor(o, report);
-    const std::vector<std::string> over = overLimits(report, o.limits), verdict = verdictLines(o.model, report, command);
+    const std::vector<std::string> over = overLimits(report, o.limits),
+                                   verdict = verdictLines(o.model, report, command);
     for (const std::string& line : verdict)
         say(o, line);
     const std::vector<std::string> details = detailLines(report);
     if (!over.empty())
-        say(o, fmt::format("over the limit: {}{}", over.front(), over.size() > 1 && !o.details ? fmt::format(" and {} more", over.size() - 1) : ""));
+        say(o, "over the limit: {}{}", over.front(),
+            over.size() > 1 && !o.details ? fmt::format(" and {} more", over.size() - 1) : "");
     for (std::size_t i = 1; o.details && i < over.size(); ++i)
         say(o, "over the limit: " + over[i]);
     if (o.details)
         for (const std::string& line : details)
             say(o, line);
     else
-        say(o, fmt::format("--details adds {} lines: each primitive and map, in figures", details.size()));
+        say(o, "--details adds {} lines: each primitive and map, in figures", details.size());
 
-    Json j = {{"command", "lint"}, {"model", o.model}, {"warnings", scene->warnings},
-                                {"distance", report.distance}, {"verdict", verdict}, {"recommendation", report.recommendation},
-                                {"run", command},
-                                {"run_would", {{"maps_converted", report.mapsConverted}, {"maps_kept", report.mapsKept},
-                                               {"drops_tangents", report.dropsTangents}}}};
+    Json j = {{"command", "lint"},
+              {"model", o.model},
+              {"warnings", scene->warnings},
+              {"distance", report.distance},
+              {"verdict", verdict},
+              {"recommendation", report.recommendation},
+              {"run", command},
+              {"run_would",
+               {{"maps_converted", report.mapsConverted},
+                {"maps_kept", report.mapsKept},
+                {"drops_tangents", report.dropsTangents}}}};
     j.update(listsOf(report));
     j["over_limit"] = over;
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
         return written;
     if (o.strict && !over.empty())
-        return Error{ErrorKind::limit, over.size() == 1 ? over.front() : fmt::format("{} and {} more", over.front(), over.size() - 1)};
+        return Error{ErrorKind::limit,
+                     over.size() == 1 ? over.front() : fmt::format("{} and {} more", over.front(), over.size() - 1)};
     return Done{};
 }
 
@@ -122,24 +121,32 @@ void declare(Arguments& a, LintCommandOptions& o)
     a.flag("--details", o.details, "also the figures of each primitive and map");
     addNormalMapOption(a, o.normalMap);
     a.option("--distance", o.distance,
-                        "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the picture").in("D");
+             "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the "
+             "picture")
+        .in("D");
     a.flag("--strict", o.strict, "exit code 5 if something is over a limit, or a normal map could not be judged");
-    a.option("--limit", o.limits.degrees,
-                        "degrees: 95 % of the expected error of reading with --frame, and rounding").in("DEGREES").withoutDefault();
+    a.option("--limit", o.limits.degrees, "degrees: 95 % of the expected error of reading with --frame, and rounding")
+        .in("DEGREES")
+        .withoutDefault();
     a.option("--limit-area", o.limits.area,
-                        "% of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv").in("PERCENT").withoutDefault();
-    a.option("--frame", o.limits.frame, "for --limit: cotangent, orthonormal, smooth, exact or stored").from({"cotangent", "orthonormal", "smooth", "exact", "stored"}).in("NAME");
+             "% of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv")
+        .in("PERCENT")
+        .withoutDefault();
+    a.option("--frame", o.limits.frame, "for --limit: cotangent, orthonormal, smooth, exact or stored")
+        .from({"cotangent", "orthonormal", "smooth", "exact", "stored"})
+        .in("NAME");
 }
 
 } // namespace
 
 void addLintCommand(Arguments& tool)
 {
-    addCommand<LintCommandOptions>(tool, {"lint", "what to expect of a model's normal maps without stored tangents, in degrees",
-                      "",
-                      {"cotan lint model.glb",
-                      "cotan lint model.glb --distance 3 --json report.json"}},
-               declare, run);
+    addCommand<LintCommandOptions>(tool,
+                                   {"lint",
+                                    "what to expect of a model's normal maps without stored tangents, in degrees",
+                                    "",
+                                    {"cotan lint model.glb", "cotan lint model.glb --distance 3 --json report.json"}},
+                                   declare, run);
 }
 
 } // namespace cotan::app

@@ -6,13 +6,14 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
 void addMemoryOption(Arguments& command, int& memory)
 {
-    command.option("--memory", memory, "MiB that one picture may take where it has to be held whole").within(1, 1 << 16).in("MIB");
+    command.option("--memory", memory, "MiB that one picture may take where it has to be held whole")
+        .within(1, 1 << 16)
+        .in("MIB");
 }
 
 void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help)
@@ -43,7 +44,8 @@ Error inWords(const Error& error)
         std::string option = "--";
         const std::size_t end = text.find(':');
         for (const char c : text.substr(kField.size(), end - kField.size()))
-            option += std::isupper(static_cast<unsigned char>(c)) ? std::string("-") + char(std::tolower(c)) : std::string(1, c);
+            option += std::isupper(static_cast<unsigned char>(c)) ? std::string("-") + char(std::tolower(c))
+                                                                  : std::string(1, c);
         text = option + text.substr(end);
     }
     const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
@@ -66,7 +68,7 @@ Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
 
 Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels)
 {
-    const ProgressLine loading(common, 0, "loading " + file);
+    const ProgressLine loading(common.quiet, 0, "loading " + file);
     return loadSceneWithin(memory, file, pixels);
 }
 

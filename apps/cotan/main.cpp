@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "cotan/files/sandbox.hpp"
-#include "cotan/model/reader.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
+#include "cotan/files/sandbox.hpp"
+#include "cotan/model/reader.hpp"
 
 namespace {
 

@@ -33,16 +33,18 @@ Result<maps::BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
 {
     using enum maps::BlendMode;
     maps::BlendFileOptions options;
-    for (const auto& [words, option, target] : {std::tuple(o.from, "--from", &options.base),
-                                                {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail},
-                                                {o.to.empty() ? o.from : o.to, "--to", &options.to}}) {
+    for (const auto& [words, option, target] :
+         {std::tuple(o.from, "--from", &options.base),
+          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail},
+          {o.to.empty() ? o.from : o.to, "--to", &options.to}}) {
         const auto convention = parseConvention(words, option);
         if (!convention)
             return convention.error();
         *target = *convention;
     }
-    const auto mode = valueOf<maps::BlendMode>("--mode", o.mode, {{"reoriented", reoriented}, {"whiteout", whiteout}, {"udn", udn},
-                                                                  {"slopes", slopes}, {"linear", linear}});
+    const auto mode = valueOf<maps::BlendMode>(
+        "--mode", o.mode,
+        {{"reoriented", reoriented}, {"whiteout", whiteout}, {"udn", udn}, {"slopes", slopes}, {"linear", linear}});
     if (!mode)
         return mode.error();
     const auto tiles = parseTiles(o.tiles);
@@ -71,12 +73,20 @@ Status run(const MapBlendCommandOptions& o)
         return done.error();
     warnIfLossy(o, o.output);
     if (done->invalid > 0)
-        warn(o, fmt::format("{} texels are no direction in one of the maps; the other counts alone there", done->invalid));
-    say(o, fmt::format("{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
-                       describe(options->to)));
-    return writeReport(o, {{"command", "map blend"}, {"base", o.base}, {"detail", o.detail}, {"output", o.output.string()},
-                           {"mode", o.mode}, {"strength", o.strength}, {"tiles", {options->tilesX, options->tilesY}},
-                           {"to", describe(options->to)}, {"bits", bitsName(done->bits)}, {"invalid", done->invalid}});
+        warn(o, "{} texels are no direction in one of the maps; the other counts alone there", done->invalid);
+    say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
+        describe(options->to));
+    return writeReport(o,
+                       {{"command", "map blend"},
+                        {"base", o.base},
+                        {"detail", o.detail},
+                        {"output", o.output.string()},
+                        {"mode", o.mode},
+                        {"strength", o.strength},
+                        {"tiles", {options->tilesX, options->tilesY}},
+                        {"to", describe(options->to)},
+                        {"bits", bitsName(done->bits)},
+                        {"invalid", done->invalid}});
 }
 
 void declare(Arguments& a, MapBlendCommandOptions& o)
@@ -99,10 +109,14 @@ void declare(Arguments& a, MapBlendCommandOptions& o)
 
 void addMapBlend(Arguments& map)
 {
-    addCommand<MapBlendCommandOptions>(map, {"blend", "a base and a detail map as one", "the blend, of the base's size",
-                     {"cotan map blend rocks.png grain.png -o out.png",
-                      "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"}},
-               declare, run);
+    addCommand<MapBlendCommandOptions>(
+        map,
+        {"blend",
+         "a base and a detail map as one",
+         "the blend, of the base's size",
+         {"cotan map blend rocks.png grain.png -o out.png",
+          "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"}},
+        declare, run);
 }
 
 } // namespace cotan::app

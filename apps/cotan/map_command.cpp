@@ -21,6 +21,15 @@ Result<Convention> parseConvention(const std::string& text, const std::string& o
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
+Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to)
+{
+    const auto first = parseConvention(from, "--from");
+    const auto second = parseConvention(to.empty() ? from : to, "--to");
+    if (!first || !second)
+        return first ? second.error() : first.error();
+    return std::pair(*first, *second);
+}
+
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file)
 {
     if (options.output.empty())
@@ -32,7 +41,8 @@ void addMapCommand(Arguments& tool)
 {
     Arguments map = tool.command("map", "normal-map files: what they are, and from one form to another");
     addExamples(map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
-    for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight, addMapBlend, addMapMips})
+    for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
+                           addMapBlend, addMapMips})
         add(map);
 }
 

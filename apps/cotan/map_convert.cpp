@@ -19,38 +19,51 @@ struct MapConvertCommandOptions : MapOptions {
 
 Status run(const MapConvertCommandOptions& o)
 {
-    const auto from = parseConvention(o.from, "--from");
-    const auto to = parseConvention(o.to, "--to");
-    if (!from)
-        return from.error();
-    if (!to)
-        return to.error();
+    const auto conventions = parseFromTo(o.from, o.to);
+    if (!conventions)
+        return conventions.error();
+    const auto& [from, to] = *conventions;
     if (Status given = needOutput(o, "convert"); !given)
         return given;
-    maps::ConvertFileOptions options{.from = *from, .to = *to, .bits = o.bits, .strength = float(o.strength),
-                                     .normalise = o.normalise, .dither = o.dither, .mesh = {}};
+    maps::ConvertFileOptions options{.from = from,
+                                     .to = to,
+                                     .bits = o.bits,
+                                     .strength = float(o.strength),
+                                     .normalise = o.normalise,
+                                     .dither = o.dither,
+                                     .mesh = {}};
     if (!o.mesh.empty()) {
         const auto frame = parseFrame(o.frame);
         if (!frame)
             return frame.error();
-        options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentSource::stored : TangentSource::generated, o.material};
+        options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentSource::stored : TangentSource::generated,
+                        o.material};
     }
-    const auto done = onFiles(o, o.mesh.empty() ? o.file : "turning texels by the mesh",
-                              [&](const maps::FileOptions& files) { return maps::convertFile(o.file, o.output, options, files); });
+    const auto done =
+        onFiles(o, o.mesh.empty() ? o.file : "turning texels by the mesh",
+                [&](const maps::FileOptions& files) { return maps::convertFile(o.file, o.output, options, files); });
     if (!done)
         return done.error();
     warnIfLossy(o, o.output);
     if (!o.mesh.empty())
-        say(o, fmt::format("{}: the mesh shows {:.1f} % of the map; the rest is padding", o.mesh,
-                           100 * double(done->shown) / (double(done->width) * double(done->height))));
+        say(o, "{}: the mesh shows {:.1f} % of the map; the rest is padding", o.mesh,
+            100 * double(done->shown) / (double(done->width) * double(done->height)));
     if (done->counts.invalid > 0)
-        warn(o, fmt::format("{}: {} texels are no direction; written as flat", o.file, done->counts.invalid));
+        warn(o, "{}: {} texels are no direction; written as flat", o.file, done->counts.invalid);
     if (done->counts.clamped > 0)
-        warn(o, fmt::format("{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(*to)));
-    say(o, fmt::format("{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to)));
-    return writeReport(o, {{"command", "map convert"}, {"file", o.file}, {"output", o.output.string()}, {"from", describe(*from)},
-                           {"to", describe(*to)}, {"width", done->width}, {"height", done->height},
-                           {"bits", bitsName(done->bits)}, {"invalid", done->counts.invalid}, {"clamped", done->counts.clamped}});
+        warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(to));
+    return writeReport(o,
+                       {{"command", "map convert"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"from", describe(from)},
+                        {"to", describe(to)},
+                        {"width", done->width},
+                        {"height", done->height},
+                        {"bits", bitsName(done->bits)},
+                        {"invalid", done->counts.invalid},
+                        {"clamped", done->counts.clamped}});
 }
 
 void declare(Arguments& a, MapConvertCommandOptions& o)
@@ -73,10 +86,14 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
 
 void addMapConvert(Arguments& map)
 {
-    addCommand<MapConvertCommandOptions>(map, {"convert", "the same directions, stored another way", "the new map: .png .exr .tif .tga .jpg .hdr",
-                     {"cotan map convert rocks.png --from directx --to gltf -o out.png",
-                      "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},
-               declare, run);
+    addCommand<MapConvertCommandOptions>(
+        map,
+        {"convert",
+         "the same directions, stored another way",
+         "the new map: .png .exr .tif .tga .jpg .hdr",
+         {"cotan map convert rocks.png --from directx --to gltf -o out.png",
+          "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -16,24 +16,27 @@ Status run(const MapDiffCommandOptions& o)
 {
     if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
-    const auto a = parseConvention(o.from, "--from");
-    if (!a)
-        return a.error();
-    const auto b = parseConvention(o.to.empty() ? o.from : o.to, "--to");
-    if (!b)
-        return b.error();
+    const auto conventions = parseFromTo(o.from, o.to);
+    if (!conventions)
+        return conventions.error();
     const auto compared = onFiles(o, o.a, [&](const maps::FileOptions& files) {
-        return maps::compareFiles(o.a, *a, o.b, *b, o.output, files);
+        return maps::compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
     });
     if (!compared)
         return compared.error();
-    say(o, fmt::format("{} texels: {}", compared->angles.count, toText(compared->angles)));
+    say(o, "{} texels: {}", compared->angles.count, toText(compared->angles));
     if (compared->skipped > 0)
-        say(o, fmt::format("{} texels are no direction in one of the two and were left out", compared->skipped));
+        say(o, "{} texels are no direction in one of the two and were left out", compared->skipped);
     if (!o.output.empty())
-        say(o, fmt::format("{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more", o.output.string()));
-    return writeReport(o, {{"command", "map diff"}, {"a", o.a}, {"b", o.b}, {"convention_a", describe(*a)}, {"convention_b", describe(*b)},
-                           {"skipped", compared->skipped}, {"angles", toJson(compared->angles)}});
+        say(o, "{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more", o.output.string());
+    return writeReport(o,
+                       {{"command", "map diff"},
+                        {"a", o.a},
+                        {"b", o.b},
+                        {"convention_a", describe(conventions->first)},
+                        {"convention_b", describe(conventions->second)},
+                        {"skipped", compared->skipped},
+                        {"angles", toJson(compared->angles)}});
 }
 
 void declare(Arguments& a, MapDiffCommandOptions& o)
@@ -49,9 +52,13 @@ void declare(Arguments& a, MapDiffCommandOptions& o)
 
 void addMapDiff(Arguments& map)
 {
-    addCommand<MapDiffCommandOptions>(map, {"diff", "two maps against each other, in degrees", "heat map",
-                     {"cotan map diff rocks.png other.png", "cotan map diff rocks.png other.png --from gltf --to directx -o heat.png"}},
-               declare, run);
+    addCommand<MapDiffCommandOptions>(map,
+                                      {"diff",
+                                       "two maps against each other, in degrees",
+                                       "heat map",
+                                       {"cotan map diff rocks.png other.png",
+                                        "cotan map diff rocks.png other.png --from gltf --to directx -o heat.png"}},
+                                      declare, run);
 }
 
 } // namespace cotan::app

@@ -48,8 +48,10 @@ Result<std::optional<maps::Metres>> parseMetres(const std::string& text)
     return std::optional(metres);
 }
 
-const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward}, {"central", maps::Kernel::central},
-                                          {"sobel", maps::Kernel::sobel}, {"scharr", maps::Kernel::scharr}};
+const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
+                                          {"central", maps::Kernel::central},
+                                          {"sobel", maps::Kernel::sobel},
+                                          {"scharr", maps::Kernel::scharr}};
 
 Status runFrom(const MapFromHeightCommandOptions& o)
 {
@@ -71,21 +73,33 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     if (!metres)
         return metres.error();
     const auto done = onFiles(o, o.file, [&](const maps::FileOptions& files) {
-        return maps::normalsFromHeightFile(o.file, o.output, {.to = *to, .kernel = *kernel, .wrap = *wrap, .metres = *metres,
-                                                              .range = o.range, .strength = o.strength, .bits = o.bits,
-                                                              .dither = o.dither}, files);
+        return maps::normalsFromHeightFile(o.file, o.output,
+                                           {.to = *to,
+                                            .kernel = *kernel,
+                                            .wrap = *wrap,
+                                            .metres = *metres,
+                                            .range = o.range,
+                                            .strength = o.strength,
+                                            .bits = o.bits,
+                                            .dither = o.dither},
+                                           files);
     });
     if (!done)
         return done.error();
     warnIfLossy(o, o.output);
     if (done->invalid > 0)
-        warn(o, fmt::format("{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid));
+        warn(o, "{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid);
     if (done->heights == PixelType::unorm8)
-        warn(o, fmt::format("{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2));
-    say(o, fmt::format("{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to)));
-    return writeReport(o, {{"command", "map from-height"}, {"file", o.file}, {"output", o.output.string()}, {"to", describe(*to)},
-                           {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}}, {"bits", bitsName(done->bits)},
-                           {"invalid", done->invalid}});
+        warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to));
+    return writeReport(o,
+                       {{"command", "map from-height"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"to", describe(*to)},
+                        {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
+                        {"bits", bitsName(done->bits)},
+                        {"invalid", done->invalid}});
 }
 
 // The options that turn the heights back to the map.
@@ -118,9 +132,12 @@ Status runTo(const MapToHeightCommandOptions& o)
         return metres.error();
     const auto done = onFiles(o, "solving for the height", [&](const maps::FileOptions& files) {
         return maps::heightFromNormalsFile(o.file, o.output,
-                                           {.from = *from, .kernel = *kernel,
+                                           {.from = *from,
+                                            .kernel = *kernel,
                                             .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
-                                            .metres = *metres, .bits = o.bits}, files);
+                                            .metres = *metres,
+                                            .bits = o.bits},
+                                           files);
     });
     if (!done)
         return done.error();
@@ -129,19 +146,28 @@ Status runTo(const MapToHeightCommandOptions& o)
     const double share = h.slope > 0 ? h.residual / h.slope : 0;
     const char* const unit = o.metres.empty() ? "texels" : "metres";
     if (h.invalid > 0)
-        warn(o, fmt::format("{}: {} texels are no direction; taken as flat", o.file, h.invalid));
+        warn(o, "{}: {} texels are no direction; taken as flat", o.file, h.invalid);
     if (!o.free && h.meanTilt > 1)
-        warn(o, fmt::format("the whole map leans by {:.1f} degrees, which no repeating height can; --free follows it", h.meanTilt));
-    say(o, fmt::format("{}: {} x {}, {}; from {:.6g} to {:.6g} {}", o.output.string(), done->width, done->height,
-                       bitsName(done->bits), lowest, highest, unit));
-    say(o, fmt::format("slopes {:.4f} (rms), {:.4f} of which no height explains ({:.1f} %)", h.slope, h.residual, share * 100));
+        warn(o, "the whole map leans by {:.1f} degrees, which no repeating height can; --free follows it", h.meanTilt);
+    say(o, "{}: {} x {}, {}; from {:.6g} to {:.6g} {}", o.output.string(), done->width, done->height,
+        bitsName(done->bits), lowest, highest, unit);
+    say(o, "slopes {:.4f} (rms), {:.4f} of which no height explains ({:.1f} %)", h.slope, h.residual, share * 100);
     if (done->bits.type != PixelType::float32)
         say(o, "back: cotan map from-height " + backAgain(o, *done));
-    return writeReport(o, {{"command", "map to-height"}, {"file", o.file}, {"output", o.output.string()}, {"from", describe(*from)},
-                           {"lowest", lowest}, {"highest", highest}, {"unit", unit},
-                           {"strength", 100 * (h.highest - h.lowest) / done->width}, {"slope_rms", h.slope},
-                           {"residual_rms", h.residual}, {"residual_share", share}, {"mean_tilt_degrees", h.meanTilt},
-                           {"invalid", h.invalid}});
+    return writeReport(o,
+                       {{"command", "map to-height"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"from", describe(*from)},
+                        {"lowest", lowest},
+                        {"highest", highest},
+                        {"unit", unit},
+                        {"strength", 100 * (h.highest - h.lowest) / done->width},
+                        {"slope_rms", h.slope},
+                        {"residual_rms", h.residual},
+                        {"residual_share", share},
+                        {"mean_tilt_degrees", h.meanTilt},
+                        {"invalid", h.invalid}});
 }
 
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
@@ -152,8 +178,10 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
     a.option("--metres", o.metres, "metres that the picture covers; with --range").in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--range", o.range, "metres from black to white (floats: metres per unit); negative: white is low")
-        .in("METRES").withoutDefault();
-    a.option("--strength", o.strength, "without metres: white is this many hundredths of the picture's width above black");
+        .in("METRES")
+        .withoutDefault();
+    a.option("--strength", o.strength,
+             "without metres: white is this many hundredths of the picture's width above black");
     a.option("--kernel", o.kernel, "forward, central, sobel or scharr");
     a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror");
     addBits(a, o, " (as the heights)");
@@ -165,9 +193,11 @@ void declareTo(Arguments& a, MapToHeightCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required();
     a.option("--from", o.convention, "how it is stored: " + conventionWords()).in("WORDS");
-    a.option("--metres", o.metres, "metres that the picture covers: heights come in metres, otherwise in texels").in("W[xH]");
+    a.option("--metres", o.metres, "metres that the picture covers: heights come in metres, otherwise in texels")
+        .in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
-    a.option("--kernel", o.kernel, "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
+    a.option("--kernel", o.kernel,
+             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
     a.flag("--free", o.free, "the map does not repeat: free borders");
     addBits(a, o, " (16 where the file can hold it)");
 }
@@ -176,19 +206,25 @@ void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 
 void addMapFromHeight(Arguments& map)
 {
-    addCommand<MapFromHeightCommandOptions>(map, {"from-height", "a normal map from a height picture", "the normal map",
-                     {"cotan map from-height height.png --metres 2 --range 0.05 -o normal.png",
-                      "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"}},
-               declareFrom, runFrom);
+    addCommand<MapFromHeightCommandOptions>(
+        map,
+        {"from-height",
+         "a normal map from a height picture",
+         "the normal map",
+         {"cotan map from-height height.png --metres 2 --range 0.05 -o normal.png",
+          "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"}},
+        declareFrom, runFrom);
 }
 
 void addMapToHeight(Arguments& map)
 {
-    addCommand<MapToHeightCommandOptions>(map, {"to-height", "the height whose slopes are nearest to a normal map's",
-                     "the heights; floats keep their unit, others go from black to white",
-                     {"cotan map to-height rocks.png -o height.png",
-                      "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"}},
-               declareTo, runTo);
+    addCommand<MapToHeightCommandOptions>(map,
+                                          {"to-height",
+                                           "the height whose slopes are nearest to a normal map's",
+                                           "the heights; floats keep their unit, others go from black to white",
+                                           {"cotan map to-height rocks.png -o height.png",
+                                            "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"}},
+                                          declareTo, runTo);
 }
 
 } // namespace cotan::app

@@ -27,7 +27,8 @@ Status runInfo(const InspectOptions& o)
 {
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
-    const auto found = onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::surveyFile(o.file, files); });
+    const auto found =
+        onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::surveyFile(o.file, files); });
     return found ? tell(o, maps::linesOf(*found, o.file), "map info", maps::toJson(*found)) : found.error();
 }
 
@@ -35,7 +36,8 @@ Status runDetect(const InspectOptions& o)
 {
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
-    const auto found = onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::greenOfFile(o.file, files); });
+    const auto found =
+        onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::greenOfFile(o.file, files); });
     return found ? tell(o, maps::linesOf(*found), "map detect", maps::toJson(*found)) : found.error();
 }
 
@@ -49,16 +51,22 @@ void declare(Arguments& a, InspectOptions& o)
 
 void addMapInfo(Arguments& map)
 {
-    addCommand<InspectOptions>(map, {"info", "what a map is: lengths, tilt, centre, channels, what is wrong", "",
-                     {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
-               declare, runInfo);
+    addCommand<InspectOptions>(map,
+                               {"info",
+                                "what a map is: lengths, tilt, centre, channels, what is wrong",
+                                "",
+                                {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
+                               declare, runInfo);
 }
 
 void addMapDetect(Arguments& map)
 {
-    addCommand<InspectOptions>(map, {"detect", "which way green points, and how sure that is", "",
-                     {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"}},
-               declare, runDetect);
+    addCommand<InspectOptions>(map,
+                               {"detect",
+                                "which way green points, and how sure that is",
+                                "",
+                                {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"}},
+                               declare, runDetect);
 }
 
 } // namespace cotan::app

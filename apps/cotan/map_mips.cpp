@@ -21,32 +21,42 @@ Status run(const MapMipsCommandOptions& o)
     const std::filesystem::path first = maps::firstMipFile(o.output);
     if (Status given = needOutput(o, "mips", first); !given)
         return given;
-    const auto from = parseConvention(o.from, "--from");
-    if (!from)
-        return from.error();
-    const auto to = parseConvention(o.to.empty() ? o.from : o.to, "--to");
-    if (!to)
-        return to.error();
+    const auto conventions = parseFromTo(o.from, o.to);
+    if (!conventions)
+        return conventions.error();
+    const auto& [from, to] = *conventions;
     using enum maps::SpreadModel;
-    const auto model = valueOf<maps::SpreadModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
+    const auto model =
+        valueOf<maps::SpreadModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
     if (!model)
         return model.error();
-    const auto plan = [&](const std::filesystem::path& file) { return file == first ? Status(Done{}) : planOutput("-o", file); };
+    const auto plan = [&](const std::filesystem::path& file) {
+        return file == first ? Status(Done{}) : planOutput("-o", file);
+    };
+    const maps::MipFileOptions options{from, to, *model, o.roughness, o.keepLengths, o.bits, plan};
     const auto chain = onFiles(o, "filtering levels", [&](const maps::FileOptions& files) {
-        return maps::writeMips(o.file, o.output, {.from = *from, .to = *to, .model = *model, .roughness = o.roughness,
-                                                  .keepLengths = o.keepLengths, .bits = o.bits, .mayWrite = plan}, files);
+        return maps::writeMips(o.file, o.output, options, files);
     });
     if (!chain)
         return chain.error();
     Json levels = Json::array();
     for (const maps::MipLevelFigures& level : *chain) {
-        levels.push_back({{"width", level.width}, {"height", level.height},
-                          {"mean_length", level.meanLength}, {"mean_roughness", level.meanRoughness}});
-        say(o, fmt::format("{} x {}: mean length {:.4f}, roughness {:.3f}", level.width, level.height, level.meanLength,
-                           level.meanRoughness));
+        levels.push_back({{"width", level.width},
+                          {"height", level.height},
+                          {"mean_length", level.meanLength},
+                          {"mean_roughness", level.meanRoughness}});
+        say(o, "{} x {}: mean length {:.4f}, roughness {:.3f}", level.width, level.height, level.meanLength,
+            level.meanRoughness);
     }
-    return writeReport(o, {{"command", "map mips"}, {"file", o.file}, {"output", o.output.string()}, {"from", describe(*from)},
-                           {"to", describe(*to)}, {"model", o.model}, {"roughness", o.roughness}, {"levels", levels}});
+    return writeReport(o,
+                       {{"command", "map mips"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"from", describe(from)},
+                        {"to", describe(to)},
+                        {"model", o.model},
+                        {"roughness", o.roughness},
+                        {"levels", levels}});
 }
 
 void declare(Arguments& a, MapMipsCommandOptions& o)
@@ -65,10 +75,13 @@ void declare(Arguments& a, MapMipsCommandOptions& o)
 
 void addMapMips(Arguments& map)
 {
-    addCommand<MapMipsCommandOptions>(map, {"mips", "smaller levels, filtered as vectors, and the roughness they need",
-                     "OUT.dds (all levels, roughness in alpha), or OUT.png and others: OUT_0.png, OUT_roughness_0.png, ...",
-                     {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
-               declare, run);
+    addCommand<MapMipsCommandOptions>(
+        map,
+        {"mips",
+         "smaller levels, filtered as vectors, and the roughness they need",
+         "OUT.dds (all levels, roughness in alpha), or OUT.png and others: OUT_0.png, OUT_roughness_0.png, ...",
+         {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "common.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convention_words.hpp"
 #include "cotan/map_files/map_file.hpp"
 #include "loading.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -23,6 +23,9 @@ void addDither(Arguments& command, bool& dither);
 
 // conventionFromWords with the option in front of its message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
+
+// The two of --from and --to; an empty `to` is as `from`.
+Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to);
 
 // For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
 // if empty.

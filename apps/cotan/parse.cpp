@@ -56,8 +56,8 @@ Result<std::pair<int, int>> parseSize(const std::string& text)
     const std::size_t x = text.find('x');
     int width = 0, height = 0;
     if (x == std::string::npos || !parseWhole(std::string_view(text).substr(0, x), width)
-        || !parseWhole(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1
-        || width > 16384 || height > 16384)
+        || !parseWhole(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
+        || height > 16384)
         return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
     return std::pair(width, height);
 }

@@ -36,7 +36,8 @@ Error notOneOf(const std::string& option, const std::vector<std::string_view>& k
 
 // The value of a word; the error lists all words.
 template<class Value>
-Result<Value> valueOf(const std::string& option, const std::string& word, const Words<Value>& words, decltype(unknownWord) error = unknownWord)
+Result<Value> valueOf(const std::string& option, const std::string& word, const Words<Value>& words,
+                      decltype(unknownWord) error = unknownWord)
 {
     std::vector<std::string_view> known;
     for (const auto& [name, value] : words) {

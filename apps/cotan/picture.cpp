@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "cotan/report/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -51,18 +51,23 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--size", o.size, "width and height in pixels").in("WxH");
     a.option("--camera", o.camera,
              "fit, the number of a camera of the file, or eye and target "
-             "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)").in("CAMERA");
+             "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
+        .in("CAMERA");
     addDeviceOption(a, o.device);
     a.option("--shading", o.shading, "pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
     a.option("--lighting", o.lighting,
              "world, or, on the reference device and for comparison, tangent-vertex or tangent-pixel: light "
              "and view vectors are taken to tangent space")
-        .from({"world", "tangent-vertex", "tangent-pixel"}).in("NAME");
-    addTangentsOption(a, o.tangents, "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
+        .from({"world", "tangent-vertex", "tangent-pixel"})
+        .in("NAME");
+    addTangentsOption(
+        a, o.tangents,
+        "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
     a.option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
     a.option("--exposure", o.exposure, "factor on all light").above0().in("X");
     a.option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
-        .from({"down", "up"}).in("NAME");
+        .from({"down", "up"})
+        .in("NAME");
     a.option("--derivatives", o.derivatives, "fine or coarse").from({"fine", "coarse"}).in("NAME");
     a.flag("--no-shadows", o.noShadows, "no shadows");
     a.flag("--no-normal-maps", o.noNormalMaps, "interpolated normals only");
@@ -115,26 +120,19 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
 Status checkLighting(const PictureOptions& options, Frame frame)
 {
     if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
-        return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
-                                      "mikktspace; found '{}'", name(frame)));
+        return usageError(
+            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                        "mikktspace; found '{}'",
+                        name(frame)));
     return Done{};
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)
 {
-    const Scene& scene = picture.scene;
-    std::size_t triangles = 0;
-    for (const Mesh& mesh : scene.meshes)
-        triangles += mesh.triangleCount();
-    return {{"model", options.model.empty() ? "built-in" : options.model},
-            {"size", {picture.view.width, picture.view.height}},
-            {"meshes", scene.meshes.size()},
-            {"instances", scene.instances.size()},
-            {"materials", scene.materials.size()},
-            {"images", scene.images.size()},
-            {"triangles", triangles},
-            {"triangles_drawn", trianglesDrawn(scene)},
-            {"warnings", scene.warnings}};
+    Json report = {{"model", options.model.empty() ? "built-in" : options.model},
+                   {"size", {picture.view.width, picture.view.height}}};
+    report.update(countsOf(picture.scene));
+    return report;
 }
 
 } // namespace cotan::app

@@ -13,10 +13,10 @@
 namespace cotan::app {
 
 struct PictureOptions {
-    std::string model;            // empty: the built-in scene
+    std::string model; // empty: the built-in scene
     NormalMapOption normalMap;
     std::string size = "1280x720";
-    std::string camera;           // empty: the built-in scene's own, fit for a model
+    std::string camera; // empty: the built-in scene's own, fit for a model
     std::string device = "auto";
     std::string shading = "pbr";
     std::string lighting = "world";

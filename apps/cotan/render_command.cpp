@@ -10,7 +10,6 @@
 #include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -23,8 +22,8 @@ struct RenderCommandOptions : CommonOptions {
 };
 
 const std::map<std::string, Output> kShows = {
-    {"shaded", Output::shaded}, {"normal", Output::normal}, {"tangent", Output::tangent},
-    {"bitangent", Output::bitangent}, {"uv", Output::uv}, {"depth", Output::depth},
+    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
+    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
     {"error", Output::normal},
 };
 
@@ -32,16 +31,6 @@ bool keepsFloats(const std::filesystem::path& file)
 {
     const std::string extension = file.extension().string();
     return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-}
-
-// A float picture as colours that a PNG can show.
-Image asColor(const std::string& show, const Image& image)
-{
-    if (show == "uv")
-        return uvAsColor(image);
-    if (show == "depth")
-        return depthAsColor(image);
-    return directionsAsColor(image);
 }
 
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
@@ -52,13 +41,13 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
         if (!error)
             return error.error();
         report["error_against_exact"] = toJson(error->degrees);
-        say(o, fmt::format("{} against exact: {}", o.frame, toText(error->degrees)));
+        say(o, "{} against exact: {}", o.frame, toText(error->degrees));
         return std::move(error->difference);
     }
     view.linearOutput = o.show == "shaded" && keepsFloats(o.output);
     auto image = painter.draw(view);
     if (image && o.show != "shaded" && !keepsFloats(o.output))
-        return asColor(o.show, *image);
+        return asColor(view.output, *image);
     return image;
 }
 
@@ -103,12 +92,11 @@ Status run(const RenderCommandOptions& o)
     report["shading"] = o.picture.shading;
     report["device"] = (*painter)->device();
     report["output"] = o.output.string();
-    report["seconds"] = {{"load", picture->loadSeconds}, {"open_device", openSeconds},
-                         {"upload", (*painter)->uploadSeconds()}, {"draw", drawSeconds},
-                         {"write", writeSeconds}, {"total", total.lap()}};
-    say(o, fmt::format("{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(),
-                              picture->view.width, picture->view.height,
-                              trianglesDrawn(picture->scene), o.frame, (*painter)->device()));
+    report["seconds"] = {
+        {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*painter)->uploadSeconds()},
+        {"draw", drawSeconds},          {"write", writeSeconds},      {"total", total.lap()}};
+    say(o, "{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(), picture->view.width, picture->view.height,
+        trianglesDrawn(picture->scene), o.frame, (*painter)->device());
     return writeReport(o, report);
 }
 
@@ -116,19 +104,22 @@ void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
-    a.option("--view", o.show,
-                        "shaded, normal, tangent, bitangent, uv, depth, or error: degrees from the frame exact").from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"}).in("NAME");
+    a.option("--view", o.show, "shaded, normal, tangent, bitangent, uv, depth, or error: degrees from the frame exact")
+        .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
+        .in("NAME");
 }
 
 } // namespace
 
 void addRenderCommand(Arguments& tool)
 {
-    addCommand<RenderCommandOptions>(tool, {"render", "draw a model, or the built-in scene, to a picture",
-                      "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats",
-                      {"cotan render model.glb -o picture.png --frame cotangent --view normal",
-                      "cotan render --size 640x360 -o scene.png"}},
-               declare, run);
+    addCommand<RenderCommandOptions>(tool,
+                                     {"render",
+                                      "draw a model, or the built-in scene, to a picture",
+                                      "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats",
+                                      {"cotan render model.glb -o picture.png --frame cotangent --view normal",
+                                       "cotan render --size 640x360 -o scene.png"}},
+                                     declare, run);
 }
 
 } // namespace cotan::app

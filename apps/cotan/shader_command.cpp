@@ -35,20 +35,20 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
         return c;
     if (!o.channels.empty()) {
         const Result<Channels> channels = oneOf<Channels>("--channels", o.channels,
-                                                            {{"3", Channels::xyz},
-                                                             {"2", Channels::orthographic},
-                                                             {"stereographic", Channels::stereographic},
-                                                             {"slope", Channels::slope}});
+                                                          {{"3", Channels::xyz},
+                                                           {"2", Channels::orthographic},
+                                                           {"stereographic", Channels::stereographic},
+                                                           {"slope", Channels::slope}});
         if (!channels)
             return channels.error();
         c->channels = *channels;
     }
     if (!o.expansion.empty()) {
         const Result<Expansion> expansion = oneOf<Expansion>("--unsigned", o.expansion,
-                                                               {{"exact", Expansion::exact},
-                                                                {"exact16", Expansion::exact16},
-                                                                {"biased", Expansion::biased},
-                                                                {"signed", Expansion::signedValues}});
+                                                             {{"exact", Expansion::exact},
+                                                              {"exact16", Expansion::exact16},
+                                                              {"biased", Expansion::biased},
+                                                              {"signed", Expansion::signedValues}});
         if (!expansion)
             return expansion.error();
         c->expansion = *expansion;
@@ -82,21 +82,20 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
         return convention.error();
     choice.convention = *convention;
     if (!o.form.empty()) {
-        const Result<Form> form = oneOf<Form>(
-            "--form", o.form, {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
+        const Result<Form> form =
+            oneOf<Form>("--form", o.form, {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
         if (!form)
             return form.error();
         choice.form = *form;
     }
-    const Result<bool> caller =
-        oneOf<bool>("--differences", o.differences, {{"shader", false}, {"caller", true}});
+    const Result<bool> caller = oneOf<bool>("--differences", o.differences, {{"shader", false}, {"caller", true}});
     if (!caller)
         return caller.error();
     choice.callerDifferences = *caller;
     choice.uvSets = o.uvSets;
     for (const std::string& set : o.sets) {
-        const Result<int> which = oneOf<int>(
-            "--set", set, {{"frame", 0}, {"gradient", 1}, {"blend", 2}, {"light", 4}, {"all", 7}});
+        const Result<int> which =
+            oneOf<int>("--set", set, {{"frame", 0}, {"gradient", 1}, {"blend", 2}, {"light", 4}, {"all", 7}});
         if (!which)
             return which.error();
         choice.gradients |= (*which & 1) != 0;
@@ -140,32 +139,38 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl or cpp").required().in("NAME");
     a.option("--frame", o.frame, "one of " + frameNames()).in("NAME");
     a.option("--form", o.form,
-                     "fused: frame and texel in one step (cotangent, gradient, orthonormal); total: the frame as "
-                     "three covectors, for any input; readable: another word for total. Default: fused where there is one").in("NAME");
+             "fused: frame and texel in one step (cotangent, gradient, orthonormal); total: the frame as "
+             "three covectors, for any input; readable: another word for total. Default: fused where there is one")
+        .in("NAME");
     a.option("--preset", o.preset,
-                     "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
-                     "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
-                     "v, exact").in("NAME");
+             "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
+             "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
+             "v, exact")
+        .in("NAME");
     a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope").in("N");
     a.option("--green", o.green, "along-v or against-v: where green points").in("WAY");
     a.option("--unsigned", o.expansion,
-                     "exact, (255c - 128)/127; exact16, the same for maps of 16 bits; biased, 2c - 1; signed, as sampled").in("NAME");
+             "exact, (255c - 128)/127; exact16, the same for maps of 16 bits; biased, 2c - 1; signed, as sampled")
+        .in("NAME");
     a.option("--uv-sets", o.uvSets, "normal maps over uv sets of their own, 1 to 4, added as gradients").in("N");
     a.option("--set", o.sets, "more functions: gradient, blend, light, all").separatedByCommas().in("A,B");
     a.option("--differences", o.differences,
-                     "shader: also a function that takes the screen derivatives itself; caller: not (for compute, "
-                     "ray tracing, vertex stages)").in("WHO");
+             "shader: also a function that takes the screen derivatives itself; caller: not (for compute, "
+             "ray tracing, vertex stages)")
+        .in("WHO");
 }
 
 } // namespace
 
 void addShaderCommand(Arguments& tool)
 {
-    addCommand<ShaderCommandOptions>(tool, {"shader", "the text of a frame for your shader, self-contained",
-                      "file for the text instead of standard output",
-                      {"cotan shader --lang wgsl -o normal.wgsl",
-                      "cotan shader --lang glsl --preset unity --set blend,light"}},
-               declare, run);
+    addCommand<ShaderCommandOptions>(
+        tool,
+        {"shader",
+         "the text of a frame for your shader, self-contained",
+         "file for the text instead of standard output",
+         {"cotan shader --lang wgsl -o normal.wgsl", "cotan shader --lang glsl --preset unity --set blend,light"}},
+        declare, run);
 }
 
 } // namespace cotan::app

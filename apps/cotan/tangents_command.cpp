@@ -7,7 +7,6 @@
 #include "cotan/report/tangent_difference.hpp"
 #include "cotan/report/words.hpp"
 #include "gltf_open.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -21,13 +20,19 @@ struct TangentsCommandOptions : CommonOptions {
 
 TangentsOptions optionsOf(const TangentsCommandOptions& o, const Progress& progress)
 {
-    return {.frame = o.frame == "vertex" ? Frame::vertex : Frame::mikktspace, .replace = o.replace, .threads = o.threads,
+    return {.frame = o.frame == "vertex" ? Frame::vertex : Frame::mikktspace,
+            .replace = o.replace,
+            .threads = o.threads,
             .progress = progress};
 }
 
 Json describe(const PrimitiveTangents& p)
 {
-    return {{"mesh", p.mesh}, {"primitive", p.primitive}, {"name", p.name}, {"triangles", p.triangles}, {"stored", p.stored}};
+    return {{"mesh", p.mesh},
+            {"primitive", p.primitive},
+            {"name", p.name},
+            {"triangles", p.triangles},
+            {"stored", p.stored}};
 }
 
 std::string referenceName(const TangentsCommandOptions& o)
@@ -45,15 +50,14 @@ void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& 
         row.update(toJson(*p.difference));
         said = toText(*p.difference, referenceName(o));
     }
-    say(o, fmt::format("{} ({} triangles): {}", p.name, p.triangles, said));
+    say(o, "{} ({} triangles): {}", p.name, p.triangles, said);
 }
 
 // Compares what is stored.
 Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Json& report)
 {
-    const auto compared = withProgress(o, 1, "comparing", [&](const Progress& progress) {
-        return compareTangents(document, optionsOf(o, progress));
-    });
+    const auto compared = withProgress(
+        o, 1, "comparing", [&](const Progress& progress) { return compareTangents(document, optionsOf(o, progress)); });
     if (!compared)
         return compared.error();
     for (const PrimitiveTangents& p : compared->primitives) {
@@ -75,9 +79,8 @@ Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Js
 // Generates and writes.
 Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& report)
 {
-    const auto given = withProgress(o, 1, "generating", [&](const Progress& progress) {
-        return giveTangents(document, optionsOf(o, progress));
-    });
+    const auto given = withProgress(
+        o, 1, "generating", [&](const Progress& progress) { return giveTangents(document, optionsOf(o, progress)); });
     if (!given)
         return given.error();
     for (const PrimitiveTangents& p : given->primitives) {
@@ -85,7 +88,7 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& repo
         row["generated"] = p.generated;
         if (!p.cannot.empty()) {
             row["cannot"] = p.cannot;
-            warn(o, fmt::format("{}: {}, no tangents", p.name, p.cannot));
+            warn(o, "{}: {}, no tangents", p.name, p.cannot);
         }
         report["primitives"].push_back(std::move(row));
     }
@@ -100,10 +103,9 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& repo
     report["bytes_after"] = written->bytesAfter;
     report["files"] = fileNames(*written);
     report["notes"] = written->notes;
-    say(o, fmt::format("{} got {} tangents, {} kept theirs, {} can have none; {} vertices added",
-                              counted(given->generated, "primitive"), o.frame, given->kept, given->skipped, given->verticesAdded));
-    say(o, fmt::format("{}: {} bytes, before {}", o.output.string(),
-                              written->bytesAfter, written->bytesBefore));
+    say(o, "{} got {} tangents, {} kept theirs, {} can have none; {} vertices added",
+        counted(given->generated, "primitive"), o.frame, given->kept, given->skipped, given->verticesAdded);
+    say(o, "{}: {} bytes, before {}", o.output.string(), written->bytesAfter, written->bytesBefore);
     return Done{};
 }
 
@@ -122,7 +124,7 @@ Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& docum
             row.update(toJson(smooth));
             line = toText(smooth);
         }
-        say(o, fmt::format("{}: {}", p.name, line));
+        say(o, "{}: {}", p.name, line);
         report["primitives"].push_back(std::move(row));
     }
     return Done{};
@@ -131,8 +133,7 @@ Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& docum
 Status checkUsage(const TangentsCommandOptions& o)
 {
     if (o.frame != "mikktspace" && o.frame != "vertex" && o.frame != "smooth")
-        return usageError(fmt::format(
-            "--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
+        return usageError(fmt::format("--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
     if (o.frame == "smooth" && !o.output.empty())
         return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
                           "out -o for its statistics");
@@ -152,15 +153,15 @@ Status run(const TangentsCommandOptions& o)
     if (!opened)
         return opened.error();
     Json report = {{"command", "tangents"},
-                                     {"model", o.model},
-                                     {"frame", o.frame},
-                                     {"warnings", opened->warnings},
-                                     {"primitives", Json::array()}};
+                   {"model", o.model},
+                   {"frame", o.frame},
+                   {"warnings", opened->warnings},
+                   {"primitives", Json::array()}};
     const double load = watch.lap();
     GltfDocument& document = opened->document;
-    Status done = o.frame == "smooth"       ? describeSmooth(o, document, report)
-                  : o.output.empty() ? compare(o, document, report)
-                                            : write(o, document, report);
+    Status done = o.frame == "smooth" ? describeSmooth(o, document, report)
+        : o.output.empty()            ? compare(o, document, report)
+                                      : write(o, document, report);
     if (!done)
         return done;
     report["seconds"] = {{"load", load}, {"work", watch.lap()}};
@@ -170,22 +171,22 @@ Status run(const TangentsCommandOptions& o)
 void declare(Arguments& a, TangentsCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required();
-    a.option("--frame", o.frame,
-                        "mikktspace, vertex (classic averages), or smooth (statistics only)");
-    a.flag("--replace", o.replace,
-                      "generate also where the file has TANGENT; else only where it is missing");
+    a.option("--frame", o.frame, "mikktspace, vertex (classic averages), or smooth (statistics only)");
+    a.flag("--replace", o.replace, "generate also where the file has TANGENT; else only where it is missing");
 }
 
 } // namespace
 
 void addTangentsCommand(Arguments& tool)
 {
-    addCommand<TangentsCommandOptions>(tool, {"tangents", "write tangents into a glTF model; without -o say of those in it whether they equal "
-                    "MikkTSpace, w is inverted, half of them are turned, or how far off they are",
-                      "the model with tangents, .glb or .gltf",
-                      {"cotan tangents model.glb",
-                      "cotan tangents model.glb --replace -o with-tangents.glb"}},
-               declare, run);
+    addCommand<TangentsCommandOptions>(
+        tool,
+        {"tangents",
+         "write tangents into a glTF model; without -o say of those in it whether they equal "
+         "MikkTSpace, w is inverted, half of them are turned, or how far off they are",
+         "the model with tangents, .glb or .gltf",
+         {"cotan tangents model.glb", "cotan tangents model.glb --replace -o with-tangents.glb"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -2,55 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
 #include "cotan/verify/conversion.hpp"
+#include "cotan/verify/views.hpp"
 #include "loading.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-// The names of the pictures of one view.
-struct ViewNames {
-    const char *expected, *drawn, *difference;
-};
-
-constexpr ViewNames kOfConversion = {"before", "after", "difference"}, kOfBake = {"high", "low", "error"};
-
-std::string pictureName(const char* what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
-
-std::vector<std::string> picturesOf(const ViewNames& names, std::size_t views)
-{
-    std::vector<std::string> all;
-    for (std::size_t view = 0; view < views; ++view)
-        for (const char* what : {names.expected, names.drawn, names.difference})
-            all.push_back(pictureName(what, view));
-    return all;
-}
-
-// Writes the pictures of all views.
-Status writeViews(const ComparedViews& compared, const ViewNames& names, const std::filesystem::path& folder)
-{
-    for (std::size_t k = 0; k < compared.views.size(); ++k) {
-        const ComparedView& v = compared.views[k];
-        for (const auto& [what, image] : {std::pair(names.expected, &v.expected), {names.drawn, &v.drawn}, {names.difference, &v.difference}})
-            if (Status written = writeImage(folder / pictureName(what, k), *image); !written)
-                return written;
-    }
-    return Done{};
-}
-
-Json viewsOf(const ComparedViews& compared)
-{
-    Json views = Json::array();
-    for (const ComparedView& v : compared.views)
-        views.push_back(toJson(v.degrees));
-    return views;
-}
-
-Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model, const CommonOptions& common,
-                             std::vector<Camera> cameras = {})
+Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model,
+                             const CommonOptions& common, std::vector<Camera> cameras = {})
 {
     return withProgress(common, kConversionViews, fmt::format("drawing {}", file.string()), [&](Progress progress) {
         painter.progress = std::move(progress);
@@ -82,9 +43,6 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
 
 } // namespace
 
-std::vector<std::string> conversionPictures() { return picturesOf(kOfConversion, kConversionViews); }
-std::vector<std::string> bakePictures() { return picturesOf(kOfBake, kBakeViews); }
-
 Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
 {
     if (Status made = makeFolder(o.folder); !made)
@@ -93,16 +51,18 @@ Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& commo
     const auto compared = drawAndCompare(o, common, device);
     if (!compared)
         return compared.error();
-    if (Status written = writeViews(*compared, kOfConversion, o.folder); !written)
+    if (Status written = writeViews(*compared, kConversionNames, o.folder); !written)
         return written.error();
     const AngleStatistics& s = compared->all;
-    say(common, fmt::format("drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
-                            name(o.to), name(o.from), toText(s)));
+    say(common, "drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
+        name(o.to), name(o.from), toText(s));
     if (s.count == 0)
-        warn(common, fmt::format("--verify compared nothing: {}",
-                                 compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap));
-    say(common, fmt::format("pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
-                            "yellow 5, red 15, white 45 degrees)", o.folder.string()));
+        warn(common, "--verify compared nothing: {}",
+             compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap);
+    say(common,
+        "pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
+        "yellow 5, red 15, white 45 degrees)",
+        o.folder.string());
     return Json{{"device", device}, {"degrees", toJson(s)}, {"views", viewsOf(*compared)}};
 }
 
@@ -121,11 +81,11 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
     if (!compared)
         return compared.error();
     for (std::size_t k = 0; k < compared->views.size(); ++k)
-        say(common, fmt::format("view {}: {}", k, toText(compared->views[k].degrees)));
-    if (Status written = writeViews(*compared, kOfBake, folder); !written)
+        say(common, "view {}: {}", k, toText(compared->views[k].degrees));
+    if (Status written = writeViews(*compared, kBakeNames, folder); !written)
         return written.error();
-    say(common, fmt::format("drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
-                            toText(compared->all)));
+    say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
+        toText(compared->all));
     return Json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", viewsOf(*compared)}};
 }
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
@@ -15,15 +14,11 @@ namespace cotan::app {
 struct VerifyOptions {
     std::filesystem::path before, after; // models
     Frame from = Frame::mikktspace, to = Frame::cotangent;
-    bool fromGenerated = false;          // tangents of the original: generated instead of stored
-    std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
+    bool fromGenerated = false;   // tangents of the original: generated instead of stored
+    std::filesystem::path folder; // for before-N.png, after-N.png, difference-N.png
     std::string device;
     int memory = 0;
 };
-
-// What the two calls below will write into a folder.
-std::vector<std::string> conversionPictures();
-std::vector<std::string> bakePictures();
 
 // Draw, write the pictures, say the degrees, and return them for a report.
 // Errors: of loading, drawing and writing.

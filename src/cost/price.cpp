@@ -54,8 +54,8 @@ Status measure(const PriceOptions& o, CostReport& report)
 {
     Status usable = Done{};
     const std::vector<std::string> families = !o.families.empty() ? o.families
-        : o.devices.empty()                                      ? usualFamilies()
-                                                                 : std::vector<std::string>();
+        : o.devices.empty()                                       ? usualFamilies()
+                                                                  : std::vector<std::string>();
     CountedSteps steps(o.progress, families.size() + 2); // devices, families, times
     if (o.families.empty() || !o.devices.empty()) {
         auto code = machineCodeOfDevices(report.rows, o.devices);
@@ -101,9 +101,10 @@ Result<CostReport> price(const PriceOptions& options)
     if (!measured && measured.error().kind == ErrorKind::stopped)
         return measured.error();
     if (std::ranges::none_of(report.code, [](const DeviceCode& d) { return d.silence.empty(); }))
-        report.codeSilence = measured ? "no driver that was asked reports machine code; operations and SPIR-V were counted. "
-                                        "Mesa's Radeon driver reports without a card (Debian: mesa-vulkan-drivers)"
-                                      : measured.error().message + "; operations and SPIR-V were counted";
+        report.codeSilence = measured
+            ? "no driver that was asked reports machine code; operations and SPIR-V were counted. "
+              "Mesa's Radeon driver reports without a card (Debian: mesa-vulkan-drivers)"
+            : measured.error().message + "; operations and SPIR-V were counted";
     return report;
 }
 

@@ -72,10 +72,12 @@ void addMirrors(Studio& studio, Figure& figure)
         std::copy_n(kUpright.begin(), 3, plain.floats() + 4 * i);
     studio.show(biased);
     Image biasedPicture = studio.shaded(view, Frame::cotangent);
-    figure.measures.push_back({"flat texel 128, biased", compareNormals(studio.normals(view, Frame::cotangent), plain).degrees});
+    figure.measures.push_back(
+        {"flat texel 128, biased", compareNormals(studio.normals(view, Frame::cotangent), plain).degrees});
     figure.measures.push_back({"flat texel 128, exact", compareNormals(exactNormals, plain).degrees});
     Image difference = differenceOf(biasedPicture, exactPicture, 8);
-    figure.panels.push_back({"a-biased", "2c - 1", "Each half leans its own way: the horizon breaks.", std::move(biasedPicture)});
+    figure.panels.push_back(
+        {"a-biased", "2c - 1", "Each half leans its own way: the horizon breaks.", std::move(biasedPicture)});
     figure.panels.push_back({"b-exact", "(255c - 128)/127", "128 is zero: flat is flat.", std::move(exactPicture)});
     figure.panels.push_back({"c-difference", "difference of the two, 8 times", "", std::move(difference)});
 }
@@ -89,14 +91,17 @@ void addDomes(Studio& studio, Figure& figure)
         bool greenAlongV;
         const char *file, *label, *caption;
     } rows[] = {{COTAN_CHANNELS_XYZ, false, "d-three-channels", "three channels, green up", "As the map is meant."},
-                {COTAN_CHANNELS_ORTHOGRAPHIC, false, "e-two-channels", "two channels", "Blue is not read; z comes from x and y."},
-                {COTAN_CHANNELS_XYZ, true, "f-green-wrong", "green the wrong way", "The same map read as green down: lit from the lower left, or dents."}};
+                {COTAN_CHANNELS_ORTHOGRAPHIC, false, "e-two-channels", "two channels",
+                 "Blue is not read; z comes from x and y."},
+                {COTAN_CHANNELS_XYZ, true, "f-green-wrong", "green the wrong way",
+                 "The same map read as green down: lit from the lower left, or dents."}};
     Image truth;
     for (const auto& row : rows) {
         const Scene scene = domeScene(map, row.channels, row.greenAlongV);
         studio.show(scene);
         if (truth.data.empty())
-            truth = truthNormals(studio.vectors(view, Frame::exact, Output::uv), domeHeight(), patchChart(1, 0, false, 1), 5);
+            truth = truthNormals(studio.vectors(view, Frame::exact, Output::uv), domeHeight(),
+                                 patchChart(1, 0, false, 1), 5);
         figure.panels.push_back({row.file, row.label, row.caption, studio.shaded(view, Frame::cotangent)});
         figure.measures.push_back({row.label, compareNormals(studio.normals(view, Frame::cotangent), truth).degrees});
     }
@@ -109,10 +114,13 @@ Figure makeDecodeFigure(Studio& studio)
     Figure figure;
     figure.title = "Decoding: zero, two channels, green";
     figure.text = {
-        "A flat mirror whose normal map is the flat texel (128, 128, 255) everywhere. Read as 2c - 1 no byte is zero: the mirror "
-        "leans by 0.32 degrees, the reflection by twice that. The right half's texture coordinates are mirrored, so that it leans "
+        "A flat mirror whose normal map is the flat texel (128, 128, 255) everywhere. Read as 2c - 1 no byte is zero: "
+        "the mirror "
+        "leans by 0.32 degrees, the reflection by twice that. The right half's texture coordinates are mirrored, so "
+        "that it leans "
         "the other way, and the horizon in the mirror breaks in the middle. Read as (255c - 128)/127, 128 is zero.",
-        "Below, an 8-bit map of domes: all three channels; x and y alone, z from their lengths; and with green read the wrong "
+        "Below, an 8-bit map of domes: all three channels; x and y alone, z from their lengths; and with green read "
+        "the wrong "
         "way, which turns the light round on every slope across."};
     figure.measured = "Angles to the analytic normals; domes where they tilt by at least 5 degrees, 8-bit map.";
     addMirrors(studio, figure);

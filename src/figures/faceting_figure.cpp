@@ -18,13 +18,15 @@ Figure makeFacetingFigure(Studio& studio)
 {
     Figure figure;
     figure.title = "Faceting on coarse meshes";
-    figure.text = {
-        fmt::format("A sphere of {} by {} segments. The gradients of u and v are constant in a triangle, so the frame "
-                    "cotangent jumps at edges: facets. Cotangents averaged at the vertices (smooth) do not, and keep stretch "
-                    "and skew. MikkTSpace is smooth too, but orthonormal: wrong wherever the latitudes shrink the texture. The "
-                    "facets halve with each doubling of the mesh; the orthonormal error stays.", kSegments, kSegments / 2)};
-    figure.measured = "Angles to the analytic normals of the round sphere at the same texture coordinates, within 75 degrees "
-                      "of the equator.";
+    figure.text = {fmt::format(
+        "A sphere of {} by {} segments. The gradients of u and v are constant in a triangle, so the frame "
+        "cotangent jumps at edges: facets. Cotangents averaged at the vertices (smooth) do not, and keep stretch "
+        "and skew. MikkTSpace is smooth too, but orthonormal: wrong wherever the latitudes shrink the texture. The "
+        "facets halve with each doubling of the mesh; the orthonormal error stays.",
+        kSegments, kSegments / 2)};
+    figure.measured =
+        "Angles to the analytic normals of the round sphere at the same texture coordinates, within 75 degrees "
+        "of the equator.";
     const View view = squareView(studio, frontal(2.05f));
     const Height waves = [](double u, double v) { return relief(Relief::waves, u, v); };
     const Image map = heightMap16(waves, 512);
@@ -33,7 +35,8 @@ Figure makeFacetingFigure(Studio& studio)
         for (int segments : {kSegments, 4 * kSegments}) {
             Mesh mesh = makeSphere(1, segments);
             scaleTexcoords(mesh, kRepeatU, kRepeatV);
-            const Scene scene = withVertexFrames(sceneOf(std::move(mesh), map, dielectric({0.03f, 0.09f, 0.2f}, 0.32f)), frame);
+            const Scene scene =
+                withVertexFrames(sceneOf(std::move(mesh), map, dielectric({0.03f, 0.09f, 0.2f}, 0.32f)), frame);
             studio.show(scene);
             const Image uv = studio.vectors(view, frame, Output::uv);
             const Image truth = truthNormals(uv, waves, sphereChart({kRepeatU, kRepeatV}));

@@ -13,10 +13,10 @@ namespace cotan::figures {
 class Studio;
 
 struct Panel {
-    std::string file;    // the PNG's name without the figure's, as in "a-square"
+    std::string file; // the PNG's name without the figure's, as in "a-square"
     std::string label;
     std::string caption;
-    Image image;         // unorm8
+    Image image; // unorm8
 };
 
 // A set of angles, in degrees. What they are between is said once in the figure.
@@ -33,13 +33,13 @@ struct Number {
 
 struct Figure {
     std::string title;
-    std::vector<std::string> text;                            // what it shows, in paragraphs
+    std::vector<std::string> text; // what it shows, in paragraphs
     std::vector<Panel> panels;
     std::vector<std::pair<std::size_t, std::size_t>> sliders; // panels: before, after
     std::string measured;                                     // what the angles are between
     std::vector<Measure> measures;
     std::vector<Number> numbers;
-    std::pair<std::size_t, std::size_t> overview{0, 1};       // the two panels that stand for it
+    std::pair<std::size_t, std::size_t> overview{0, 1}; // the two panels that stand for it
 };
 
 Figure makeTeapotFigure(Studio& studio);

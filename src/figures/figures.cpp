@@ -24,11 +24,15 @@ struct FigureInfo {
 };
 
 constexpr FigureInfo kFigures[] = {
-    {"2.6.3", makeTeapotFigure},        {"2.6.4", makePatchFigure},
-    {"2.6.5", makePlaneFigure},         {"tutorial", makeTutorialFigure},
+    {"2.6.3", makeTeapotFigure},
+    {"2.6.4", makePatchFigure},
+    {"2.6.5", makePlaneFigure},
+    {"tutorial", makeTutorialFigure},
     {"normal-matrices", makeNormalMatrixFigure},
-    {"mirrored", makeMirroredFigure},   {"targets", makeTargetsFigure},
-    {"decode", makeDecodeFigure},       {"faceting", makeFacetingFigure},
+    {"mirrored", makeMirroredFigure},
+    {"targets", makeTargetsFigure},
+    {"decode", makeDecodeFigure},
+    {"faceting", makeFacetingFigure},
 };
 
 // The figures of these names, in the order of the table; all if there are none.
@@ -37,7 +41,8 @@ Result<std::vector<FigureInfo>> chosen(const std::vector<std::string>& only)
     std::vector<FigureInfo> figures;
     for (const std::string& word : only)
         if (std::ranges::find(kFigures, word, &FigureInfo::name) == std::end(kFigures))
-            return usageError(fmt::format("options.only: expected names from {}; found '{}'", fmt::join(figureNames(), ", "), word));
+            return usageError(
+                fmt::format("options.only: expected names from {}; found '{}'", fmt::join(figureNames(), ", "), word));
     for (const FigureInfo& info : kFigures)
         if (only.empty() || std::ranges::find(only, info.name) != only.end())
             figures.push_back(info);
@@ -54,8 +59,8 @@ PageTable tableOf(const Figure& figure)
 {
     PageTable table{figure.measured, {"degrees", "mean", "95 %", "largest"}, {}};
     for (const Measure& m : figure.measures)
-        table.rows.push_back({m.name, fmt::format("{:.2f}", m.degrees.mean), fmt::format("{:.2f}", m.degrees.percentile95),
-                              fmt::format("{:.1f}", m.degrees.maximum)});
+        table.rows.push_back({m.name, fmt::format("{:.2f}", m.degrees.mean),
+                              fmt::format("{:.2f}", m.degrees.percentile95), fmt::format("{:.1f}", m.degrees.maximum)});
     return table;
 }
 
@@ -75,7 +80,8 @@ Json reportOf(std::string_view name, const Figure& figure)
 }
 
 // Writes a figure's pictures and describes it for the page.
-Result<PageFigure> written(const std::filesystem::path& folder, const FiguresOptions& o, std::string_view name, const Figure& figure)
+Result<PageFigure> written(const std::filesystem::path& folder, const FiguresOptions& o, std::string_view name,
+                           const Figure& figure)
 {
     PageFigure page;
     page.name = name;
@@ -89,8 +95,8 @@ Result<PageFigure> written(const std::filesystem::path& folder, const FiguresOpt
         const std::string file = fmt::format("{}-{}.png", name, panel.file);
         if (Status done = writeImage(folder / file, panel.image); !done)
             return done.error();
-        page.panels.push_back({file, panel.label, panel.caption, readBytes(folder / file),
-                               panel.image.width, panel.image.height});
+        page.panels.push_back(
+            {file, panel.label, panel.caption, readBytes(folder / file), panel.image.width, panel.image.height});
     }
     return page;
 }
@@ -99,9 +105,11 @@ Page emptyPage(const std::string& device)
 {
     Page page;
     page.title = "Normal mapping without precomputed tangents: the figures";
-    page.text = {"Figures 2.6.3 to 2.6.5 of C. Schueler's chapter of 2006 and others that its follow-up of 2013 and common "
-                 "tutorials ask for, drawn anew and measured: every picture has beside it, in degrees, how far its normals are from "
-                 "what is right. Drag a slider to compare."};
+    page.text = {
+        "Figures 2.6.3 to 2.6.5 of C. Schueler's chapter of 2006 and others that its follow-up of 2013 and common "
+        "tutorials ask for, drawn anew and measured: every picture has beside it, in degrees, how far its normals are "
+        "from "
+        "what is right. Drag a slider to compare."};
     page.footer = fmt::format("Drawn on {}.", device);
     return page;
 }

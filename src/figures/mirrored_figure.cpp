@@ -73,7 +73,8 @@ Figure makeMirroredFigure(Studio& studio)
     std::vector<Panel> heats;
     for (const auto& row : rows) {
         studio.show(row.scene);
-        figure.panels.push_back({row.file, row.label, fmt::format("Frame {}.", name(row.frame)), studio.shaded(view, row.frame)});
+        figure.panels.push_back(
+            {row.file, row.label, fmt::format("Frame {}.", name(row.frame)), studio.shaded(view, row.frame)});
         Compared c = compareNormals(studio.normals(view, row.frame), truth);
         figure.measures.push_back({row.label, c.degrees});
         heats.push_back({std::string(row.file) + "-error", std::string(row.label) + ": error",

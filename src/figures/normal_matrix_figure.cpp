@@ -42,8 +42,8 @@ AngleStatistics vertexAngles(const glm::dmat3& m, NormalTransform way)
     std::vector<float> degrees;
     for (const glm::vec3& normal : makeSphere(1, 256).normals) {
         const Covector3d n{glm::dvec3(normal)};
-        degrees.push_back(float(glm::degrees(angle(transformNormal(way, m, n),
-                                                   transformNormal(NormalTransform::inverseTranspose, m, n)))));
+        degrees.push_back(float(
+            glm::degrees(angle(transformNormal(way, m, n), transformNormal(NormalTransform::inverseTranspose, m, n)))));
     }
     return statisticsOf(std::move(degrees));
 }
@@ -56,12 +56,15 @@ Figure makeNormalMatrixFigure(Studio& studio)
 {
     Figure figure;
     figure.title = "Non-uniform scale and three normal matrices";
-    figure.text = {
-        "A normal-mapped sphere turned by 40 degrees and then scaled 1 : 3 : 1, so that M is no rotation after a scale along "
-        "the axes, as under a scaled parent. The positions are right in all three; only the normals at the vertices differ. "
-        "A normal is a covector and goes by the inverse transpose. The two short cuts shade the sphere as another shape; the "
-        "bumps sit on that wrong shape."};
-    figure.measured = "Angles to the inverse transpose. 'vertex normals' are without the map; for a plain scale 1 : 1 : 4 the rotation alone "
+    figure.text = {"A normal-mapped sphere turned by 40 degrees and then scaled 1 : 3 : 1, so that M is no rotation "
+                   "after a scale along "
+                   "the axes, as under a scaled parent. The positions are right in all three; only the normals at the "
+                   "vertices differ. "
+                   "A normal is a covector and goes by the inverse transpose. The two short cuts shade the sphere as "
+                   "another shape; the "
+                   "bumps sit on that wrong shape."};
+    figure.measured = "Angles to the inverse transpose. 'vertex normals' are without the map; for a plain scale 1 : 1 "
+                      ": 4 the rotation alone "
                       "is off by at most atan(3/4) = 36.87 degrees.";
     const Image map = heightMap16([](double u, double v) { return relief(Relief::domes, u, v); }, 512);
     const View view = squareView(studio, frontal(3.1f));
@@ -80,9 +83,10 @@ Figure makeNormalMatrixFigure(Studio& studio)
             continue;
         Compared c = compareNormals(studio.normals(view, Frame::cotangent), truth);
         figure.measures.push_back({fmt::format("{}, as drawn", way.label), c.degrees});
-        figure.measures.push_back({fmt::format("{}, vertex normals, turned and then scaled", way.label), vertexAngles(m, way.way)});
-        figure.measures.push_back({fmt::format("{}, vertex normals, scaled 1 : 1 : 4", way.label),
-                                   vertexAngles(scaled(1, 1, 4), way.way)});
+        figure.measures.push_back(
+            {fmt::format("{}, vertex normals, turned and then scaled", way.label), vertexAngles(m, way.way)});
+        figure.measures.push_back(
+            {fmt::format("{}, vertex normals, scaled 1 : 1 : 4", way.label), vertexAngles(scaled(1, 1, 4), way.way)});
         heats.push_back({std::string(way.file) + "-error", std::string(way.label) + ": error",
                          "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.", std::move(c.heat)});
     }

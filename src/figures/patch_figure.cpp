@@ -31,8 +31,8 @@ Scene patchScene(const PatchLayout& layout, const Image& map)
 void measureLayout(Studio& studio, const PatchLayout& layout, const View& view, Figure& figure)
 {
     const Image uv = studio.vectors(view, Frame::exact, Output::uv);
-    const Image truth = truthNormals(uv, domeHeight(),
-        patchChart(layout.stretch, layout.shear, layout.mirrored, kRepeat), kLeastTilt);
+    const Image truth =
+        truthNormals(uv, domeHeight(), patchChart(layout.stretch, layout.shear, layout.mirrored, kRepeat), kLeastTilt);
     for (Frame frame : {Frame::orthonormal, Frame::unit, Frame::cotangent})
         figure.measures.push_back({fmt::format("{}, {}", layout.name, name(frame)),
                                    compareNormals(studio.normals(view, frame), truth).degrees});
@@ -62,14 +62,17 @@ Figure makePatchFigure(Studio& studio)
     figure.panels.push_back({"a-square", "(A) square patch", "", studio.shaded(view, Frame::orthonormal)});
     const Scene sheared = patchScene(kSheared, map);
     studio.show(sheared);
-    figure.panels.push_back({"b-orthonormal", "(B) orthonormal frame", "Frame orthonormal.", studio.shaded(view, Frame::orthonormal)});
-    figure.panels.push_back({"c-general", "(C) general frame", "Frame cotangent.", studio.shaded(view, Frame::cotangent)});
+    figure.panels.push_back(
+        {"b-orthonormal", "(B) orthonormal frame", "Frame orthonormal.", studio.shaded(view, Frame::orthonormal)});
+    figure.panels.push_back(
+        {"c-general", "(C) general frame", "Frame cotangent.", studio.shaded(view, Frame::cotangent)});
     figure.panels.push_back({"d-unit", "(D) unit-length frame", "Frame unit.", studio.shaded(view, Frame::unit)});
     figure.sliders = {{1, 2}, {3, 2}};
     figure.overview = {1, 2};
 
-    for (const PatchLayout& layout : {kSquare, PatchLayout{"stretched 2:1", 2, 0, false}, PatchLayout{"stretched 4:1", 4, 0, false},
-                                 PatchLayout{"sheared 45 degrees", 1, 1, false}, kSheared, PatchLayout{"mirrored", 1, 0, true}}) {
+    for (const PatchLayout& layout :
+         {kSquare, PatchLayout{"stretched 2:1", 2, 0, false}, PatchLayout{"stretched 4:1", 4, 0, false},
+          PatchLayout{"sheared 45 degrees", 1, 1, false}, kSheared, PatchLayout{"mirrored", 1, 0, true}}) {
         const Scene scene = patchScene(layout, map);
         studio.show(scene);
         measureLayout(studio, layout, view, figure);

@@ -30,8 +30,7 @@ void turnTexture(Texture& texture, float degrees)
 
 Scene planeScene(Mesh mesh, const glm::mat4& toWorld)
 {
-    Scene scene = sceneOf(std::move(mesh), makeReliefMap(Relief::domes, 512),
-                          dielectric({0.045f, 0.09f, 0.17f}, 0.4f));
+    Scene scene = sceneOf(std::move(mesh), makeReliefMap(Relief::domes, 512), dielectric({0.045f, 0.09f, 0.17f}, 0.4f));
     turnTexture(scene.materials[0].normalMap, kTurn);
     scene.materials[0].normalMap.sampler.mip = MipFilter::linear; // the plane runs to the horizon
     scene.instances[0].toWorld = toWorld;
@@ -105,8 +104,8 @@ std::vector<float> addTriple(Studio& studio, const View& view, const std::string
                              studio.shaded(view, Frame::paperTranspose)});
     figure.panels.push_back({file + "-orthogonal", what + ", (B) paper-orthogonal",
                              "Edges in place of their perpendiculars.", studio.shaded(view, Frame::paperOrthogonal)});
-    std::vector<float> degrees = anglesBetween(studio.normals(view, Frame::paperTranspose),
-                                               studio.normals(view, Frame::paperOrthogonal));
+    std::vector<float> degrees =
+        anglesBetween(studio.normals(view, Frame::paperTranspose), studio.normals(view, Frame::paperOrthogonal));
     figure.panels.push_back({file + "-angle", what + ", angle between (A) and (B)",
                              "Black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees.",
                              heatMap(degrees, view.width, view.height)});
@@ -122,14 +121,17 @@ Figure makePlaneFigure(Studio& studio)
     figure.text = {
         "The last optimisation of the chapter takes the matrix of the edges to be orthogonal and leaves out the "
         "inverse transpose. On a plane in perspective the two agree in part of the foreground and part towards the "
-        "horizon: highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because there "
+        "horizon: highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because "
+        "there "
         "the filtered map is flat.)",
-        "The chapter puts it down to perspective. The second plane is drawn without any: an orthographic camera, the plane "
+        "The chapter puts it down to perspective. The second plane is drawn without any: an orthographic camera, the "
+        "plane "
         "tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the short cut is "
         "foreshortening; it is exact only where the surface faces the camera."};
-    figure.measured = "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is turned by "
-                      "30 degrees. Rows by tilt: the formulas alone, a texel tilted by 35 degrees, over all azimuths and turns "
-                      "of the texture.";
+    figure.measured =
+        "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is turned by "
+        "30 degrees. Rows by tilt: the formulas alone, a texel tilted by 35 degrees, over all azimuths and turns "
+        "of the texture.";
 
     const Scene floor = planeScene(makePlane(80, 40, 80), glm::mat4(1));
     studio.show(floor);
@@ -142,8 +144,8 @@ Figure makePlaneFigure(Studio& studio)
 
     Mesh patch = makePatch(1, 0, false, 1);
     scaleTexcoords(patch, 4, 4);
-    const glm::mat4 tilted = glm::scale(
-        glm::rotate(glm::mat4(1), glm::radians(-kTilt), glm::vec3(1, 0, 0)), glm::vec3(4));
+    const glm::mat4 tilted =
+        glm::scale(glm::rotate(glm::mat4(1), glm::radians(-kTilt), glm::vec3(1, 0, 0)), glm::vec3(4));
     const Scene plane = planeScene(std::move(patch), tilted);
     studio.show(plane);
     const View orthographic = planeView(studio, frontal(1.3f));

@@ -38,9 +38,7 @@ std::vector<FrameGroup> frameGroups(const AccuracySelection& selection)
     FrameGroup most, vertex, gradient;
     for (const FrameInfo& f : frames())
         if (selection.wants(f.frame))
-            (f.frame == Frame::vertex         ? vertex
-                 : f.frame == Frame::gradient ? gradient
-                                              : most).push_back(f.frame);
+            (f.frame == Frame::vertex ? vertex : f.frame == Frame::gradient ? gradient : most).push_back(f.frame);
     std::vector<FrameGroup> groups;
     for (FrameGroup* group : {&most, &vertex, &gradient})
         if (!group->empty())
@@ -81,7 +79,8 @@ Scene sceneFor(const PaintedScene& painted, const FrameGroup& group)
 
 } // namespace
 
-Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection, const Progress& progress)
+Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection,
+                                                 const Progress& progress)
 {
     const std::string arithmetic = painter.device() == "reference" ? "reference" : "vulkan";
     std::vector<Measurement> rows;
@@ -96,9 +95,9 @@ Result<std::vector<Measurement>> measureRendered(Painter& painter, const Accurac
                     return loaded.error();
                 for (Frame frame : group) {
                     const char* truth = frame == Frame::gradient ? "E" : "S";
-                    const auto row =
-                        drawn(painter, painted, frame, {"rendered", subject.surface.name, fmt::format("{}", segments),
-                                                          std::string(name(frame)), truth, arithmetic});
+                    const auto row = drawn(painter, painted, frame,
+                                           {"rendered", subject.surface.name, fmt::format("{}", segments),
+                                            std::string(name(frame)), truth, arithmetic});
                     if (!row)
                         return row.error();
                     rows.push_back(*row);

@@ -117,7 +117,8 @@ Image differenceOf(const Image& a, const Image& b, int factor)
 {
     Image out = makeImage(a.width, a.height, PixelType::unorm8, "difference");
     for (std::size_t i = 0; i < out.data.size(); ++i)
-        out.bytes8()[i] = i % 4 == 3 ? 255 : std::uint8_t(std::min(std::abs(a.bytes8()[i] - b.bytes8()[i]) * factor, 255));
+        out.bytes8()[i] =
+            i % 4 == 3 ? 255 : std::uint8_t(std::min(std::abs(a.bytes8()[i] - b.bytes8()[i]) * factor, 255));
     return out;
 }
 
@@ -175,8 +176,8 @@ Image contactSheet(const std::vector<const Image*>& pictures, int columns, int c
     constexpr int kGap = 6;
     const int count = int(pictures.size());
     const int rows = (count + columns - 1) / columns;
-    Image sheet = makeImage(columns * (cellWidth + kGap) + kGap, rows * (cellHeight + kGap) + kGap,
-                            PixelType::unorm8, "overview");
+    Image sheet = makeImage(columns * (cellWidth + kGap) + kGap, rows * (cellHeight + kGap) + kGap, PixelType::unorm8,
+                            "overview");
     std::fill_n(sheet.bytes8(), sheet.data.size(), std::uint8_t(40));
     for (std::size_t i = 0; i < sheet.pixelCount(); ++i)
         sheet.bytes8()[4 * i + 3] = 255;

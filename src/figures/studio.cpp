@@ -22,10 +22,7 @@ Image Studio::kept(Result<Image> result, const View& view)
     return makeImage(view.width, view.height, bytes ? PixelType::unorm8 : PixelType::float32);
 }
 
-Image Studio::draw(const View& view)
-{
-    return kept(error_ ? Result<Image>(*error_) : painter_.draw(view), view);
-}
+Image Studio::draw(const View& view) { return kept(error_ ? Result<Image>(*error_) : painter_.draw(view), view); }
 
 Image Studio::drawReference(const View& view)
 {

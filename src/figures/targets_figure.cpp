@@ -32,10 +32,11 @@ Figure makeTargetsFigure(Studio& studio)
         for (bool up : {false, true}) {
             view.rowsUpward = up;
             const std::string rows = up ? "up" : "down";
-            figure.panels.push_back({fmt::format("{}-y-{}", name(frame), rows), fmt::format("{}, y {}", name(frame), rows), "",
-                                     studio.shaded(view, frame)});
-            figure.measures.push_back({fmt::format("{}, y {}", name(frame), rows),
-                                       compareNormals(studio.normals(view, frame), studio.normals(view, Frame::exact)).degrees});
+            figure.panels.push_back({fmt::format("{}-y-{}", name(frame), rows),
+                                     fmt::format("{}, y {}", name(frame), rows), "", studio.shaded(view, frame)});
+            figure.measures.push_back(
+                {fmt::format("{}, y {}", name(frame), rows),
+                 compareNormals(studio.normals(view, frame), studio.normals(view, Frame::exact)).degrees});
         }
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         addError(figure, i, figure.panels[i].label);

@@ -90,11 +90,14 @@ Figure makeTeapotFigure(Studio& studio)
     figure.text = {
         "The same teapot, map and light. (A) takes orthonormal frames from tangents stored at the vertices, (B) "
         "makes the frame in the pixel. On the belly the texture is nearly square and the two look alike. At the "
-        "nozzle, in the inset, it is squashed and sheared: in (A) the light falls on the spots from a wrong side; in (B) "
+        "nozzle, in the inset, it is squashed and sheared: in (A) the light falls on the spots from a wrong side; in "
+        "(B) "
         "every spot is lit from where the light is.",
         fmt::format("Both are drawn with {} segments a patch. What is right is the normal on the same teapot with "
-                    "{} segments a patch and the gradients of each triangle (frame exact).", kSegments, kTruthSegments)};
-    figure.measured = "Angles to the normals of the fine teapot, away from its outline. The largest are where one part hides another.";
+                    "{} segments a patch and the gradients of each triangle (frame exact).",
+                    kSegments, kTruthSegments)};
+    figure.measured = "Angles to the normals of the fine teapot, away from its outline. The largest are where one part "
+                      "hides another.";
 
     const Pair views = viewsOf(studio);
     const Image map = heightMap16(spotsAndStripes, 512);
@@ -106,8 +109,9 @@ Figure makeTeapotFigure(Studio& studio)
     const Scene coarse = withVertexFrames(teapotScene(kSegments, map), Frame::vertex);
     studio.show(coarse);
     std::vector<Panel> heats;
-    for (const auto& [frame, file, label] : {std::tuple(Frame::vertex, "a-vertex", "(A) orthonormal frames at the vertices"),
-                                             std::tuple(Frame::cotangent, "b-cotangent", "(B) frames in the pixel")}) {
+    for (const auto& [frame, file, label] :
+         {std::tuple(Frame::vertex, "a-vertex", "(A) orthonormal frames at the vertices"),
+          std::tuple(Frame::cotangent, "b-cotangent", "(B) frames in the pixel")}) {
         figure.panels.push_back({file, label, fmt::format("Frame {}.", name(frame)), withInset(studio, views, frame)});
         Compared whole = compareInterior(studio.normals(views.whole, frame), truthWhole);
         const Compared nozzle = compareInterior(studio.normals(views.nozzle, frame), truthNozzle);

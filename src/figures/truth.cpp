@@ -33,9 +33,8 @@ Chart patchChart(double stretch, double shear, bool mirrored, double repeat)
 {
     const double sign = mirrored ? -1 : 1;
     // u = (x - shear y) / stretch with y downwards, so that the world's y counts the other way.
-    const SurfaceGradients g{{0, 0, 1},
-                             glm::dvec3(1, shear, 0) * (sign * repeat / stretch),
-                             glm::dvec3(0, -1, 0) * repeat};
+    const SurfaceGradients g{
+        {0, 0, 1}, glm::dvec3(1, shear, 0) * (sign * repeat / stretch), glm::dvec3(0, -1, 0) * repeat};
     return [g](glm::dvec2) { return g; };
 }
 
@@ -50,10 +49,9 @@ Chart sphereChart(glm::dvec2 repeat)
         SurfaceGradients g;
         g.normal = {ring * std::sin(longitude), std::cos(colatitude), ring * std::cos(longitude)};
         // On the unit sphere; a common factor does not matter.
-        g.u = glm::dvec3(std::cos(longitude), 0, -std::sin(longitude))
-            * (repeat.x / (2 * std::numbers::pi * ring));
-        g.v = glm::dvec3(std::cos(colatitude) * std::sin(longitude), -ring,
-                         std::cos(colatitude) * std::cos(longitude)) * (repeat.y / std::numbers::pi);
+        g.u = glm::dvec3(std::cos(longitude), 0, -std::sin(longitude)) * (repeat.x / (2 * std::numbers::pi * ring));
+        g.v = glm::dvec3(std::cos(colatitude) * std::sin(longitude), -ring, std::cos(colatitude) * std::cos(longitude))
+            * (repeat.y / std::numbers::pi);
         return g;
     };
 }
@@ -104,19 +102,13 @@ void addError(Figure& figure, std::size_t panel, std::string_view measure, std::
     for (const Measure& m : figure.measures)
         if (m.name == measure) {
             std::string& caption = figure.panels[panel].caption;
-            caption += fmt::format("{}{} by {:.2f} degrees on average, {:.1f} at 95 %.", caption.empty() ? "" : " ", what,
-                                   m.degrees.mean, m.degrees.percentile95);
+            caption += fmt::format("{}{} by {:.2f} degrees on average, {:.1f} at 95 %.", caption.empty() ? "" : " ",
+                                   what, m.degrees.mean, m.degrees.percentile95);
         }
 }
 
-Compared compareNormals(const Image& a, const Image& b)
-{
-    return compared(anglesBetween(a, b), a.width, a.height);
-}
+Compared compareNormals(const Image& a, const Image& b) { return compared(anglesBetween(a, b), a.width, a.height); }
 
-Compared compareInterior(const Image& a, const Image& b)
-{
-    return compared(interiorAngles(a, b), a.width, a.height);
-}
+Compared compareInterior(const Image& a, const Image& b) { return compared(interiorAngles(a, b), a.width, a.height); }
 
 } // namespace cotan::figures

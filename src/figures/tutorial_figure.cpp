@@ -33,7 +33,8 @@ Scene tutorialScene()
     scaleTexcoords(ball, 2, 1);
     addShape(scene, std::move(ball), dielectric({0.10f, 0.12f, 0.06f}, 0.4f), {-0.75f, 0.6f, 0.2f}, true);
     addShape(scene, makeCube(0.8f, 1), dielectric({0.05f, 0.09f, 0.18f}, 0.4f), {0.85f, 0.4f, -0.5f}, false);
-    addShape(scene, makeTorus(0.32f, 0.12f, 48, 1, 1), dielectric({0.20f, 0.14f, 0.03f}, 0.35f), {0.55f, 0.12f, 0.95f}, false);
+    addShape(scene, makeTorus(0.32f, 0.12f, 48, 1, 1), dielectric({0.20f, 0.14f, 0.03f}, 0.35f), {0.55f, 0.12f, 0.95f},
+             false);
     return scene;
 }
 
@@ -59,7 +60,8 @@ View tutorialView(const Studio& studio)
 
 std::string levelsText(const Levels& levels)
 {
-    return fmt::format("Against world space: {:.3f} levels of 255 on average, {} at most.", levels.mean, levels.maximum);
+    return fmt::format("Against world space: {:.3f} levels of 255 on average, {} at most.", levels.mean,
+                       levels.maximum);
 }
 
 } // namespace
@@ -68,15 +70,21 @@ Figure makeTutorialFigure(Studio& studio)
 {
     Figure figure;
     figure.title = "The tutorial scene: map, shadows, and where to light";
-    figure.text = {
-        "A floor of one normal map, and what it adds: first the interpolated normals, then the map, then shadows. The sun "
-        "comes from the left, a lamp stands at the lower right.",
-        "Tutorials take light and view vectors to tangent space by t, b and n at each vertex and light the map's normal "
-        "there; the frame in the pixel takes the normal to the world instead. On the floor, flat and square, both are the "
-        "same to rounding. On the coarse ball the interpolated vectors are off. Carried in each pixel by the inverse of an "
-        "orthonormal frame they agree with world space everywhere; with the frame cotangent they do not on the ball, whose "
-        "texture is not square: such a frame leads out of tangent space, and angles inside it are not those of the world.",
-        "The pictures in tangent space come from the reference renderer, and are compared with its picture in world space."};
+    figure.text = {"A floor of one normal map, and what it adds: first the interpolated normals, then the map, then "
+                   "shadows. The sun "
+                   "comes from the left, a lamp stands at the lower right.",
+                   "Tutorials take light and view vectors to tangent space by t, b and n at each vertex and light the "
+                   "map's normal "
+                   "there; the frame in the pixel takes the normal to the world instead. On the floor, flat and "
+                   "square, both are the "
+                   "same to rounding. On the coarse ball the interpolated vectors are off. Carried in each pixel by "
+                   "the inverse of an "
+                   "orthonormal frame they agree with world space everywhere; with the frame cotangent they do not on "
+                   "the ball, whose "
+                   "texture is not square: such a frame leads out of tangent space, and angles inside it are not those "
+                   "of the world.",
+                   "The pictures in tangent space come from the reference renderer, and are compared with its picture "
+                   "in world space."};
     const Scene scene = withVertexFrames(tutorialScene(), Frame::vertex);
     studio.show(scene);
     View view = tutorialView(studio);
@@ -86,7 +94,8 @@ Figure makeTutorialFigure(Studio& studio)
     figure.panels.push_back({"a-no-map", "no map, no shadows", "", studio.shaded(bare, Frame::cotangent)});
     bare.normalMaps = true;
     figure.panels.push_back({"b-map", "with the map", "Frame cotangent.", studio.shaded(bare, Frame::cotangent)});
-    figure.panels.push_back({"c-shadows", "with map and shadows", "Frame cotangent.", studio.shaded(view, Frame::cotangent)});
+    figure.panels.push_back(
+        {"c-shadows", "with map and shadows", "Frame cotangent.", studio.shaded(view, Frame::cotangent)});
     figure.sliders = {{0, 1}, {1, 2}};
     figure.overview = {0, 2};
 
@@ -94,9 +103,10 @@ Figure makeTutorialFigure(Studio& studio)
         Lighting lighting;
         Frame frame;
         const char *file, *label;
-    } carried[] = {{Lighting::tangentVertex, Frame::vertex, "d-tangent-vertex", "tangent space, vectors from the vertices"},
-                   {Lighting::tangentPixel, Frame::vertex, "e-tangent-pixel", "tangent space, vectors by the pixel's inverse"},
-                   {Lighting::tangentPixel, Frame::cotangent, "f-tangent-pixel-cotangent", "the same with the frame cotangent"}};
+    } carried[] = {
+        {Lighting::tangentVertex, Frame::vertex, "d-tangent-vertex", "tangent space, vectors from the vertices"},
+        {Lighting::tangentPixel, Frame::vertex, "e-tangent-pixel", "tangent space, vectors by the pixel's inverse"},
+        {Lighting::tangentPixel, Frame::cotangent, "f-tangent-pixel-cotangent", "the same with the frame cotangent"}};
     std::vector<Panel> differences;
     for (const auto& row : carried) {
         view.frame = int(row.frame);

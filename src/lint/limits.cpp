@@ -37,7 +37,9 @@ std::string nameOf(const PrimitiveLint& p, std::size_t index)
 {
     const std::string mesh = p.mesh.empty() ? fmt::format("primitive {}", index) : p.mesh;
     const std::string name = p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
-    return p.placings == 1 ? name : fmt::format("{}, stretched by its nodes in {} ways, number {}", name, p.placings, p.placing + 1);
+    return p.placings == 1
+        ? name
+        : fmt::format("{}, stretched by its nodes in {} ways, number {}", name, p.placings, p.placing + 1);
 }
 
 } // namespace cotan

@@ -28,12 +28,20 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
         return bits.error();
     if (Status fits = checkSigned(o.to, *bits, out); !fits)
         return fits.error();
-    const BlendSettings settings{.base = o.base, .detail = o.detail, .to = o.to, .mode = o.mode, .strength = o.strength,
-                                 .tilesX = o.tilesX, .tilesY = o.tilesY, .mask = o.mask.empty() ? nullptr : &*mask,
-                                 .type = bits->type, .dither = o.dither, .pictureHeight = in.height};
+    const BlendSettings settings{.base = o.base,
+                                 .detail = o.detail,
+                                 .to = o.to,
+                                 .mode = o.mode,
+                                 .strength = o.strength,
+                                 .tilesX = o.tilesX,
+                                 .tilesY = o.tilesY,
+                                 .mask = o.mask.empty() ? nullptr : &*mask,
+                                 .type = bits->type,
+                                 .dither = o.dither,
+                                 .pictureHeight = in.height};
     std::atomic<std::size_t> invalid = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half}, files.threads,
-                                         files.progress, [&](Image& strip, int firstRow) {
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half},
+                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
                                              unswizzle(strip, *swizzle);
                                              BlendSettings here = settings;
                                              here.firstRow = firstRow;

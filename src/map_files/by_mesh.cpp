@@ -7,9 +7,9 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/bake/low_surface.hpp"
-#include "cotan/surface/uv_raster.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/model/load.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan::maps {
 
@@ -60,8 +60,11 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
         return surface.error();
     const UvRaster raster({surface->texcoords, surface->indices}, map.width, map.height);
     const bool fromObject = s.from.kind == MapKind::objectSpace;
-    Baked values{map.width, map.height, std::vector<glm::vec3>(map.pixelCount(), glm::vec3(0)),
-                 std::vector<std::uint8_t>(map.pixelCount(), 0), {}};
+    Baked values{map.width,
+                 map.height,
+                 std::vector<glm::vec3>(map.pixelCount(), glm::vec3(0)),
+                 std::vector<std::uint8_t>(map.pixelCount(), 0),
+                 {}};
     std::atomic<std::size_t> invalid = 0, found = 0;
     CountedSteps rows(progress, std::size_t(map.height));
     forRowBands(map.height, [&](int first, int last) {

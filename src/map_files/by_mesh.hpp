@@ -11,7 +11,7 @@ namespace cotan::maps {
 // gets the value of the nearest chart. Lengths become 1; strength, normalise and firstRow are not looked at. shown:
 // texels that the mesh shows.
 // Errors: as loadScene and makeLowSurface; ErrorKind::stopped.
-Result<Image> throughMesh(const Image& map, const RecodeSettings& settings, const MeshOfMap& mesh, const Progress& progress,
-                          RecodeCounts& counts, std::size_t& shown);
+Result<Image> throughMesh(const Image& map, const RecodeSettings& settings, const MeshOfMap& mesh,
+                          const Progress& progress, RecodeCounts& counts, std::size_t& shown);
 
 } // namespace cotan::maps

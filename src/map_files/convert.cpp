@@ -18,7 +18,8 @@ Status checkOptions(const ConvertFileOptions& o)
         return usageError(turns ? "options.mesh: between tangent and object space the mesh is needed; found none"
                                 : "options.mesh: is for maps between tangent and object space; found both in one");
     if (turns && o.strength != 1)
-        return usageError("options.strength: expected 1 between tangent and object space; convert within tangent space for it");
+        return usageError(
+            "options.strength: expected 1 between tangent and object space; convert within tangent space for it");
     if (o.strength == 0)
         return usageError("options.strength: expected a factor other than 0; found 0");
     return Done{};
@@ -35,7 +36,8 @@ Status byMesh(const std::filesystem::path& file, const std::filesystem::path& ou
     if (!turned)
         return turned.error();
     if (done.shown == 0)
-        return inputError(fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
+        return inputError(
+            fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
     return writeMap(out, *turned, done.bits);
 }
 
@@ -45,8 +47,8 @@ Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, 
 {
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0, clamped = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half}, files.threads,
-                                         files.progress, [&](Image& strip, int firstRow) {
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half},
+                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
                                              unswizzle(strip, swizzle);
                                              RecodeSettings here = settings;
                                              here.firstRow = firstRow;
@@ -62,8 +64,8 @@ Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, 
 
 } // namespace
 
-Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out, const ConvertFileOptions& o,
-                                  const FileOptions& files)
+Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
+                                  const ConvertFileOptions& o, const FileOptions& files)
 {
     if (Status fits = checkOptions(o); !fits)
         return fits.error();
@@ -79,11 +81,15 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
         return bits.error();
     if (Status fits = checkSigned(o.to, *bits, out); !fits)
         return fits.error();
-    const RecodeSettings settings{.from = o.from, .to = o.to, .type = bits->type, .strength = o.strength,
-                                  .normalise = o.normalise, .dither = o.dither};
+    const RecodeSettings settings{.from = o.from,
+                                  .to = o.to,
+                                  .type = bits->type,
+                                  .strength = o.strength,
+                                  .normalise = o.normalise,
+                                  .dither = o.dither};
     ConvertedFile done{in.width, in.height, *bits, {}, 0};
-    const Status converted = o.mesh ? byMesh(map, out, *o.mesh, settings, files, done)
-                                    : byRows(in, out, *swizzle, settings, files, done);
+    const Status converted =
+        o.mesh ? byMesh(map, out, *o.mesh, settings, files, done) : byRows(in, out, *swizzle, settings, files, done);
     return converted ? Result<ConvertedFile>(done) : converted.error();
 }
 

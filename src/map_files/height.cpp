@@ -75,18 +75,25 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
     if (!lastRow)
         return lastRow.error();
     const auto [slopeX, slopeY] = slopesOf(o, in.width, in.height);
-    const FromHeightSettings settings{.kernel = o.kernel, .wrap = o.wrap, .scaleX = slopeX, .scaleY = slopeY, .to = o.to,
-                                      .type = bits->type, .dither = o.dither, .bordered = true};
+    const FromHeightSettings settings{.kernel = o.kernel,
+                                      .wrap = o.wrap,
+                                      .scaleX = slopeX,
+                                      .scaleY = slopeY,
+                                      .to = o.to,
+                                      .type = bits->type,
+                                      .dither = o.dither,
+                                      .bordered = true};
     std::atomic<std::size_t> invalid = 0;
-    const Status streamed = streamToFile(in, {true, o.wrap, &*lastRow}, out, {in.width, in.height, bits->type, false, bits->half},
-                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
-                                             FromHeightSettings here = settings;
-                                             here.firstRow = firstRow;
-                                             std::size_t found = 0;
-                                             Image rows = normalsFromHeight(strip, here, found);
-                                             invalid += found;
-                                             return rows;
-                                         });
+    const Status streamed =
+        streamToFile(in, {true, o.wrap, &*lastRow}, out, {in.width, in.height, bits->type, false, bits->half},
+                     files.threads, files.progress, [&](Image& strip, int firstRow) {
+                         FromHeightSettings here = settings;
+                         here.firstRow = firstRow;
+                         std::size_t found = 0;
+                         Image rows = normalsFromHeight(strip, here, found);
+                         invalid += found;
+                         return rows;
+                     });
     if (!streamed)
         return streamed.error();
     return FromHeightFile{in.width, in.height, in.type, slopeX, slopeY, *bits, invalid};
@@ -102,8 +109,8 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     if (!bits)
         return bits.error();
     if (const std::size_t bytes = heightWorkBytes(map->width, map->height, o.boundary); bytes > files.limits.imageBytes)
-        return inputError(fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {}", file.string(), (bytes >> 20) + 1,
-                                      map->width, map->height, files.limits.imageBytes >> 20));
+        return inputError(fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {}", file.string(),
+                                      (bytes >> 20) + 1, map->width, map->height, files.limits.imageBytes >> 20));
     double unit = 1, aspect = 1;
     if (o.metres) {
         unit = o.metres->width / map->width;

@@ -21,7 +21,8 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
         RowReader& in = **reader;
         found.width = in.width, found.height = in.height, found.type = in.type;
         const bool second = pass == &MapSurvey::second;
-        const Status read = inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
+        const Status read =
+            inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
         if (!read)
             return read.error();
         if (survey.oneColour())
@@ -48,7 +49,8 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Con
                                    const std::filesystem::path& fileB, const Convention& conventionB,
                                    const std::filesystem::path& heat, const FileOptions& files)
 {
-    const auto swizzleA = swizzleOfFile(fileA, conventionA, files.limits), swizzleB = swizzleOfFile(fileB, conventionB, files.limits);
+    const auto swizzleA = swizzleOfFile(fileA, conventionA, files.limits),
+               swizzleB = swizzleOfFile(fileB, conventionB, files.limits);
     if (!swizzleA || !swizzleB)
         return swizzleA ? swizzleB.error() : swizzleA.error();
     const auto a = openRows(fileA, files.limits), b = openRows(fileB, files.limits);
@@ -57,8 +59,8 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Con
     RowReader* const readers[] = {a->get(), b->get()};
     const int width = readers[0]->width, height = readers[0]->height;
     if (width != readers[1]->width || height != readers[1]->height)
-        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height, fileA.string(),
-                                      readers[1]->width, readers[1]->height));
+        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height,
+                                      fileA.string(), readers[1]->width, readers[1]->height));
     std::unique_ptr<RowWriter> picture;
     if (!heat.empty()) {
         auto writer = createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads);

@@ -32,7 +32,8 @@ Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::file
     const bool half = wanted == "half";
     if ((type == PixelType::float32 && !floats) || (type != PixelType::float32 && onlyFloat)
         || (type != PixelType::unorm8 && only8) || (half && extension != ".exr"))
-        return usageError(fmt::format("options.bits: {} files cannot hold {}", extension, half ? "half" : bitsName(type)));
+        return usageError(
+            fmt::format("options.bits: {} files cannot hold {}", extension, half ? "half" : bitsName(type)));
     return Bits{type, half};
 }
 
@@ -47,8 +48,8 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
 {
     const std::string extension = lowerExtension(file);
     if (to.expansion == Expansion::signedValues && (bits.type != PixelType::float32 || extension == ".hdr"))
-        return usageError(fmt::format("options.to: signed values need a .exr or .tif of floats; found {}, {}", extension,
-                                      bitsName(bits)));
+        return usageError(fmt::format("options.to: signed values need a .exr or .tif of floats; found {}, {}",
+                                      extension, bitsName(bits)));
     return Done{};
 }
 

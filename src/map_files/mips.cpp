@@ -46,7 +46,8 @@ std::filesystem::path numbered(const std::filesystem::path& file, const char* ma
     return file.parent_path() / fmt::format("{}{}_{}{}", file.stem().string(), mark, level, file.extension().string());
 }
 
-Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>& chain, const Bits& bits, const MipFileOptions& o)
+Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>& chain, const Bits& bits,
+                  const MipFileOptions& o)
 {
     if (isDds(out))
         return writeFileWhole(out, ddsBytes(chain));
@@ -90,13 +91,18 @@ Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file
     // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
     if (work > 4 * files.limits.imageBytes)
-        return inputError(fmt::format("{}: the chain takes {} MiB, the limit is four times {}", file.string(), work >> 20,
-                                      files.limits.imageBytes >> 20));
+        return inputError(fmt::format("{}: the chain takes {} MiB, the limit is four times {}", file.string(),
+                                      work >> 20, files.limits.imageBytes >> 20));
     CountedSteps steps(files.progress, 3); // read, filtered, written
     if (!steps.step())
         return stoppedError();
-    const auto chain = mipChain(*map, {.from = o.from, .to = o.to, .keepLengths = o.keepLengths, .model = o.model,
-                                       .roughness = o.roughness, .type = bits->type});
+    const auto chain = mipChain(*map,
+                                {.from = o.from,
+                                 .to = o.to,
+                                 .keepLengths = o.keepLengths,
+                                 .model = o.model,
+                                 .roughness = o.roughness,
+                                 .type = bits->type});
     if (!steps.step())
         return stoppedError();
     if (Status written = writeChain(out, chain, *bits, o); !written)

@@ -14,7 +14,7 @@ namespace cotan::maps {
 
 namespace {
 
-constexpr std::size_t kStripBytes = 16 << 20;    // of texels, as floats
+constexpr std::size_t kStripBytes = 16 << 20;     // of texels, as floats
 constexpr std::size_t kAllStripBytes = 192 << 20; // of the strips under way
 
 // A multiple of 16 where it can be, as MapSurvey wants, and of 64 for blocks of compression.
@@ -106,7 +106,8 @@ struct Part {
 
 } // namespace
 
-Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan, const Progress& progress, const StripWork& work)
+Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan, const Progress& progress,
+                    const StripWork& work)
 {
     namespace tbb = oneapi::tbb;
     const int width = readers[0]->width, height = readers[0]->height, rows = rowsOfStrip(width);
@@ -155,16 +156,18 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
     };
     const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const std::size_t most = kAllStripBytes / (std::size_t(rows) * std::size_t(width) * 16 * readers.size());
-    tbb::parallel_pipeline(std::clamp(most, std::size_t(1), threads + 2),
-                           tbb::make_filter<void, std::shared_ptr<Part>>(tbb::filter_mode::serial_in_order, read)
-                               & tbb::make_filter<std::shared_ptr<Part>, std::shared_ptr<Part>>(tbb::filter_mode::parallel, run)
-                               & tbb::make_filter<std::shared_ptr<Part>, void>(tbb::filter_mode::serial_in_order, give));
+    tbb::parallel_pipeline(
+        std::clamp(most, std::size_t(1), threads + 2),
+        tbb::make_filter<void, std::shared_ptr<Part>>(tbb::filter_mode::serial_in_order, read)
+            & tbb::make_filter<std::shared_ptr<Part>, std::shared_ptr<Part>>(tbb::filter_mode::parallel, run)
+            & tbb::make_filter<std::shared_ptr<Part>, void>(tbb::filter_mode::serial_in_order, give));
     if (readState && takeState && steps.stopped())
         return stoppedError();
     return readState ? takeState : readState;
 }
 
-Status inOrder(RowReader& reader, const Progress& progress, const std::function<void(const Image& strip, int firstRow)>& take)
+Status inOrder(RowReader& reader, const Progress& progress,
+               const std::function<void(const Image& strip, int firstRow)>& take)
 {
     RowReader* const readers[] = {&reader};
     return streamStrips(readers, {}, progress, [&](std::span<Image> strips, int firstRow) {
@@ -175,8 +178,9 @@ Status inOrder(RowReader& reader, const Progress& progress, const std::function<
     });
 }
 
-Status streamToFile(RowReader& reader, const StreamPlan& plan, const std::filesystem::path& file, const RowFormat& format,
-                    int threads, const Progress& progress, const std::function<Image(Image& strip, int firstRow)>& work)
+Status streamToFile(RowReader& reader, const StreamPlan& plan, const std::filesystem::path& file,
+                    const RowFormat& format, int threads, const Progress& progress,
+                    const std::function<Image(Image& strip, int firstRow)>& work)
 {
     const auto writer = createRows(file, format, threads);
     if (!writer)

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "cotan/cost/break_even.hpp"
 #include "cotan/cost/scalar_count.hpp"
 #include "cotan/cost/spirv_count.hpp"
+#include "cotan/files/output.hpp"
 
 namespace cotan {
 
@@ -29,18 +32,14 @@ std::string aligned(const Table& table)
                            : fmt::format(" {:>{}} |", table[n][i], widths[i]);
         text += '\n';
         for (std::size_t i = 0; n == 0 && i < widths.size(); ++i)
-            text += i == 0 ? "| " + std::string(widths[i], '-') + " |"
-                           : " " + std::string(widths[i] - 1, '-') + ": |";
+            text += i == 0 ? "| " + std::string(widths[i], '-') + " |" : " " + std::string(widths[i] - 1, '-') + ": |";
         if (n == 0)
             text += '\n';
     }
     return text + '\n';
 }
 
-std::string plain(std::optional<double> value)
-{
-    return value ? fmt::format("{:.0f}", *value) : "-";
-}
+std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
 
 // The floor as it is; other rows as what they add to it.
 std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
@@ -70,8 +69,7 @@ std::string overview(const CostReport& report)
             over(spirvInstructions(row.fragment), spirvInstructions(floor.fragment), i == 0)};
         for (const DeviceCode& d : report.code)
             if (d.silence.empty())
-                line.push_back(
-                    over(d.rows[i].fragment.instructions, d.rows[0].fragment.instructions, i == 0));
+                line.push_back(over(d.rows[i].fragment.instructions, d.rows[0].fragment.instructions, i == 0));
         line.push_back(row.instructionsOf2006 ? std::to_string(row.instructionsOf2006) : "");
         table.push_back(std::move(line));
     }
@@ -80,14 +78,11 @@ std::string overview(const CostReport& report)
 
 std::string details(const DeviceCode& d)
 {
-    Table table = {{"fragment shader", "instructions", "registers", "code bytes",
-                    "inverse throughput", "latency"}};
+    Table table = {{"fragment shader", "instructions", "registers", "code bytes", "inverse throughput", "latency"}};
     for (const RowCode& r : d.rows)
-        table.push_back({std::string(r.row), plain(r.fragment.instructions),
-                         plain(r.fragment.registers), plain(r.fragment.bytes),
-                         plain(r.fragment.inverseThroughput), plain(r.fragment.latency)});
-    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver)
-        + aligned(table);
+        table.push_back({std::string(r.row), plain(r.fragment.instructions), plain(r.fragment.registers),
+                         plain(r.fragment.bytes), plain(r.fragment.inverseThroughput), plain(r.fragment.latency)});
+    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver) + aligned(table);
 }
 
 std::string ratio(double pixels)
@@ -118,13 +113,11 @@ std::string vertexStages(const CostReport& report)
         if (d.silence.empty())
             table[0].push_back(title(d));
     for (const VertexStage& v : cost::vertexStages()) {
-        std::vector<std::string> line = {std::string(v.name),
-                                         v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
+        std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
         for (const DeviceCode& d : report.code)
             if (d.silence.empty())
                 line.push_back(over(d.vertices[std::size_t(v.stored)].vertex.instructions,
-                                    d.vertices[0].vertex.instructions,
-                                    v.stored == Stored::nothing));
+                                    d.vertices[0].vertex.instructions, v.stored == Stored::nothing));
         table.push_back(std::move(line));
     }
     return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
@@ -138,8 +131,7 @@ std::string breakEven(const CostReport& report)
             table[0].push_back(title(d));
     const int tangentBytes = vertexStage(Stored::tangent).bytes;
     for (const Row* row : report.rows) {
-        if (row->stored != Stored::nothing || row->group == Group::floor
-            || row->group == Group::papers)
+        if (row->stored != Stored::nothing || row->group == Group::floor || row->group == Group::papers)
             continue;
         std::vector<std::string> line = {std::string(row->name),
                                          ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};
@@ -149,33 +141,30 @@ std::string breakEven(const CostReport& report)
             const RowCode* mine = find(d, row->name);
             const RowCode* mikktspace = find(d, "mikktspace");
             const auto vertex = tangentAtVertex(d);
-            const bool known = mine && mikktspace && vertex && mine->fragment.instructions
-                && mikktspace->fragment.instructions;
-            line.push_back(
-                known ? ratio(pixelsPerVertex(
-                    *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
-                      : "-");
+            const bool known =
+                mine && mikktspace && vertex && mine->fragment.instructions && mikktspace->fragment.instructions;
+            line.push_back(known ? ratio(pixelsPerVertex(
+                               *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
+                                 : "-");
         }
         table.push_back(std::move(line));
     }
-    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n"
-        + aligned(table);
+    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
 }
 
 std::string frameOperations()
 {
-    Table table = {{"frame alone, n unit", "mul", "add", "div", "sqrt", "rsqrt", "max", "compare",
-                    "bits", "total", "with fma"}};
+    Table table = {
+        {"frame alone, n unit", "mul", "add", "div", "sqrt", "rsqrt", "max", "compare", "bits", "total", "with fma"}};
     const auto line = [&](std::string_view name, const Operations& o) {
-        table.push_back({std::string(name), std::to_string(o.multiply), std::to_string(o.add),
-                         std::to_string(o.divide), std::to_string(o.root),
-                         std::to_string(o.inverseRoot), std::to_string(o.maximum),
-                         std::to_string(o.compare), std::to_string(o.bits),
-                         std::to_string(o.total()), std::to_string(o.totalFused())});
+        table.push_back({std::string(name), std::to_string(o.multiply), std::to_string(o.add), std::to_string(o.divide),
+                         std::to_string(o.root), std::to_string(o.inverseRoot), std::to_string(o.maximum),
+                         std::to_string(o.compare), std::to_string(o.bits), std::to_string(o.total()),
+                         std::to_string(o.totalFused())});
     };
     for (const std::string_view frame :
-         {"cotangent-2013", "nonperspective", "unit", "paper-full", "paper-nodet",
-          "paper-transpose", "paper-orthogonal", "cotangent", "gradient", "orthonormal", "exact"})
+         {"cotangent-2013", "nonperspective", "unit", "paper-full", "paper-nodet", "paper-transpose",
+          "paper-orthogonal", "cotangent", "gradient", "orthonormal", "exact"})
         line(frame, operationsOfFrame(frame));
     line("(their safe normal)", operationsOfSafeNormal());
     return "### Scalar operations of building a frame\n\n" + aligned(table);
@@ -183,23 +172,22 @@ std::string frameOperations()
 
 std::string timings(const DeviceTiming& d)
 {
-    std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n",
-                                   d.name, d.cpu ? " (draws on the processor)" : "", d.driver);
+    std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n", d.name,
+                                   d.cpu ? " (draws on the processor)" : "", d.driver);
     Table table = {{"legs of the triangles"}};
     for (const int leg : triangleLegs()) {
         table[0].push_back(fmt::format("{} px", leg));
         table[0].push_back("ratio");
     }
-    const auto base = std::find_if(d.rows.begin(), d.rows.end(),
-                                   [](const TimedRow& r) { return r.row == "mikktspace"; });
+    const auto base =
+        std::find_if(d.rows.begin(), d.rows.end(), [](const TimedRow& r) { return r.row == "mikktspace"; });
     for (const TimedRow& r : d.rows) {
         std::vector<std::string> line = {std::string(r.row)};
         for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
             const double t = r.nanosecondsPerMillionPixels[i];
             line.push_back(fmt::format("{:.0f}", t));
-            line.push_back(base == d.rows.end()
-                               ? "-"
-                               : fmt::format("{:.2f}", t / base->nanosecondsPerMillionPixels[i]));
+            line.push_back(base == d.rows.end() ? "-"
+                                                : fmt::format("{:.2f}", t / base->nanosecondsPerMillionPixels[i]));
         }
         table.push_back(std::move(line));
     }
@@ -216,17 +204,9 @@ Json stageJson(const StageCode& code)
 
 Json operationsJson(const Operations& o)
 {
-    return {{"mul", o.multiply},
-            {"add", o.add},
-            {"merged", o.merged},
-            {"div", o.divide},
-            {"sqrt", o.root},
-            {"rsqrt", o.inverseRoot},
-            {"max", o.maximum},
-            {"compare", o.compare},
-            {"bits", o.bits},
-            {"total", o.total()},
-            {"total_fma", o.totalFused()}};
+    return {{"mul", o.multiply}, {"add", o.add},           {"merged", o.merged},         {"div", o.divide},
+            {"sqrt", o.root},    {"rsqrt", o.inverseRoot}, {"max", o.maximum},           {"compare", o.compare},
+            {"bits", o.bits},    {"total", o.total()},     {"total_fma", o.totalFused()}};
 }
 
 } // namespace
@@ -250,29 +230,26 @@ std::string toMarkdown(const CostReport& report)
     if (!report.timingSilence.empty())
         text += "No timing: " + report.timingSilence + ".\n\n";
     for (const DeviceTiming& d : report.timing)
-        text += d.silence.empty() ? timings(d)
-                                  : fmt::format("No timing on {}: {}.\n\n", d.name, d.silence);
+        text += d.silence.empty() ? timings(d) : fmt::format("No timing on {}: {}.\n\n", d.name, d.silence);
     text.pop_back();
     return text;
 }
 
 Json toJson(const CostReport& report)
 {
-    Json json = {
-        {"command", "cost"}, {"machine", report.machine}, {"spirv_compiler", spirvCompiler()}};
+    Json json = {{"command", "cost"}, {"machine", report.machine}, {"spirv_compiler", spirvCompiler()}};
     for (const Row* row : report.rows) {
         Json r = {{"name", row->name},
-                                    {"what", row->what},
-                                    {"scalar", operationsJson(operationsOfRow(row->name))},
-                                    {"spirv", spirvInstructions(row->fragment)}};
+                  {"what", row->what},
+                  {"scalar", operationsJson(operationsOfRow(row->name))},
+                  {"spirv", spirvInstructions(row->fragment)}};
         if (row->instructionsOf2006)
             r["instructions_2006"] = row->instructionsOf2006;
         json["rows"].push_back(std::move(r));
     }
     json["devices"] = Json::array();
     for (const DeviceCode& d : report.code) {
-        Json device = {
-            {"name", d.name}, {"driver", d.driver}, {"family", d.family}, {"silence", d.silence}};
+        Json device = {{"name", d.name}, {"driver", d.driver}, {"family", d.family}, {"silence", d.silence}};
         for (const RowCode& r : d.rows)
             device["fragment"][std::string(r.row)] = stageJson(r.fragment);
         for (const VertexCode& v : d.vertices)
@@ -281,14 +258,10 @@ Json toJson(const CostReport& report)
     }
     json["timing"] = Json::array();
     for (const DeviceTiming& d : report.timing) {
-        Json device = {{"name", d.name},
-                                         {"driver", d.driver},
-                                         {"cpu", d.cpu},
-                                         {"silence", d.silence},
-                                         {"legs", triangleLegs()}};
+        Json device = {
+            {"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}, {"legs", triangleLegs()}};
         for (const TimedRow& r : d.rows)
-            device["nanoseconds_per_million_pixels"][std::string(r.row)] =
-                r.nanosecondsPerMillionPixels;
+            device["nanoseconds_per_million_pixels"][std::string(r.row)] = r.nanosecondsPerMillionPixels;
         json["timing"].push_back(std::move(device));
     }
     return json;
@@ -300,38 +273,43 @@ std::string toCsv(const CostReport& report)
     std::string text = "row,source,device,driver,measure,value\n";
     for (const Row* row : report.rows) {
         const Operations o = operationsOfRow(row->name);
-        text += fmt::format("{},scalar,,,total,{}\n{},scalar,,,total with fma,{}\n", row->name,
-                            o.total(), row->name, o.totalFused());
+        text += fmt::format("{},scalar,,,total,{}\n{},scalar,,,total with fma,{}\n", row->name, o.total(), row->name,
+                            o.totalFused());
         text += fmt::format("{},SPIR-V,,{},instructions,{}\n", row->name, quoted(spirvCompiler()),
                             spirvInstructions(row->fragment));
     }
     for (const DeviceCode& d : report.code) {
         for (const RowCode& r : d.rows)
             for (const auto& [measure, value] : r.fragment.all)
-                text += fmt::format("{},fragment,{},{},{},{:.0f}\n", r.row, quoted(title(d)),
-                                    quoted(d.driver), quoted(measure), value);
+                text += fmt::format("{},fragment,{},{},{},{:.0f}\n", r.row, quoted(title(d)), quoted(d.driver),
+                                    quoted(measure), value);
         for (const VertexCode& v : d.vertices)
             for (const auto& [measure, value] : v.vertex.all)
-                text += fmt::format("{},vertex,{},{},{},{:.0f}\n", vertexStage(v.stored).name,
-                                    quoted(title(d)), quoted(d.driver), quoted(measure), value);
+                text += fmt::format("{},vertex,{},{},{},{:.0f}\n", vertexStage(v.stored).name, quoted(title(d)),
+                                    quoted(d.driver), quoted(measure), value);
     }
     for (const DeviceTiming& d : report.timing)
         for (const TimedRow& r : d.rows)
             for (std::size_t i = 0; i < r.nanosecondsPerMillionPixels.size(); ++i)
                 text +=
-                    fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n",
-                                r.row, quoted(d.name), quoted(d.driver), triangleLegs()[i],
-                                r.nanosecondsPerMillionPixels[i]);
+                    fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
+                                quoted(d.name), quoted(d.driver), triangleLegs()[i], r.nanosecondsPerMillionPixels[i]);
     return text;
 }
 
-std::string withTables(const std::string& text, const std::string& tables)
+Status writeTables(const std::filesystem::path& file, const std::string& tables)
 {
-    const std::string first = "<!-- cotan cost: from here to the end mark written by the tool -->\n", last = "<!-- cotan cost: end -->\n";
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream old;
+    if (stream)
+        old << stream.rdbuf();
+    const std::string text = old.str();
+    const std::string first = "<!-- cotan cost: from here to the end mark written by the tool -->\n",
+                      last = "<!-- cotan cost: end -->\n";
     const std::size_t begin = text.find(first), end = text.find(last);
     if (begin == std::string::npos || end == std::string::npos || end < begin)
-        return tables;
-    return text.substr(0, begin) + first + '\n' + tables + '\n' + text.substr(end);
+        return writeFileWhole(file, tables);
+    return writeFileWhole(file, text.substr(0, begin) + first + '\n' + tables + '\n' + text.substr(end));
 }
 
 } // namespace cotan

@@ -88,8 +88,7 @@ std::string toText(const AngleStatistics& s)
         return "nothing was compared";
     return fmt::format("mean {:.3f}, median {:.3f}, 95 % {:.3f}, 99 % {:.3f}, max {:.2f} degrees; "
                        "over 1: {:.1f} %, over 5: {:.1f} %",
-                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100,
-                       s.over5 * 100);
+                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100, s.over5 * 100);
 }
 
 Json toJson(const AngleStatistics& s)

@@ -25,8 +25,9 @@ const std::vector<AccuracyTable>& accuracyTables()
     return tables;
 }
 
-Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables, const AccuracySelection& selection,
-                                               int threads, const Progress& progress)
+Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables,
+                                               const AccuracySelection& selection, int threads,
+                                               const Progress& progress)
 {
     std::vector<std::vector<Measurement>> results(tables.size());
     std::atomic<std::size_t> next = 0;
@@ -37,7 +38,8 @@ Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyT
             steps.step();
         }
     };
-    const std::size_t wanted = threads > 0 ? std::size_t(threads) : std::size_t(std::max(1u, std::thread::hardware_concurrency()));
+    const std::size_t wanted =
+        threads > 0 ? std::size_t(threads) : std::size_t(std::max(1u, std::thread::hardware_concurrency()));
     std::vector<std::thread> others;
     for (std::size_t i = 1; i < std::min(wanted, tables.size()); ++i)
         others.emplace_back(work);

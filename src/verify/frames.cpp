@@ -27,8 +27,8 @@ std::string verdictOf(double tOpposed, double bOpposed)
         return "tangents and bitangents point the same way";
     if (tOpposed < 0.02 && bOpposed > 0.98)
         return "bitangents are reversed everywhere: TANGENT.w is inverted";
-    return fmt::format("tangents are reversed on {:.1f} % and bitangents on {:.1f} % of the pixels",
-                       tOpposed * 100, bOpposed * 100);
+    return fmt::format("tangents are reversed on {:.1f} % and bitangents on {:.1f} % of the pixels", tOpposed * 100,
+                       bOpposed * 100);
 }
 
 } // namespace
@@ -39,8 +39,10 @@ Result<ComparedFrames> compareFrames(Painter& painter, const Scene& scene, View 
 {
     std::array<Image, 2> shaded, normal, tangent, bitangent;
     for (std::size_t k = 0; k < 2; ++k)
-        for (auto [output, images] : {std::pair(Output::shaded, &shaded), {Output::normal, &normal},
-                                      {Output::tangent, &tangent}, {Output::bitangent, &bitangent}}) {
+        for (auto [output, images] : {std::pair(Output::shaded, &shaded),
+                                      {Output::normal, &normal},
+                                      {Output::tangent, &tangent},
+                                      {Output::bitangent, &bitangent}}) {
             auto picture = drawn(painter, view, frames[k], output);
             if (!picture)
                 return picture.error();

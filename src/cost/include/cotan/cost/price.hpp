@@ -22,8 +22,8 @@ struct PriceOptions {
 };
 
 struct CostReport {
-    std::string machine;           // the system and its processor
-    std::vector<const Row*> rows;  // the floor first
+    std::string machine;          // the system and its processor
+    std::vector<const Row*> rows; // the floor first
     std::vector<DeviceCode> code;
     std::vector<DeviceTiming> timing;
     std::string timingSilence; // why there is none at all

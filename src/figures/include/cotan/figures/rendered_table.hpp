@@ -12,6 +12,7 @@ namespace cotan::figures {
 // Draws every surface at some tessellations with every frame, reads normals and uv back, and
 // compares with the analytic truth. The rows' arithmetic is "vulkan" or "reference".
 // Errors: those of the painter; ErrorKind::stopped.
-Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection, const Progress& progress = {});
+Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection,
+                                                 const Progress& progress = {});
 
 } // namespace cotan::figures

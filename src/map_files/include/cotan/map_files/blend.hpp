@@ -25,6 +25,7 @@ struct BlendedFile {
 // Blends two files; the detail and the mask are held whole. Errors: as openRows, readImage and createRows;
 // ErrorKind::usage: "options.bits: ", "options.to: "; ErrorKind::stopped.
 Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
-                               const std::filesystem::path& out, const BlendFileOptions& options, const FileOptions& files = {});
+                               const std::filesystem::path& out, const BlendFileOptions& options,
+                               const FileOptions& files = {});
 
 } // namespace cotan::maps

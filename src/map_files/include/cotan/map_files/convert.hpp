@@ -20,10 +20,10 @@ struct MeshOfMap {
 
 struct ConvertFileOptions {
     Convention from{}, to{};
-    std::string bits = "auto"; // as bitsFor
-    float strength = 1;        // factor on the slopes; negative turns bumps into dents; not 0
-    bool normalise = false;    // three channels to three: otherwise lengths are kept
-    bool dither = false;       // half a step of noise before rounding
+    std::string bits = "auto";     // as bitsFor
+    float strength = 1;            // factor on the slopes; negative turns bumps into dents; not 0
+    bool normalise = false;        // three channels to three: otherwise lengths are kept
+    bool dither = false;           // half a step of noise before rounding
     std::optional<MeshOfMap> mesh; // between tangent and object space, and only there; strength is 1 then
 };
 
@@ -35,8 +35,8 @@ struct ConvertedFile {
 };
 
 // Converts a file. With a mesh the map is held whole. Errors: ErrorKind::usage: options that do not go together, begun
-// with "options.mesh: ", "options.strength: ", "options.bits: " or "options.to: "; as openRows, createRows and loadScene;
-// ErrorKind::input: no texel is shown by the mesh; ErrorKind::stopped.
+// with "options.mesh: ", "options.strength: ", "options.bits: " or "options.to: "; as openRows, createRows and
+// loadScene; ErrorKind::input: no texel is shown by the mesh; ErrorKind::stopped.
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& options, const FileOptions& files = {});
 

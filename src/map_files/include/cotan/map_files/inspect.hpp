@@ -38,14 +38,14 @@ std::vector<std::string> linesOf(const GreenOfFile& found);
 Json toJson(const GreenOfFile& found);
 
 struct ComparedFiles {
-    AngleStatistics angles; // degrees between the two, over the texels that are directions in both
+    AngleStatistics angles;  // degrees between the two, over the texels that are directions in both
     std::size_t skipped = 0; // other texels
 };
 
 // Compares two maps of one size, each read with its own convention. heat: a picture of the angles as heatMap gives it;
 // empty: none. Errors: as openRows and createRows; ErrorKind::input: two sizes; ErrorKind::stopped.
-Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const Convention& conventionA, const std::filesystem::path& b,
-                                   const Convention& conventionB, const std::filesystem::path& heat = {},
-                                   const FileOptions& files = {});
+Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const Convention& conventionA,
+                                   const std::filesystem::path& b, const Convention& conventionB,
+                                   const std::filesystem::path& heat = {}, const FileOptions& files = {});
 
 } // namespace cotan::maps

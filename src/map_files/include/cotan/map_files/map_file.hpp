@@ -18,9 +18,9 @@
 namespace cotan::maps {
 
 struct FileOptions {
-    LoadLimits limits{};  // of reading; imageBytes of pictures that have to be held whole, and of work on them
-    int threads = 0;      // that compression may use; 0: all cores. The bytes do not depend on it
-    Progress progress{};  // on one thread at a time
+    LoadLimits limits{}; // of reading; imageBytes of pictures that have to be held whole, and of work on them
+    int threads = 0;     // that compression may use; 0: all cores. The bytes do not depend on it
+    Progress progress{}; // on one thread at a time
 };
 
 // How the components of a file are stored.
@@ -48,6 +48,7 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
 
 // Which components of a file hold a two-channel map; rg where the convention has three channels. Reads files that have
 // alpha once through. Errors: as openRows.
-Result<Swizzle> swizzleOfFile(const std::filesystem::path& file, const Convention& convention, const LoadLimits& limits = {});
+Result<Swizzle> swizzleOfFile(const std::filesystem::path& file, const Convention& convention,
+                              const LoadLimits& limits = {});
 
 } // namespace cotan::maps

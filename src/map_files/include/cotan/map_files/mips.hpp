@@ -25,10 +25,10 @@ struct MipLevelFigures {
     double meanLength = 1, meanRoughness = 0;
 };
 
-// Writes all levels and the roughness that they need: a .dds has both, the roughness in alpha; OUT.png and others become
-// OUT_0.png, OUT_roughness_0.png, OUT_1.png and so on. The map and its levels are held whole. Errors: as readImage and
-// writeImage; ErrorKind::input: the levels take more than four times files.limits.imageBytes; ErrorKind::usage:
-// "options.bits: ", "options.to: "; ErrorKind::stopped, before anything is written.
+// Writes all levels and the roughness that they need: a .dds has both, the roughness in alpha; OUT.png and others
+// become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so on. The map and its levels are held whole. Errors: as
+// readImage and writeImage; ErrorKind::input: the levels take more than four times files.limits.imageBytes;
+// ErrorKind::usage: "options.bits: ", "options.to: "; ErrorKind::stopped, before anything is written.
 Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
                                                const MipFileOptions& options, const FileOptions& files = {});
 

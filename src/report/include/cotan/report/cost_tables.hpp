@@ -1,6 +1,7 @@
 // The tables of `cotan cost`: markdown, which reads well as it is, JSON and CSV.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "cotan/cost/price.hpp"
@@ -15,7 +16,8 @@ Json toJson(const cost::CostReport& report);
 // floor.
 std::string toCsv(const cost::CostReport& report);
 
-// A text with new tables between its two marks; where it has none, the tables alone.
-std::string withTables(const std::string& text, const std::string& tables);
+// Writes the tables. Where the file is there and has two marks, only what is between them is replaced. Errors: as
+// writeFileWhole.
+Status writeTables(const std::filesystem::path& file, const std::string& tables);
 
 } // namespace cotan

@@ -27,13 +27,18 @@ public:
     Json(std::nullptr_t = nullptr) {}
     Json(std::same_as<bool> auto yes) : value_(yes) {}
     Json(std::signed_integral auto number) : value_(std::int64_t(number)) {}
-    Json(std::unsigned_integral auto number) requires(!std::same_as<decltype(number), bool>) : value_(std::uint64_t(number)) {}
+    Json(std::unsigned_integral auto number) requires(!std::same_as<decltype(number), bool>)
+        : value_(std::uint64_t(number))
+    {
+    }
     Json(std::floating_point auto number) : value_(double(number)) {}
     Json(std::string text) : value_(std::move(text)) {}
     Json(std::string_view text) : value_(std::string(text)) {}
     Json(const char* text) : value_(std::string(text)) {}
     template<class T> Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
-    template<class T, std::size_t n> Json(const std::array<T, n>& values) : value_(Array(values.begin(), values.end())) {}
+    template<class T, std::size_t n> Json(const std::array<T, n>& values) : value_(Array(values.begin(), values.end()))
+    {
+    }
     // An object where every item is a pair of a name and a value; otherwise an array.
     Json(std::initializer_list<Json> items);
 

@@ -1,6 +1,7 @@
 // The figures of `cotan accuracy` as text, CSV and JSON, and what has become worse between two lists.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ std::string toCsv(const std::vector<Measurement>& rows);
 // Errors (ErrorKind::input): another header, a line with another number of fields, a field that is
 // not a number where one is expected.
 Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, const std::string& name);
+
+// The same from a file of up to 64 MiB. Errors (ErrorKind::input): also one that cannot be read.
+Result<std::vector<Measurement>> readMeasurements(const std::filesystem::path& file);
 
 // Figures of rows without a finite result are null.
 Json toJson(const std::vector<Measurement>& rows);

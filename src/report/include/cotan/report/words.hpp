@@ -6,6 +6,7 @@
 
 #include "cotan/lint/spread.hpp"
 #include "cotan/report/json.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan {
 
@@ -16,5 +17,8 @@ std::string counted(std::size_t number, const std::string& noun);
 std::string toText(const Spread& spread);
 // The figures of an empty set are null when it is written.
 Json toJson(const Spread& spread);
+
+// What a scene has, and the warnings of loading it.
+Json countsOf(const Scene& scene);
 
 } // namespace cotan

@@ -16,9 +16,9 @@ bool showsNormalMaps(const Scene& scene, const View& view);
 
 struct ComparedFrames {
     std::array<Image, 2> shaded;
-    AngleStatistics normals; // degrees between the two; empty unless `mapped`
-    Image difference;        // a heat map of the same
-    bool mapped = false;     // showsNormalMaps
+    AngleStatistics normals;                           // degrees between the two; empty unless `mapped`
+    Image difference;                                  // a heat map of the same
+    bool mapped = false;                               // showsNormalMaps
     double tangentsOpposed = 0, bitangentsOpposed = 0; // share of the pixels; NaN where nothing was compared
     std::string verdict; // what tells an inverted or turned tangent from a small difference
 };

@@ -1,4 +1,4 @@
-#include "progress.hpp"
+#include "cotan/terminal/progress_line.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -18,9 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostColumns = 79; // a full line of 80 would wrap on some terminals
 constexpr auto kBetween = std::chrono::milliseconds(100);
-constexpr double kSettle = 2;       // seconds, and
+constexpr double kSettle = 2;         // seconds, and
 constexpr double kSettleShare = 0.03; // of the work, before a time is told
-constexpr double kFollow = 0.1;     // of a new estimate goes into what is shown
+constexpr double kFollow = 0.1;       // of a new estimate goes into what is shown
 
 std::atomic<bool> shown = false;
 
@@ -64,8 +64,8 @@ std::string timeText(double s)
 
 } // namespace
 
-ProgressLine::ProgressLine(const CommonOptions& options, std::size_t total, std::string what)
-    : visible_(!options.quiet && ::isatty(STDERR_FILENO) == 1), total_(double(total)), what_(std::move(what)),
+ProgressLine::ProgressLine(bool quiet, std::size_t total, std::string what)
+    : visible_(!quiet && ::isatty(STDERR_FILENO) == 1), total_(double(total)), what_(std::move(what)),
       start_(Clock::now()), drawn_(start_)
 {
     const std::lock_guard lock(mutex_);
@@ -132,4 +132,4 @@ void wipeProgress()
         std::fputs("\r\033[K", stderr);
 }
 
-} // namespace cotan::app
+} // namespace cotan

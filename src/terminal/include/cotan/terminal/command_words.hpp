@@ -1,4 +1,4 @@
-// The words that name a command, looked at before anything else.
+// Words of a command line: those that name a command, looked at before anything else, and paths.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 #include "cotan/result.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 // A command and those that it has.
 struct CommandNames {
@@ -23,4 +23,7 @@ Status checkCommandWords(const CommandNames& tool, std::span<const std::string> 
 // Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-} // namespace cotan::app
+// A path as a word of a shell's command line.
+std::string quoted(const std::string& path);
+
+} // namespace cotan

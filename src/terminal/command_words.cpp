@@ -1,4 +1,4 @@
-#include "command_words.hpp"
+#include "cotan/terminal/command_words.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -64,4 +64,14 @@ Status checkCommandWords(const CommandNames& tool, std::span<const std::string> 
     return Done{};
 }
 
-} // namespace cotan::app
+std::string quoted(const std::string& path)
+{
+    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./")
+        == std::string::npos;
+    std::string text = "'";
+    for (char c : path)
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return plain && !path.empty() ? path : text + "'";
+}
+
+} // namespace cotan
