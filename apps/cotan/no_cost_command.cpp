@@ -4,11 +4,11 @@
 
 namespace cotan::app {
 
-Command addCostCommand(CLI::App& app)
+void addCostCommand(Arguments& tool)
 {
-    CLI::App* command = app.add_subcommand("cost", "what each frame costs; not in this build: needs Vulkan");
-    command->allow_extras();
-    return {command, []() -> Status { return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools"); }};
+    Arguments command = tool.command("cost", "what each frame costs; not in this build: needs Vulkan");
+    command.takesAnything();
+    command.does([]() -> Status { return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools"); });
 }
 
 } // namespace cotan::app

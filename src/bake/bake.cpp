@@ -295,7 +295,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
 }
 
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const std::function<void()>& progress)
+                   const Progress& progress)
 {
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
@@ -310,22 +310,25 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                           options.height * options.samples, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
+    CountedSteps done(progress, std::size_t(options.height)); // rows
     withThreads(options.threads, [&] {
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
         parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
             BlockBaker baking(low, baker, raster, options, out);
             Counts counts;
-            for (int block = begin; block != end; ++block) {
+            for (int block = begin; block != end && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
                 baking.bake(block, first, last, counts);
-                for (int y = first; progress && y < last; ++y)
-                    progress();
+                for (int y = first; y < last; ++y)
+                    done.step();
             }
             const std::lock_guard lock(counting);
             out.statistics.rays += counts.rays;
             countTexels(counts.states, out.statistics);
         });
     });
+    if (done.stopped())
+        return stoppedError();
     BakeStatistics& s = out.statistics;
     countTriangles(low, s);
     s.rayDistance = baker.distance();

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "cotan.h"
+#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
 
 struct cotan_bytes {
@@ -35,11 +35,8 @@ inline void require(bool holds, const char* expectation)
         fail(ErrorKind::usage, expectation);
 }
 
-// Thrown by the caller's progress function, through the library.
-struct Stopped {};
-
 // The caller's progress function as the library takes it: empty for null.
-inline std::function<void(double)> progressOf(cotan_progress progress, void* user)
+inline Progress progressOf(cotan_progress progress, void* user)
 {
     if (!progress)
         return {};
@@ -50,8 +47,7 @@ inline std::function<void(double)> progressOf(cotan_progress progress, void* use
     return [progress, user, guard = std::make_shared<Guard>()](double done) {
         const std::lock_guard lock(guard->mutex);
         guard->stopped = guard->stopped || progress(user, done) != 0;
-        if (guard->stopped)
-            throw Stopped{};
+        return !guard->stopped;
     };
 }
 
@@ -116,9 +112,6 @@ try {
     return COTAN_OK;
 } catch (const Failure& failure) {
     return refused(failure.error, message, size);
-} catch (const Stopped&) {
-    copyText("stopped by the caller", message, size);
-    return COTAN_STOPPED;
 } catch (const std::bad_alloc&) {
     return refused({ErrorKind::unavailable, "not enough memory"}, message, size);
 } catch (const std::exception& e) {

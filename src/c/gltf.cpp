@@ -275,8 +275,7 @@ cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_m
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
         const Scene scene = valueOf(loadGltf(source.name(), source.limits()));
-        const LintReport report =
-            lintScene(scene, {.distance = o.distance, .progress = progressOf(o.progress, o.user)});
+        const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
         giveText(lintJson(report, scene), json);
         if (result)
             fill(report, *result);

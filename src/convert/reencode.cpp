@@ -50,14 +50,18 @@ public:
         nearest_.resize(std::size_t(map.height));
     }
 
-    Reencoded run(const std::function<void()>& rowDone)
+    Reencoded run(CountedSteps* rows)
     {
         auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
         overRows([&](int y) {
+            if (rows && rows->stopped())
+                return;
             solveRow(y);
-            if (rowDone)
-                rowDone();
+            if (rows)
+                rows->step();
         });
+        if (rows && rows->stopped())
+            return std::move(result_);
         spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
         overRows([&](int y) { findPlaces(y); });
@@ -263,10 +267,10 @@ private:
 } // namespace
 
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   int threads, const std::function<void()>& rowDone)
+                   int threads, CountedSteps* rows)
 {
     Reencoded result;
-    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rowDone); });
+    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });
     return result;
 }
 

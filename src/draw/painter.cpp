@@ -75,8 +75,8 @@ Result<Image> Painter::draw(const View& view)
 {
     if (!loaded_)
         return usageError("draw: no scene is loaded");
-    if (progress)
-        progress(0);
+    if (progress && !progress(0))
+        return stoppedError();
     return drawLoaded(view);
 }
 

@@ -151,7 +151,9 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
 
 } // namespace
 
-LintReport lintScene(const Scene& scene, const LintOptions& options)
+LintReport lintScene(const Scene& scene, const LintOptions& options) { return *lintScene(scene, options, {}); }
+
+Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
 {
     LintReport report;
     if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound) {
@@ -176,8 +178,8 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
             report.primitives.push_back(std::move(p));
         }
         done += mesh.triangleCount();
-        if (options.progress)
-            options.progress(double(done) / double(std::max<std::size_t>(all, 1)));
+        if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))
+            return stoppedError();
     }
     addOverlaps(report, uses);
     addMaps(report, scene);

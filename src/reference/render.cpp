@@ -1,7 +1,6 @@
 #include "cotan/reference/render.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <new>
 #include <optional>
@@ -110,19 +109,22 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
             storePixel(picture, x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
 }
 
-Image draw(const Scene& scene, const View& view, const std::function<void(double)>& progress)
+Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
 {
     bool bytes = view.output == Output::shaded && !view.linearOutput;
     Image picture = makeImage(view.width, view.height,
                               bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
     Frozen frozen = prepare(scene, view);
     const std::size_t tiles = frozen.tiled.tiles.size();
-    std::atomic<std::size_t> done = 0;
+    CountedSteps done(progress, tiles);
     parallelFor(std::size_t(0), tiles, [&](std::size_t index) {
+        if (done.stopped())
+            return;
         drawTile(scene, view, frozen, index, picture);
-        if (progress)
-            progress(double(++done) / double(tiles));
+        done.step();
     });
+    if (done.stopped())
+        return stoppedError();
     return picture;
 }
 
@@ -140,14 +142,14 @@ std::optional<Error> checkView(const View& view)
 
 } // namespace
 
-Result<Image> renderReference(const Scene& scene, const View& view, int threads, const std::function<void(double)>& progress)
+Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
     if (const Status ok = checkTrianglesDrawn(scene); !ok)
         return ok.error();
     try {
-        std::optional<Image> picture;
+        std::optional<Result<Image>> picture;
         withThreads(threads, [&] { picture = draw(scene, view, progress); });
         return std::move(*picture);
     } catch (const TooManyLayers&) {

@@ -1,10 +1,10 @@
 // Something that draws: a Vulkan device or the reference renderer.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
+#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/view.hpp"
 
@@ -38,8 +38,8 @@ public:
     virtual double uploadSeconds() const { return 0; }
 
     // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
-    // 1 and from several threads. May be empty.
-    std::function<void(double)> progress;
+    // 1 and from several threads. Where it says to stop, draw returns ErrorKind::stopped.
+    Progress progress;
     // Why the reference renderer draws although "auto" was asked for, one line; empty otherwise.
     std::string note;
 
