@@ -148,6 +148,8 @@ void Arguments::flag(const std::string& name, bool& value, const std::string& he
 
 Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name)); }
 
+void Arguments::takesAnything() { app_->allow_extras(); }
+
 void Arguments::footer(const std::string& text) { app_->footer(text); }
 
 void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(app_, std::move(work)); }

@@ -57,6 +57,9 @@ public:
     void flag(const std::string& name, bool& value, const std::string& help);
     Argument find(const std::string& name);
 
+    // Words that nobody declared are no error.
+    void takesAnything();
+
     // Ends the help.
     void footer(const std::string& text);
     // What the command does; called by run.

@@ -15,8 +15,6 @@ void addTangentsCommand(Arguments& tool);
 void addLintCommand(Arguments& tool);
 void addConvertCommand(Arguments& tool);
 void addShaderCommand(Arguments& tool);
-#ifdef COTAN_WITH_VULKAN
 void addCostCommand(Arguments& tool);
-#endif
 
 } // namespace cotan::app

@@ -5,12 +5,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 
 #include "cotan/files/account.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
@@ -54,10 +53,9 @@ void addExamples(Arguments& command, const std::vector<std::string>& lines)
 
 Status withThreads(int threads, const std::function<Status()>& work)
 {
-    using oneapi::tbb::global_control;
-    const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
-    const global_control limit(global_control::max_allowed_parallelism, std::size_t(count));
-    return work();
+    Status status = Done{};
+    cotan::withThreads(threads, [&] { status = work(); });
+    return status;
 }
 
 Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)

@@ -39,11 +39,9 @@ int runCommandLine(std::vector<std::string> words)
     Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
     for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
-                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand})
+                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
+                           addCostCommand})
         add(tool);
-#ifdef COTAN_WITH_VULKAN
-    addCostCommand(tool);
-#endif
     return finish(tool.run(std::move(words), print));
 }
 

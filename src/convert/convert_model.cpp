@@ -76,7 +76,7 @@ private:
         const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
         if (rows.stopped())
             return stoppedError();
-        auto png = encodePng(r.image);
+        auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
         done.figures = r;

@@ -5,12 +5,11 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
@@ -53,7 +52,7 @@ public:
 
     Reencoded run(CountedSteps* rows)
     {
-        auto overRows = [&](const auto& work) { oneapi::tbb::parallel_for(0, map_.height, work); };
+        auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
         overRows([&](int y) {
             if (rows && rows->stopped())
                 return;
@@ -270,9 +269,8 @@ private:
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
                    int threads, CountedSteps* rows)
 {
-    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
     Reencoded result;
-    arena.execute([&] { result = Reencoder(map, uses, frames, bits).run(rows); });
+    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });
     return result;
 }
 

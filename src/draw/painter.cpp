@@ -1,6 +1,8 @@
 #include "cotan/draw/painter.hpp"
 
+#include "cotan/not_built.hpp"
 #include "cotan/reference/render.hpp"
+#include "cotan/scene/check.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
 #endif
@@ -54,7 +56,7 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string& device)
 #else
 Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 {
-    return unavailableError("this cotan was built without Vulkan");
+    return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
 #endif
 
@@ -62,7 +64,9 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 
 Status Painter::load(const Scene& scene)
 {
-    Status status = loadScene(scene);
+    Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
+    if (status)
+        status = loadScene(scene);
     loaded_ = bool(status);
     return status;
 }

@@ -11,6 +11,7 @@
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/check.hpp"
 #include "cotan/scene/placings.hpp"
 #include "parts.hpp"
 
@@ -155,6 +156,10 @@ LintReport lintScene(const Scene& scene, const LintOptions& options) { return *l
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
 {
     LintReport report;
+    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound) {
+        report.recommendation = report.defects = "Nothing was looked at: " + sound.error().message + ".";
+        return report;
+    }
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
     const auto placed = placings(scene);

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_pipeline.h>
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::maps {
 
@@ -109,7 +108,6 @@ struct Part {
 Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan, const Progress& progress,
                     const StripWork& work)
 {
-    namespace tbb = oneapi::tbb;
     const int width = readers[0]->width, height = readers[0]->height, rows = rowsOfStrip(width);
     std::vector<Cutter> cutters;
     for (RowReader* reader : readers)
@@ -118,7 +116,7 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
     Status readState = Done{}, takeState = Done{}; // each touched by one stage only
     std::atomic<bool> stop = false;
     int next = 0;
-    const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<Part> {
+    const auto read = [&]() -> std::shared_ptr<Part> {
         auto part = std::make_shared<Part>();
         part->first = next;
         const int last = std::min(next + rows, height);
@@ -134,16 +132,11 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
             part->strips.push_back(*std::move(strip));
         }
         next = last;
-        if (part->strips.size() < cutters.size()) {
-            control.stop();
-            return nullptr;
-        }
-        return part;
+        return part->strips.size() == cutters.size() ? part : nullptr;
     };
-    const auto run = [&](std::shared_ptr<Part> part) {
+    const auto run = [&](const std::shared_ptr<Part>& part) {
         part->take = work(part->strips, part->first);
         part->strips.clear();
-        return part;
     };
     const auto give = [&](const std::shared_ptr<Part>& part) {
         if (stop)
@@ -154,13 +147,8 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
         if (!steps.step())
             stop = true;
     };
-    const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     const std::size_t most = kAllStripBytes / (std::size_t(rows) * std::size_t(width) * 16 * readers.size());
-    tbb::parallel_pipeline(
-        std::clamp(most, std::size_t(1), threads + 2),
-        tbb::make_filter<void, std::shared_ptr<Part>>(tbb::filter_mode::serial_in_order, read)
-            & tbb::make_filter<std::shared_ptr<Part>, std::shared_ptr<Part>>(tbb::filter_mode::parallel, run)
-            & tbb::make_filter<std::shared_ptr<Part>, void>(tbb::filter_mode::serial_in_order, give));
+    pipeline(std::clamp(most, std::size_t(1), std::size_t(loopThreads()) + 2), read, run, give);
     if (readState && takeState && steps.stopped())
         return stoppedError();
     return readState ? takeState : readState;

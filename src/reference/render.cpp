@@ -7,11 +7,8 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "cotan/frame.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
@@ -120,7 +117,7 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     Frozen frozen = prepare(scene, view);
     const std::size_t tiles = frozen.tiled.tiles.size();
     CountedSteps done(progress, tiles);
-    oneapi::tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t index) {
+    parallelFor(std::size_t(0), tiles, [&](std::size_t index) {
         if (done.stopped())
             return;
         drawTile(scene, view, frozen, index, picture);
@@ -129,18 +126,6 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     if (done.stopped())
         return stoppedError();
     return picture;
-}
-
-// Runs work on that many threads; 0: all cores.
-template<class Work>
-void onThreads(int threads, Work work)
-{
-    if (threads <= 0)
-        return work();
-    oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(threads));
-    oneapi::tbb::task_arena arena(threads);
-    arena.execute(work);
 }
 
 std::optional<Error> checkView(const View& view)
@@ -165,7 +150,7 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
         return ok.error();
     try {
         std::optional<Result<Image>> picture;
-        onThreads(threads, [&] { picture = draw(scene, view, progress); });
+        withThreads(threads, [&] { picture = draw(scene, view, progress); });
         return std::move(*picture);
     } catch (const TooManyLayers&) {
         return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)

@@ -40,6 +40,8 @@ struct ConvertModelOptions {
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     LoadLimits limits{};       // of reading the pictures
+    // The PNG file of a new map, in place of Cotan's own writer; on the thread of the caller. May be empty.
+    std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
     Progress progress{};       // from any thread, also from several at once
     // Gets each map when it is done, in the order of the report, on the thread of the caller.
     std::function<void(const ConvertedMap&)> mapDone{};

@@ -1,5 +1,5 @@
-// src/core where size_t has 32 bits: a program by itself, built and run by core_32bit.cmake, since the test
-// library is there for 64 bits only. Returns the number of facts that do not hold.
+// Facts of src/core in a program by itself, for where there is no test library: core_32bit.cmake builds it where size_t has
+// 32 bits, scripts/try-smallest against an installed core. Returns the number of facts that do not hold.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
