@@ -11,7 +11,7 @@ struct BlendFileOptions {
     BlendMode mode = BlendMode::reoriented;
     float strength = 1;         // factor on the detail's slopes
     int tilesX = 1, tilesY = 1; // how often the detail repeats over the base; at least 1
-    std::filesystem::path mask; // picture whose red multiplies the strength; empty: everywhere
+    std::filesystem::path mask{}; // picture whose red multiplies the strength; empty: everywhere
     std::string bits = "auto";  // as bitsFor
     bool dither = false;
 };

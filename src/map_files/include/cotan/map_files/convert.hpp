@@ -24,7 +24,7 @@ struct ConvertFileOptions {
     float strength = 1;            // factor on the slopes; negative turns bumps into dents; not 0
     bool normalise = false;        // three channels to three: otherwise lengths are kept
     bool dither = false;           // half a step of noise before rounding
-    std::optional<MeshOfMap> mesh; // between tangent and object space, and only there; strength is 1 then
+    std::optional<MeshOfMap> mesh{}; // between tangent and object space, and only there; strength is 1 then
 };
 
 struct ConvertedFile {

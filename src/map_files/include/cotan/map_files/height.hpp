@@ -18,7 +18,7 @@ struct FromHeightFileOptions {
     Convention to{};
     Kernel kernel = Kernel::central; // not spectral
     Wrap wrap = Wrap::repeat;
-    std::optional<Metres> metres; // with them `range` counts, without them `strength`
+    std::optional<Metres> metres{}; // with them `range` counts, without them `strength`
     double range = 0;             // metres from black to white, or per unit of floats; negative: white is low
     double strength = 1;          // white is this many hundredths of the picture's width above black
     std::string bits = "auto";    // as bitsFor
@@ -42,7 +42,7 @@ struct ToHeightFileOptions {
     Convention from{};
     Kernel kernel = Kernel::spectral; // how the slopes were made
     Boundary boundary = Boundary::periodic;
-    std::optional<Metres> metres; // heights come in metres, otherwise in texels
+    std::optional<Metres> metres{}; // heights come in metres, otherwise in texels
     std::string bits = "auto";    // as bitsFor; auto: 16 where the file can hold it
 };
 
