@@ -8,3 +8,9 @@ cotan_test(bake_command_test SEPARATE
   LIBRARIES cotan_model cotan_shapes cotan_truth cotan_core nlohmann_json::nlohmann_json)
 target_compile_definitions(bake_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_command_test cotan)
+cotan_test(not_built_test
+  SOURCES not_built_test.cpp ${PROJECT_SOURCE_DIR}/src/bake/no_rays.cpp ${PROJECT_SOURCE_DIR}/src/model/no_assimp.cpp
+  LIBRARIES cotan_core cotan_scene cotan_files)
+foreach(part bake model gltf)
+  target_include_directories(not_built_test PRIVATE ${PROJECT_SOURCE_DIR}/src/${part}/include)
+endforeach()
