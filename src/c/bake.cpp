@@ -90,8 +90,7 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
         HighModel model;
         model.scenes.push_back(sceneOf(detailed));
         const BakedModel baked =
-            valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)),
-                    "bake");
+            valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
         put(baked.maps[0].image, out);
         if (result) {
             const BakeStatistics& s = baked.maps[0].statistics;

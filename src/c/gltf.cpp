@@ -2,18 +2,18 @@
 #include <algorithm>
 #include <cstring>
 
-#include <nlohmann/json.hpp>
-
 #include "call.hpp"
 #include "cotan/convert/convert_model.hpp"
 #include "cotan/gltf/edit.hpp"
 #include "cotan/gltf/load.hpp"
 #include "cotan/lint/lint.hpp"
+#include "cotan/report/convert_report.hpp"
+#include "cotan/report/json.hpp"
+#include "cotan/report/lint_report.hpp"
 #include "pictures.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -111,17 +111,11 @@ private:
     cotan_model_files f_;
 };
 
-// Null for numbers of an empty set.
-Json toJson(const Spread& s)
-{
-    return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
-}
-
 void giveText(const Json& json, cotan_bytes** to)
 {
     if (!to)
         return;
-    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = toText(json);
     const auto bytes = std::as_bytes(std::span(text));
     *to = new cotan_bytes{{bytes.begin(), bytes.end()}};
 }
@@ -142,26 +136,6 @@ double worst(const LintReport& report, Spread MapFit::*frame)
     return degrees;
 }
 
-Json primitiveOf(const PrimitiveLint& p)
-{
-    Json json = {{"mesh", p.mesh},
-                 {"material", p.material},
-                 {"normal_map", p.image},
-                 {"not_judged", p.notJudged},
-                 {"triangles", p.triangles}};
-    json["uv"] = {{"degenerate", p.uv.degenerate},
-                  {"mirrored", p.uv.mirrored},
-                  {"overlapping", p.uv.overlapping},
-                  {"stretch", toJson(p.uv.stretch)},
-                  {"shear_degrees", toJson(p.uv.shear)}};
-    json["edge_steps"] = {{"edges", p.steps.edges},
-                          {"cotangent", toJson(p.steps.cotangent)},
-                          {"orthonormal", toJson(p.steps.orthonormal)}};
-    for (const Reading& r : p.readings)
-        json["read_with"][r.name] = toJson(r.error);
-    return json;
-}
-
 Json lintJson(const LintReport& report, const Scene& scene)
 {
     Json json = {{"recommendation", report.recommendation},
@@ -170,25 +144,8 @@ Json lintJson(const LintReport& report, const Scene& scene)
                  {"maps_converted", report.mapsConverted},
                  {"maps_kept", report.mapsKept},
                  {"drops_tangents", report.dropsTangents},
-                 {"distrust_stored", report.distrustStored},
-                 {"primitives", Json::array()},
-                 {"maps", Json::array()}};
-    for (const PrimitiveLint& p : report.primitives)
-        json["primitives"].push_back(primitiveOf(p));
-    for (const GreenEvidence& g : report.maps)
-        json["maps"].push_back({{"image", g.image},
-                                {"name", g.name},
-                                {"decided", g.decided()},
-                                {"as_declared", g.asDeclared()},
-                                {"green", name(g.verdict.green)},
-                                {"confidence", name(g.verdict.confidence)},
-                                {"reason", g.verdict.reason}});
-    for (const MapFit& f : report.fits)
-        json["fits"].push_back({{"image", f.image},
-                                {"name", f.name},
-                                {"orthonormal", toJson(f.orthonormal)},
-                                {"cotangent", toJson(f.cotangent)},
-                                {"smooth", toJson(f.smooth)}});
+                 {"distrust_stored", report.distrustStored}};
+    json.update(listsOf(report));
     json["warnings"] = scene.warnings;
     return json;
 }
@@ -218,31 +175,11 @@ Frame frameOr(const char* given, Frame otherwise, const char* name)
     return *frame;
 }
 
-Json mapOf(const ConvertedMap& m)
-{
-    Json json = {{"image", m.image},
-                 {"name", m.name},
-                 {"surfaces", m.surfaces},
-                 {"size", {m.width, m.height}},
-                 {"kept", m.kept},
-                 {"degrees_unconverted", toJson(m.figures.unconverted)},
-                 {"bytes_before", m.bytesBefore},
-                 {"bytes_after", m.bytesAfter}};
-    if (!m.kept)
-        json.update({{"bits", m.bits},
-                     {"degrees_after_rounding", toJson(m.figures.error)},
-                     {"texels_covered", m.figures.covered}});
-    return json;
-}
-
 Json convertJson(const ConvertModelReport& report)
 {
-    Json json = {{"maps", Json::array()},
-                 {"primitives_given_tangents", report.primitivesGiven},
-                 {"tangent_bytes_dropped", report.dropped.bytes},
-                 {"notes", report.notes}};
+    Json json = {{"maps", Json::array()}, {"tangents", tangentsJson(report)}, {"notes", report.notes}};
     for (const ConvertedMap& map : report.maps)
-        json["maps"].push_back(mapOf(map));
+        json["maps"].push_back(toJson(map));
     return json;
 }
 

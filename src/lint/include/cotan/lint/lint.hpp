@@ -124,8 +124,7 @@ struct LintOptions {
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
 // mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed
-// with what is known; of a scene that does not hold together (checkScene) only `defects` says so. options.progress may
-// throw to stop it; what it throws comes out here.
+// with what is known; of a scene that does not hold together (checkScene) only `defects` says so.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
 // The same with progress, on the thread of the caller. Errors: ErrorKind::stopped, and no other.
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress);
