@@ -70,7 +70,7 @@ TEST(DrawView, unknownDevicesAndFramesAreRefused)
     EXPECT_EQ(device.error().kind, ErrorKind::unavailable);
     for (int frame : {-1, kFrameCount}) {
         View view = viewOf(Output::normal);
-        view.frame = frame;
+        view.frame = Frame(frame);
         const auto image = drawView(mappedQuad(), view, "reference");
         ASSERT_FALSE(image);
         EXPECT_EQ(image.error().kind, ErrorKind::usage);

@@ -106,7 +106,7 @@ TEST(ReferenceFrame, greenAgainstVIsTheSameMapWithGreenReversed)
     Scene along = sceneOf(fullMesh(kSheared)), against = along;
     addNormalMap(along, kTexel);
     addNormalMap(against, {kTexel.x, 256 - kTexel.y, kTexel.z});
-    against.materials[0].normalFormat.greenAlongV = false;
+    against.materials[0].normalFormat.greenUp = true;
     Image other = rendered(against, viewOf(Output::normal));
     forCovered(rendered(along, viewOf(Output::normal)), [&](int x, int y, glm::vec4 value) {
         // Decoding rounds the two bytes to opposite numbers, up to a few units of 1e-7.

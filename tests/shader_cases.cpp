@@ -77,7 +77,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
-    if (info(frame).source != FrameSource::vertices) {
+    if (!readsVertices(frame)) {
         c.call = drawn ? "cotan_perturb_normal(n, p, uv, m)" : made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
         c.expected = [=](const Vectors& v) {
             const glm::dvec3 n = total ? glm::dvec3(v.n) : unitOf(v.n);

@@ -48,7 +48,7 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
     if (s.twice > 0)
         warn(o.common, fmt::format("{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
                                    percent(s.twice, s.covered)));
-    const bool perTriangle = info(job.frame()).source != FrameSource::vertices && job.frame() != Frame::orthonormal;
+    const bool perTriangle = !readsVertices(job.frame()) && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o.common, fmt::format("the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
                                    "edges of curved meshes; bake and draw with smooth to avoid it", name(job.frame())));

@@ -34,7 +34,7 @@ Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const Bak
     Progress progress(o.common, kBakeViews, "drawing and comparing");
     (*painter)->progress = progress.within();
     const auto compared = cotan::verifyBake(**painter, {job.lowScene, job.setup.low, job.setup.high, job.setup.options.bake, map,
-                                                        job.setup.options.stored.format, o.material, o.tangents != "stored"});
+                                                        job.setup.options.stored.format, o.material, job.setup.options.tangents});
     if (!compared)
         return compared.error();
     auto views = nlohmann::ordered_json::array();

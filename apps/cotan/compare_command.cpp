@@ -44,7 +44,7 @@ struct Drawn {
 Result<Drawn> drawAll(Painter& painter, View view, Frame frame)
 {
     Drawn drawn;
-    view.frame = int(frame);
+    view.frame = frame;
     for (auto [output, image] : {std::pair(Output::shaded, &drawn.shaded), {Output::normal, &drawn.normal},
                                  {Output::tangent, &drawn.tangent}, {Output::bitangent, &drawn.bitangent}}) {
         view.output = output;

@@ -195,7 +195,7 @@ Status run(const ConvertCommandOptions& o)
     report["notes"] = done->notes;
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
-        auto verified = verifyConversion({o.model, o.common.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device, o.memory}, o.common);
+        auto verified = verifyConversion({o.model, o.common.output, frames->from, frames->to, frames->fromTangents, o.verify, o.device, o.memory}, o.common);
         if (!verified)
             return verified.error();
         report["verify"] = std::move(*verified);

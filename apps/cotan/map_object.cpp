@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/bake.hpp"
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
 #include "cotan/surface/uv_raster.hpp"
 #include "cotan/maps/texels.hpp"
 #include "memory_limit.hpp"
@@ -58,7 +58,7 @@ Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const
     if (!scene)
         return scene.error();
     const auto surface = makeLowSurface(*scene, mesh.material, *frame,
-                                        mesh.tangents == "stored" ? TangentSource::stored : TangentSource::generated);
+                                        mesh.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated);
     if (!surface)
         return surface.error();
     const UvRaster raster({surface->texcoords, surface->indices}, map.width, map.height);
@@ -78,7 +78,7 @@ Result<Image> throughMesh(const Image& map, const maps::RecodeSettings& s, const
                 const UvPlace& place = places.places[places.first[x]];
                 ++found;
                 const std::size_t at = std::size_t(y) * normals.size() + x;
-                const LowPoint p = pointOf(*surface, *frame, place.triangle, double(place.b1), double(place.b2));
+                const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));
                 if (normals[x] == glm::vec3(0)) { // no direction: that of the surface
                     ++invalid;
                     values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);

@@ -21,15 +21,6 @@ Result<Convention> parseConvention(const std::string& text, const std::string& o
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
-NormalMapFormat formatInScene(const Convention& convention)
-{
-    NormalMapFormat format;
-    format.expansion = int(convention.expansion);
-    format.channels = int(convention.channels);
-    format.greenAlongV = !convention.greenUp;
-    return format;
-}
-
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options)
 {
     return readImageWithin(options.memory, file);

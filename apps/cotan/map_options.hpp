@@ -26,9 +26,6 @@ void addMapOptions(CLI::App& command, MapOptions& options, const std::string& ou
 // conventionFromWords with the option in front of its message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
 
-// The same as a material has it: v runs down in everything that was loaded.
-NormalMapFormat formatInScene(const Convention& convention);
-
 // Reads a picture within the memory limit. Errors: as readImage.
 Result<Image> openMap(const std::filesystem::path& file, const MapOptions& options);
 

@@ -109,7 +109,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
-        deriveVertexFrames(picture.scene, frame, options.tangents == "generated");
+        deriveVertexFrames(picture.scene, frame, options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
     for (const std::string& line : picture.scene.warnings)
         warn(common, line);
     auto view = makeView(options, picture.scene);
@@ -134,7 +134,7 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
 
 Status checkLighting(const PictureOptions& options, Frame frame)
 {
-    if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
+    if (options.lighting == "tangent-vertex" && !readsTangents(frame))
         return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                                       "mikktspace; found '{}'", name(frame)));
     return Done{};

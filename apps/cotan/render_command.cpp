@@ -51,7 +51,7 @@ Result<Image> drawError(Painter& painter, View view, bool mapped, const RenderCo
     auto normals = painter.draw(view);
     if (!normals)
         return normals;
-    view.frame = int(Frame::exact);
+    view.frame = Frame::exact;
     auto exact = painter.draw(view);
     if (!exact)
         return exact;
@@ -90,7 +90,7 @@ Status run(const RenderCommandOptions& o)
     auto picture = openPicture(o.picture, o.common, {*frame, Frame::exact});
     if (!picture)
         return picture.error();
-    picture->view.frame = int(*frame);
+    picture->view.frame = *frame;
     picture->view.output = kShows.at(o.show);
 
     Stopwatch watch;

@@ -163,7 +163,7 @@ Command addShaderCommand(CLI::App& app)
     command->add_option("--frame", o->frame, "one of " + frameNames())->type_name("NAME")->capture_default_str();
     command
         ->add_option("--form", o->form,
-                     "fused: frame and texel in one step (cotangent, gradient, orthonormal); total: the frame as "
+                     "fused: frame and texel in one step (" + shader_text::fusedFrameNames() + "); total: the frame as "
                      "three covectors, for any input; readable: another word for total. Default: fused where there is one")
         ->type_name("NAME");
     command

@@ -7,6 +7,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "memory_limit.hpp"
 
 namespace cotan::app {
@@ -14,7 +15,7 @@ namespace cotan::app {
 struct VerifyOptions {
     std::filesystem::path before, after; // models
     Frame from = Frame::mikktspace, to = Frame::cotangent;
-    bool fromGenerated = false;          // tangents of the original: generated instead of stored
+    TangentOrigin fromTangents = TangentOrigin::stored; // of the original
     std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
     std::string device = "auto";
     int memory = kDefaultMemory;

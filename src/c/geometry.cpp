@@ -23,7 +23,7 @@ glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], arra
 Frame frameFromDifferences(const char* name)
 {
     const auto frame = frameFromName(word(name, "frame"));
-    if (!frame || info(*frame).source == FrameSource::vertices)
+    if (!frame || readsVertices(*frame))
         fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(name) + "'");
     return *frame;
 }
@@ -71,7 +71,7 @@ int cotan_frame_count(void) { return kFrameCount; }
 
 const char* cotan_frame_name(int frame)
 {
-    return frame >= 0 && frame < kFrameCount ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
+    return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
 }
 
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
@@ -101,12 +101,13 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
 {
     return call(message, message_size, [&] {
         const std::string_view which = word(kind, "kind");
-        if (which != "mikktspace" && which != "vertex")
+        const auto frame = frameFromName(which);
+        if (!frame || !readsTangents(*frame))
             fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made = which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
+        const std::vector<glm::vec4> made = generateTangents(*frame, view, threads);
         std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
     });
 }

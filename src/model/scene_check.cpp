@@ -59,9 +59,6 @@ Problem checkMaterial(const Material& m, std::size_t images)
     const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
     if (!finite(m.baseColor) || !finite(m.emissive) || !finite(factors) || !finite(m.alphaCutoff))
         return "expected finite factors";
-    const NormalMapFormat& format = m.normalFormat;
-    if (!below(format.expansion, COTAN_EXPAND_EXACT16 + 1) || !below(format.channels, COTAN_CHANNELS_SLOPE + 1))
-        return fmt::format("expected a way to store normals, found {} {}", format.expansion, format.channels);
     return std::nullopt;
 }
 

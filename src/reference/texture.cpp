@@ -79,7 +79,7 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
 }
 
 const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture,
-                        Content content, NormalMapFormat format, bool withLevels)
+                        Content content, Convention format, bool withLevels)
 {
     if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
         return nullptr;
@@ -117,7 +117,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
     TextureLibrary library;
     bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
     for (const Material& m : scene.materials) {
-        auto get = [&](const Texture& texture, Content content, NormalMapFormat format = {}) {
+        auto get = [&](const Texture& texture, Content content, Convention format = {}) {
             return chainOf(library, scene, texture, content, format, levels);
         };
         MaterialMaps maps;

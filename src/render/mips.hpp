@@ -37,7 +37,7 @@ struct MipChain {
 struct MipRequest {
     const Image* image = nullptr; // must outlive the chain; see usableImage
     TextureKind kind = TextureKind::data;
-    NormalMapFormat normalFormat; // for kind normal
+    Convention normalFormat; // for kind normal
     TexelFormat format = TexelFormat::unorm8;
     int largest = 16384; // levels wider or higher than this are left out
 };

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
+
 namespace cotan {
 
 namespace {
@@ -79,6 +81,26 @@ std::vector<Light> defaultLights()
     key.kind = LightKind::directional;
     key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
     return {key};
+}
+
+Status checkVertexAttributes(const Scene& scene, Frame frame)
+{
+    if (!readsVertices(frame))
+        return Done{};
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (!mesh || mesh->triangleCount() == 0 || mesh->material < 0 || std::size_t(mesh->material) >= scene.materials.size())
+            continue;
+        const std::size_t vertices = mesh->vertexCount();
+        const bool hasUv = mesh->texcoords[uvSetOf(scene.materials[std::size_t(mesh->material)].normalMap)].size() >= vertices;
+        const bool has = readsTangents(frame) ? mesh->tangents.size() >= vertices
+                                              : mesh->cotangentsU.size() >= vertices && mesh->cotangentsV.size() >= vertices;
+        if (vertices > 0 && hasUv && !has)
+            return usageError((scene.name.empty() ? "scene" : scene.name) + ": mesh '" + mesh->name + "': expected "
+                              + (readsTangents(frame) ? "tangents" : "cotangents") + " for the frame " + std::string(name(frame))
+                              + "; found none (deriveVertexFrames makes them)");
+    }
+    return Done{};
 }
 
 bool drawsNormalMaps(const Scene& scene)

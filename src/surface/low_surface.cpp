@@ -1,4 +1,6 @@
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
+
+#include <span>
 
 #include <fmt/format.h>
 
@@ -6,18 +8,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
 
 namespace {
-
-glm::vec2 transformed(const Texture& map, glm::vec2 uv)
-{
-    if (!map.present())
-        return uv;
-    return {map.uRow.x * uv.x + map.uRow.y * uv.y + map.uRow.z, map.vRow.x * uv.x + map.vRow.y * uv.y + map.vRow.z};
-}
 
 glm::vec3 normalizedOrZero(glm::vec3 v)
 {
@@ -36,12 +32,12 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
                                           glm::cross(linear[0], linear[1])) * (determinant < 0 ? -1.0f : 1.0f);
     // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
     const bool rigid = cofactors == linear;
-    const auto& texcoords = mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)];
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
         surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(cofactors * mesh.normals[v]));
-        surface.texcoords.push_back(transformed(map, texcoords[v]));
     }
+    const std::vector<glm::vec2> uv = textureUv(map, mesh);
+    surface.texcoords.insert(surface.texcoords.end(), uv.begin(), uv.end());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::uint32_t corner[3] = {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
         if (determinant < 0) // a mirrored instance turns its triangles round
@@ -49,7 +45,7 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
         for (std::uint32_t c : corner) {
             surface.indices.push_back(base + c);
             if (storedTangents) {
-                const glm::vec4 t = mesh.tangents[c];
+                const glm::vec4 t = tangentAlongV(mesh.tangents[c]);
                 const glm::vec3 turned = rigid ? linear * glm::vec3(t) : normalizedOrZero(linear * glm::vec3(t));
                 surface.tangents.push_back(glm::vec4(turned, determinant < 0 ? -t.w : t.w));
             }
@@ -60,31 +56,37 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
 
 void deriveCotangents(LowSurface& s)
 {
-    const VertexSplit split = splitMirrored({s.positions, s.normals, s.texcoords, s.indices});
-    LowSurface copy;
-    for (std::uint32_t source : split.sources) {
-        copy.positions.push_back(s.positions[source]);
-        copy.normals.push_back(s.normals[source]);
-        copy.texcoords.push_back(s.texcoords[source]);
-    }
-    s.positions = std::move(copy.positions);
-    s.normals = std::move(copy.normals);
-    s.texcoords = std::move(copy.texcoords);
-    s.indices = split.indices;
-    Cotangents c = smoothCotangents({s.positions, s.normals, s.texcoords, s.indices});
-    s.cotangentsU = std::move(c.u);
-    s.cotangentsV = std::move(c.v);
+    SplitCotangents made = splitSmoothCotangents({s.positions, s.normals, s.texcoords, s.indices});
+    const auto gather = [&](auto& values) { values = gathered(std::span(std::as_const(values)), made.split); };
+    gather(s.positions);
+    gather(s.normals);
+    gather(s.texcoords);
+    s.indices = std::move(made.split.indices);
+    s.cotangentsU = std::move(made.cotangents.u);
+    s.cotangentsV = std::move(made.cotangents.v);
+}
+
+void deriveTangents(LowSurface& s)
+{
+    s.tangents = generateTangents(s.frame, {s.positions, s.normals, s.texcoords, s.indices});
+    for (glm::vec4& t : s.tangents)
+        t = tangentAlongV(t);
+}
+
+template<class TextFrame> CotangentFrame<double> typed(const TextFrame& f)
+{
+    return {Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
 }
 
 } // namespace
 
-Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentSource source)
+Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents)
 {
     if (dependsOnView(frame))
         return usageError(fmt::format("the frame {} depends on the view: no map can be made for it", name(frame)));
-    const bool needsTangents = frame == Frame::vertex || frame == Frame::mikktspace;
     LowSurface surface;
-    bool allStored = needsTangents && source == TangentSource::stored;
+    surface.frame = frame;
+    bool allStored = readsTangents(frame) && tangents == TangentOrigin::stored;
     auto chosen = [&](const Mesh& mesh) { return material < 0 || mesh.material == material; };
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -96,60 +98,48 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
         if (!chosen(mesh) || mesh.indices.empty())
             continue;
         const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
-        if (mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)].empty())
+        if (mesh.texcoords[uvSetOf(map)].empty())
             return inputError(fmt::format("{}: mesh '{}' has no texture coordinates (uv set {})", scene.name, mesh.name,
-                                          map.present() ? map.texcoord : 0));
+                                          uvSetOf(map)));
         append(surface, mesh, map, scene.instances[i].toWorld, std::uint32_t(i), allStored);
     }
     if (surface.indices.empty())
         return inputError(fmt::format("{}: expected triangles; found none", scene.name));
-    const MeshView view{surface.positions, surface.normals, surface.texcoords, surface.indices};
-    if (frame == Frame::smooth)
+    if (readsCotangents(frame))
         deriveCotangents(surface);
-    else if (needsTangents && !allStored)
-        surface.tangents = frame == Frame::mikktspace ? mikktspaceTangents(view) : vertexTangents(view);
+    else if (readsTangents(frame) && !allStored)
+        deriveTangents(surface);
     return surface;
 }
 
-Differences<double> differencesOf(const LowSurface& s, Frame frame, std::uint32_t triangle)
+Differences<double> differencesOf(const LowSurface& s, std::uint32_t triangle)
 {
-    const std::uint32_t* v = &s.indices[3 * std::size_t(triangle)];
-    const glm::dvec3 e1 = glm::dvec3(s.positions[v[1]]) - glm::dvec3(s.positions[v[0]]);
-    const glm::dvec3 e2 = glm::dvec3(s.positions[v[2]]) - glm::dvec3(s.positions[v[0]]);
-    const glm::dvec2 w1 = glm::dvec2(s.texcoords[v[1]]) - glm::dvec2(s.texcoords[v[0]]);
-    const glm::dvec2 w2 = glm::dvec2(s.texcoords[v[2]]) - glm::dvec2(s.texcoords[v[0]]);
-    const double determinant = w1.x * w2.y - w1.y * w2.x;
-    if (determinant == 0 || frame == Frame::exact)
-        return {Vector3d(e1), Vector3d(e2), w1, w2};
-    return {Vector3d((e1 * w2.y - e2 * w1.y) / determinant), Vector3d((e2 * w1.x - e1 * w2.x) / determinant), {1, 0}, {0, 1}};
+    const TriangleEdges e = edgesOf(s.positions, s.texcoords, s.cornersOf(triangle));
+    const double determinant = e.uvArea2();
+    if (determinant == 0 || info(s.frame).source == FrameSource::triangle)
+        return {Vector3d(e.p1), Vector3d(e.p2), e.uv1, e.uv2};
+    return {Vector3d((e.p1 * e.uv2.y - e.p2 * e.uv1.y) / determinant),
+            Vector3d((e.p2 * e.uv1.x - e.p1 * e.uv2.x) / determinant), {1, 0}, {0, 1}};
 }
 
-LowPoint pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, double b1, double b2)
+LowPoint pointOf(const LowSurface& s, std::uint32_t triangle, double b1, double b2)
 {
     const std::size_t first = 3 * std::size_t(triangle);
-    const std::uint32_t* v = &s.indices[first];
-    const double b0 = 1 - b1 - b2;
-    auto blend = [&](const auto& a, const auto& b, const auto& c) {
-        return glm::dvec3(a) * b0 + glm::dvec3(b) * b1 + glm::dvec3(c) * b2;
-    };
-    auto typed = [](const f64::cotan_frame& f) {
-        return CotangentFrame<double>{Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
-    };
+    const Corners at = s.cornersOf(triangle), inOrder{first, first + 1, first + 2};
+    const glm::dvec3 weights(1 - b1 - b2, b1, b2);
     LowPoint p;
-    p.position = blend(s.positions[v[0]], s.positions[v[1]], s.positions[v[2]]);
-    const glm::dvec3 raw = blend(s.normals[v[0]], s.normals[v[1]], s.normals[v[2]]);
+    p.position = atCorners(s.positions, at, weights);
+    const glm::dvec3 raw = atCorners(s.normals, at, weights);
     const double length = glm::length(raw);
     p.normal = length > 0 ? raw / length : raw;
-    if (frame == Frame::smooth) {
-        p.frame = typed(f64::cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
-                                                blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
-    } else if (!s.tangents.empty()) {
-        const glm::dvec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
-        const double handedness = -s.tangents[first].w; // glTF's w has v up
-        p.frame = frame == Frame::mikktspace ? typed(f64::cotan_frame_mikktspace(raw, t, handedness))
-                                             : typed(f64::cotan_frame_vertex(raw, t, handedness));
+    if (readsCotangents(s.frame)) {
+        p.frame = typed(evaluateCotangents(s.frame, raw, atCorners(s.cotangentsU, at, weights),
+                                           atCorners(s.cotangentsV, at, weights)));
+    } else if (readsTangents(s.frame)) {
+        const glm::dvec3 t(atCorners(s.tangents, inOrder, weights));
+        p.frame = typed(evaluateTangents(s.frame, raw, t, double(s.tangents[first].w)));
     } else {
-        p.frame = makeFrame(frame, Covector3d(p.normal), differencesOf(s, frame, triangle));
+        p.frame = makeFrame(s.frame, Covector3d(p.normal), differencesOf(s, triangle));
     }
     return p;
 }

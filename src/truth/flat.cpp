@@ -73,7 +73,7 @@ struct PatchRows {
             if (degreesBetween(truths[k], patch.normal) < leastTilt)
                 continue;
             for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
-                const glm::dvec3 n = info(row.frame).source == FrameSource::vertices
+                const glm::dvec3 n = readsVertices(row.frame)
                     ? shadeVertexFrame(row.single, row.frame, vertices, m)
                     : shadeAs(row.single, row.frame, patch.normal, d, m);
                 row.angles.add(degreesBetween(n, truths[k]));

@@ -140,7 +140,7 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
 
 glm::dvec3 shade(Frame frame, bool single, const Interpolated& x, const Differences<double>& screen, glm::dvec3 m)
 {
-    if (info(frame).source == FrameSource::vertices)
+    if (readsVertices(frame))
         return single ? shadeFromVerticesFloat(frame, x, m) : shadeFromVertices(frame, x, m);
     const Differences<double>& d = info(frame).source == FrameSource::triangle ? x.edges : screen;
     const glm::dvec3 n = glm::normalize(x.n);

@@ -18,7 +18,7 @@ public:
 
     // Takes a scene in the place of the one before. It must live until the next load, forget or the
     // painter's end. Frames from vertices read what deriveVertexFrames (cotan/surface/vertex_frames.hpp)
-    // has put into it; without that the picture shows the interpolated normals.
+    // has put into it.
     // Errors: ErrorKind::unavailable when the device has not enough memory; ErrorKind::input over
     // kMostTrianglesDrawn (cotan/scene/bounds.hpp), of a Vulkan device; the reference renderer says so in draw.
     Status load(const Scene& scene);
@@ -27,7 +27,8 @@ public:
     void forget() { loaded_ = false; }
 
     // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be
-    // drawn (the reference renderer: 1 to 16384 pixels a side) or an unknown frame; ErrorKind::unavailable
+    // drawn (the reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene lacks at
+    // its vertices; ErrorKind::unavailable
     // without the memory; those of Renderer::render and renderReference.
     Result<Image> draw(const View& view);
 
