@@ -328,7 +328,7 @@ TEST(Reencode, greenAgainstVStaysAgainstV)
     for (Corner& c : sheared)
         c.position.x += 0.5f * c.position.y;
     MapUse leaning = unormUse(sheared);
-    leaning.format.green = -1;
+    leaning.stored.greenUp = true;
     EXPECT_LT(reencode(map, {&leaning, 1}, kPartsToCotangent, 16).error.maximum, 0.02);
 }
 

@@ -335,18 +335,6 @@ TEST(FrameTable, evaluationCallsTheFunctionOfThatNameInBothPrecisions)
     expectSame(evaluateTangents(Frame::mikktspace, nd, xd, -1), f64::cotan_frame_mikktspace(nd, xd, -1), "f64");
 }
 
-// All rows differ: one that called its neighbour's function would be seen.
-TEST(FrameTable, noTwoFramesFromDifferencesAreTheSame)
-{
-    const Arguments a;
-    for (const FrameInfo& f : frames())
-        for (const FrameInfo& g : frames())
-            if (f.frame < g.frame && f.source == g.source && !readsVertices(f.frame)) {
-                const f32::cotan_frame one = a.frame(f.frame), other = a.frame(g.frame);
-                EXPECT_TRUE(one.t != other.t || one.b != other.b) << f.name << ", " << g.name;
-            }
-}
-
 // What reads the vertices has nothing to evaluate from differences, and the other way round.
 TEST(FrameTable, aFrameOfAnotherSourceIsThePlainNormal)
 {

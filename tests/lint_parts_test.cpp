@@ -327,8 +327,9 @@ TEST(Texels, areFoundByColumnThenRowInEveryType)
     EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
     Texture texture;
     texture.sampler.wrapV = Wrap::clamp;
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
 }
 
 TEST(Texels, coordinatesWrapAsTheSamplerSays)

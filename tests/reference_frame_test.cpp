@@ -336,10 +336,31 @@ TEST(ReferenceFrame, degenerateUvGiveTheInterpolatedNormal)
     }
 }
 
-TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutTheirAttributes)
+TEST(ReferenceFrame, framesFromVerticesAreRefusedWithoutTheirAttributes)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
+    scene.meshes[0].name = "bare";
+    for (const FrameInfo& f : frames()) {
+        const auto image = renderReference(scene, viewOf(Output::normal, f.frame));
+        ASSERT_EQ(bool(image), !readsVertices(f.frame)) << f.name;
+        if (image)
+            continue;
+        EXPECT_EQ(image.error().kind, ErrorKind::usage);
+        EXPECT_NE(image.error().message.find("'bare'"), std::string::npos) << image.error().message;
+        EXPECT_NE(image.error().message.find(f.name), std::string::npos) << image.error().message;
+    }
+    scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, 1});
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::vertex)));
+    EXPECT_FALSE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+    scene.meshes[0].cotangentsU = scene.meshes[0].cotangentsV = scene.meshes[0].normals;
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+}
+
+TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutUvToMakeThemFrom)
+{
+    Scene scene = sceneOf(meshOf(kSheared));
+    scene.meshes[0].texcoords[0].clear();
     for (Frame frame : {Frame::smooth, Frame::vertex, Frame::mikktspace}) {
         glm::vec4 t = pixelOf(rendered(scene, viewOf(Output::tangent, frame)), 32, 32);
         EXPECT_EQ(t, glm::vec4(0, 0, 0, 1));

@@ -358,6 +358,8 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
 {
     if (const Status ok = checkView(*device_, view); !ok)
         return ok.error();
+    if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
+        return ok.error();
     const Targets::Kind kind = targetKind(*device_, view);
     if (!targets_ || !(targets_->kind() == kind)) {
         targets_.reset(); // its memory may be needed for the new ones

@@ -5,6 +5,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "gpu_structs.hpp"
 #include "view_data.hpp"
 
@@ -199,6 +200,8 @@ GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& sc
     : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
       textures_(device)
 {
+    for (const FrameInfo& f : frames())
+        withFrame.push_back(checkVertexAttributes(scene, f.frame));
     Uploader uploader(device, kStaging);
     textures_.load(scene, uploader);
     loadMeshes(scene, uploader);
