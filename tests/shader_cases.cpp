@@ -85,11 +85,10 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
         };
         return c;
     }
-    c.call = made->entry + (frame == Frame::smooth ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
+    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
     c.expected = [=](const Vectors& v) {
-        const f64::cotan_frame f = frame == Frame::smooth ? f64::cotan_frame_smooth(v.n, v.dpdx, v.dpdy)
-            : frame == Frame::vertex                      ? f64::cotan_frame_vertex(v.n, v.dpdx, 1)
-                                                          : f64::cotan_frame_mikktspace(v.n, v.dpdx, 1);
+        const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
+        const f64::cotan_frame f = readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
         return f64::cotan_apply(f, decoded(v));
     };
     return c;
