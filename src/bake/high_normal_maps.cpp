@@ -63,7 +63,7 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
                 image->second = &maps.images_.back();
             }
             const Image& picture = *image->second;
-            if (picture.pixelCount() == 0 || picture.data.size() < picture.pixelCount() * picture.bytesPerPixel())
+            if (!hasPixels(picture))
                 continue;
             auto surface = makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentOrigin::stored);
             if (!surface)

@@ -11,6 +11,7 @@
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_sample.hpp"
 #include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
@@ -137,10 +138,8 @@ private:
 
     void copyAlpha(std::size_t at)
     {
-        const double alpha = map_.type == PixelType::unorm8 ? map_.bytes8()[at + 3] / 255.0
-            : map_.type == PixelType::unorm16               ? map_.words()[at + 3] / 65535.0
-                                                            : double(map_.floats()[at + 3]);
-        set(at + 3, alpha);
+        const int x = int(at / 4 % std::size_t(map_.width)), y = int(at / 4 / std::size_t(map_.width));
+        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
     }
 
     void keep(int x, int y)

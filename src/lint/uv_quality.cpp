@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
@@ -44,7 +45,7 @@ double stretchOf(const Gradients& g)
 
 double shearOf(const Gradients& g)
 {
-    const double angle = glm::degrees(std::atan2(glm::length(glm::cross(g.u, g.v)), glm::dot(g.u, g.v)));
+    const double angle = glm::degrees(angleBetween(g.u, g.v));
     return std::abs(90 - angle);
 }
 

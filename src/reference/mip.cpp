@@ -126,12 +126,6 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
 
 } // namespace
 
-bool isUsable(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
-}
-
 MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
 {
     MipChain chain{&image, content, {}};

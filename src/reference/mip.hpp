@@ -29,9 +29,6 @@ struct MipChain {
     }
 };
 
-// Whether the image has a size and the data for it.
-bool isUsable(const Image& image);
-
 // Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded
 // vectors, which are normalised before they are stored again; everything else as numbers. Every
 // texel of a level is the average of the area that it covers in the one before, also where a size

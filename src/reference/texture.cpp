@@ -84,7 +84,7 @@ const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Textu
     if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
         return nullptr;
     const Image& image = scene.images[std::size_t(texture.image)];
-    if (!isUsable(image))
+    if (!hasPixels(image))
         return nullptr;
     const MipChain*& known =
         library.made[{texture.image, content, format.expansion, format.channels}];

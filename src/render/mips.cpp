@@ -291,12 +291,6 @@ std::size_t bytesPerTexel(TexelFormat format)
     return 16;
 }
 
-bool usableImage(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
-}
-
 TexelFormat texelFormat(PixelType type, TextureKind kind, bool filterable16, bool filterable32)
 {
     if (type == PixelType::unorm8)

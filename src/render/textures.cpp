@@ -114,7 +114,7 @@ void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
     if (!use.present() || std::size_t(use.image) >= scene.images.size())
         return;
     const Image& image = scene.images[std::size_t(use.image)];
-    if (!usableImage(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
+    if (!hasPixels(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
         return;
     MipRequest r;
     r.image = &image;
