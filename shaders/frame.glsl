@@ -65,7 +65,11 @@ cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
 cotan_frame frameOf(vec3 n, Differences d)
 {
 #ifdef COTAN_EXACT
-#define COTAN_FROM_triangle(word) { Differences e = triangleEdges(); return cotan_frame_##word(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy); }
+#define COTAN_FROM_triangle(word)        \
+    {                                    \
+        Differences e = triangleEdges(); \
+        return cotan_frame_##word(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy); \
+    }
 #else
 #define COTAN_FROM_triangle(word) break;
 #endif
@@ -75,8 +79,10 @@ cotan_frame frameOf(vec3 n, Differences d)
     // increasing v, as v runs down the image. Our b points along increasing v: hence -w.
     float handedness = -inTangent.w;
 #define COTAN_FROM_differences(word) return cotan_frame_##word(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-#define COTAN_FROM_cotangents(word) if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
-#define COTAN_FROM_tangents(word) if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, handedness); break;
+#define COTAN_FROM_cotangents(word) \
+    if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
+#define COTAN_FROM_tangents(word) \
+    if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, handedness); break;
 #define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
     case number: COTAN_FROM_##source(word)
     switch (COTAN_FRAME) {

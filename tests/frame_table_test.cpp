@@ -1,4 +1,5 @@
-// What a frame of the table cotan/frames.inc needs in other places, by name: whoever adds a row reads here what is missing.
+// What a frame of the table cotan/frames.inc needs in other places, by name: whoever adds a row reads here what is
+// missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,9 +28,9 @@ std::string read(const std::string& file)
 std::string rowOfDocs(const FrameInfo& f)
 {
     const char* from = f.source == FrameSource::differences ? "differences"
-        : f.source == FrameSource::triangle                ? "the whole triangle"
-        : f.source == FrameSource::cotangents              ? "cotangents at the vertices"
-                                                           : "tangents at the vertices";
+        : f.source == FrameSource::triangle                 ? "the whole triangle"
+        : f.source == FrameSource::cotangents               ? "cotangents at the vertices"
+                                                            : "tangents at the vertices";
     const auto yes = [](bool is) { return is ? " yes |" : " no |"; };
     return "| `" + std::string(f.name) + "` | " + from + " |" + yes(f.total) + yes(f.fused) + yes(!f.dependsOnView);
 }

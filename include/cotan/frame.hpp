@@ -32,8 +32,8 @@ enum class FrameSource {
 
 struct FrameInfo {
     Frame frame;
-    std::string_view name;    // as on the command line
-    std::string_view word;    // in the portable text: cotan_frame_WORD
+    std::string_view name; // as on the command line
+    std::string_view word; // in the portable text: cotan_frame_WORD
     FrameSource source;
     bool total;               // no input gives NaN; otherwise degenerate input may
     bool dependsOnView;       // changes with where it is seen from, or with the way that the target's rows run
@@ -51,7 +51,8 @@ inline std::string_view name(Frame frame) { return info(frame).name; }
 // rows of the target run. No map can be made for such a frame.
 inline bool dependsOnView(Frame frame) { return info(frame).dependsOnView; }
 
-// What a frame reads at the vertices of a mesh, which has to be stored or derived before: nothing, tangents or cotangents.
+// What a frame reads at the vertices of a mesh, which has to be stored or derived before: nothing, tangents or
+// cotangents.
 inline bool readsTangents(Frame frame) { return info(frame).source == FrameSource::tangents; }
 inline bool readsCotangents(Frame frame) { return info(frame).source == FrameSource::cotangents; }
 inline bool readsVertices(Frame frame) { return readsTangents(frame) || readsCotangents(frame); }
@@ -65,10 +66,10 @@ inline bool isFrame(int number) { return number >= 0 && number < kFrameCount; }
 // Evaluates a frame whose source is `differences` or `triangle`. The caller must not ask for a frame that reads the
 // vertices: there is nothing to evaluate, and it gives t = b = 0 and n as passed.
 // Arguments and degenerate input: as for the functions cotan_frame_NAME in shaders/cotan/frame.h.
-f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx,
-                          f32::cotan_vec3 dpdy, f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy);
-f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx,
-                          f64::cotan_vec3 dpdy, f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy);
+f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx, f32::cotan_vec3 dpdy,
+                          f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy);
+f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx, f64::cotan_vec3 dpdy,
+                          f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy);
 
 // Evaluates a frame whose source is `cotangents`, from interpolated covectors u and v; others as above.
 f32::cotan_frame evaluateCotangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 u, f32::cotan_vec3 v);

@@ -14,8 +14,7 @@ struct Run { // of lanes on one triangle
     std::size_t from, to;
 };
 
-template<class Vec>
-void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
+template<class Vec> void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
 {
     const glm::vec3 p(a), q(b), r(c);
     for (std::size_t i = run.from; i < run.to; ++i) {
@@ -53,8 +52,7 @@ void gather(const LowSurface& s, std::uint32_t triangle, Run run, Ingredients& i
 }
 
 // Everything that is called becomes part of the loop: only so the compiler takes several lanes at a time.
-template<class Make>
-[[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
+template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const f32::cotan_frame f = make(i);
@@ -68,7 +66,8 @@ template<class Make>
 [[gnu::flatten]] void makeFromDifferences(const Ingredients& in, LowPoints& points, const Make& make)
 {
     makeEach(points, [&](std::size_t i) {
-        return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]), glm::vec2(in.uy[i], in.vy[i]));
+        return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]),
+                    glm::vec2(in.uy[i], in.vy[i]));
     });
 }
 
@@ -76,15 +75,16 @@ template<class Make>
 void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
 {
     switch (frame) {
-#define COTAN_MAKE_differences(word) \
+#define COTAN_MAKE_differences(word)                                                                                   \
     makeFromDifferences(in, points, [](const auto&... arguments) { return f32::cotan_frame_##word(arguments...); })
 #define COTAN_MAKE_triangle(word) COTAN_MAKE_differences(word)
-#define COTAN_MAKE_cotangents(word) \
+#define COTAN_MAKE_cotangents(word)                                                                                    \
     makeEach(points, [&](std::size_t i) { return f32::cotan_frame_##word(in.raw.at(i), in.u.at(i), in.v.at(i)); })
-#define COTAN_MAKE_tangents(word) \
+#define COTAN_MAKE_tangents(word)                                                                                      \
     makeEach(points, [&](std::size_t i) { return f32::cotan_frame_##word(in.raw.at(i), in.u.at(i), in.handedness[i]); })
-#define COTAN_FRAME_ROW(number, enumerator, word, source, ...) \
-    case Frame::enumerator: return COTAN_MAKE_##source(word);
+#define COTAN_FRAME_ROW(number, enumerator, word, source, ...)                                                         \
+    case Frame::enumerator:                                                                                            \
+        return COTAN_MAKE_##source(word);
 #include "cotan/frames.inc"
 #undef COTAN_MAKE_differences
 #undef COTAN_MAKE_triangle

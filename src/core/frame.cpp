@@ -9,7 +9,7 @@ namespace {
 using enum FrameSource;
 
 constexpr std::array<FrameInfo, kFrameCount> kFrames = {{
-#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
     {Frame::enumerator, name, #word, source, total, dependsOnView, fused, summary},
 #include "cotan/frames.inc"
 }};
@@ -31,8 +31,8 @@ static_assert(std::ranges::all_of(kFrames, [](const FrameInfo& f) { return sameB
               "cotan/frames.inc: a name is its word with '-' for '_'");
 
 // Both precisions of the portable text are at hand in the functions below, and the arguments choose.
-#define COTAN_BOTH_PRECISIONS \
-    using namespace f32;      \
+#define COTAN_BOTH_PRECISIONS                                                                                          \
+    using namespace f32;                                                                                               \
     using namespace f64
 
 // What there is without a frame.
@@ -46,11 +46,10 @@ template<class Vec3> auto plain(Vec3 n)
 }
 
 // A row of the table is one case, which calls the row's function if that takes the arguments of its source.
-#define COTAN_FRAME_CASE(number, enumerator, word, source, ...) \
+#define COTAN_FRAME_CASE(number, enumerator, word, source, ...)                                                        \
     case Frame::enumerator: COTAN_FROM_##source(word);
 
-template<class Vec3, class Vec2>
-auto fromDifferences(Frame frame, Vec3 n, Vec3 dpdx, Vec3 dpdy, Vec2 duvdx, Vec2 duvdy)
+template<class Vec3, class Vec2> auto fromDifferences(Frame frame, Vec3 n, Vec3 dpdx, Vec3 dpdy, Vec2 duvdx, Vec2 duvdy)
 {
     COTAN_BOTH_PRECISIONS;
     switch (frame) {
@@ -115,14 +114,14 @@ std::optional<Frame> frameFromName(std::string_view name)
     return std::nullopt;
 }
 
-f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx,
-                          f32::cotan_vec3 dpdy, f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy)
+f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx, f32::cotan_vec3 dpdy,
+                          f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy)
 {
     return fromDifferences(frame, n, dpdx, dpdy, duvdx, duvdy);
 }
 
-f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx,
-                          f64::cotan_vec3 dpdy, f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy)
+f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx, f64::cotan_vec3 dpdy,
+                          f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy)
 {
     return fromDifferences(frame, n, dpdx, dpdy, duvdx, duvdy);
 }

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "entry.hpp"
+#include "fill.hpp"
 #include "parse.hpp"
 #include "portable_parts.hpp"
 #include "print.hpp"
@@ -62,13 +61,13 @@ Result<Form> formOf(const Choice& choice)
 {
     const bool several = choice.uvSets > 1;
     if (choice.uvSets < 1 || choice.uvSets > 4)
-        return usageError(fmt::format("uv sets: expected 1 to 4; found {}", choice.uvSets));
+        return usageError(fill("uv sets: expected 1 to 4; found {}", choice.uvSets));
     if (several && info(choice.frame).source != FrameSource::differences)
-        return usageError(fmt::format("several uv sets: expected a frame made from differences; found '{}'",
+        return usageError(fill("several uv sets: expected a frame made from differences; found '{}'",
                                       name(choice.frame)));
     if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
         return usageError(several ? std::string("the fused form has one uv set; for several, the form is total")
-                                  : fmt::format("the fused form: expected {}; found '{}'", fusedFrameNames(" or "),
+                                  : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "),
                                                 name(choice.frame)));
     return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
 }

@@ -22,14 +22,15 @@ glm::vec3 normalizedOrZero(glm::vec3 v)
 }
 
 // Appends one mesh as an instance places it.
-void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld,
-            std::uint32_t instance, bool storedTangents)
+void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::uint32_t instance,
+            bool storedTangents)
 {
     const auto base = std::uint32_t(surface.positions.size());
     const glm::mat3 linear(toWorld);
     const float determinant = glm::determinant(linear);
-    const glm::mat3 cofactors = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                                          glm::cross(linear[0], linear[1])) * (determinant < 0 ? -1.0f : 1.0f);
+    const glm::mat3 cofactors =
+        glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]))
+        * (determinant < 0 ? -1.0f : 1.0f);
     // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
     const bool rigid = cofactors == linear;
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
@@ -119,7 +120,9 @@ Differences<double> differencesOf(const LowSurface& s, std::uint32_t triangle)
     if (determinant == 0 || info(s.frame).source == FrameSource::triangle)
         return {Vector3d(e.p1), Vector3d(e.p2), e.uv1, e.uv2};
     return {Vector3d((e.p1 * e.uv2.y - e.p2 * e.uv1.y) / determinant),
-            Vector3d((e.p2 * e.uv1.x - e.p1 * e.uv2.x) / determinant), {1, 0}, {0, 1}};
+            Vector3d((e.p2 * e.uv1.x - e.p1 * e.uv2.x) / determinant),
+            {1, 0},
+            {0, 1}};
 }
 
 LowPoint pointOf(const LowSurface& s, std::uint32_t triangle, double b1, double b2)

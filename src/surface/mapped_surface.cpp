@@ -42,7 +42,10 @@ std::vector<glm::dvec4> moved(const LinearMap<double>& m, const std::vector<glm:
     return result;
 }
 
-glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c) { return m.planeImage(Covector3d(glm::dvec3(c))).raw(); }
+glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
+{
+    return m.planeImage(Covector3d(glm::dvec3(c))).raw();
+}
 
 // Cotangents per corner, mirrored and unmirrored triangles apart.
 void addCotangents(MappedSurface& surface, const MeshView& mesh, const LinearMap<double>& m)
@@ -84,10 +87,9 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     const bool storedFits = mesh.tangents.size() == mesh.vertexCount();
     for (std::uint32_t i : mesh.indices) {
         surface.positions.push_back(linear * glm::dvec3(mesh.positions[i]));
-        surface.normals.push_back(
-            i < mesh.normals.size()
-                ? f64::cotan_normalize_or(movedCovector(m, mesh.normals[i]), glm::dvec3(0))
-                : glm::dvec3(0));
+        surface.normals.push_back(i < mesh.normals.size()
+                                      ? f64::cotan_normalize_or(movedCovector(m, mesh.normals[i]), glm::dvec3(0))
+                                      : glm::dvec3(0));
         if (!uv.empty())
             surface.uv.push_back(glm::dvec2(uv[i]));
         if (storedFits)

@@ -12,10 +12,10 @@ namespace cotan {
 
 namespace {
 
-constexpr double kFarthest = 1e6;         // uv beyond have no texel of their own in float
-constexpr double kReach = 0.70710678;     // half the diagonal of a texel
-constexpr int kTile = 4;                  // side of the squares in which first places come
-constexpr int kMostCopies = 64;           // of one triangle that wraps: per axis
+constexpr double kFarthest = 1e6;     // uv beyond have no texel of their own in float
+constexpr double kReach = 0.70710678; // half the diagonal of a texel
+constexpr int kTile = 4;              // side of the squares in which first places come
+constexpr int kMostCopies = 64;       // of one triangle that wraps: per axis
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -150,8 +150,7 @@ std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, doub
             int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1))};
 }
 
-template<class Emit>
-void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
+template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
 {
     const double py = y + 0.5;
     double low, high;
@@ -251,7 +250,9 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     next.assign(std::size_t(kBlockRows / kTile * across) + 1, 0);
     found.clear();
     result.again.clear();
-    const auto tileOf = [&](glm::ivec2 texel) { return std::size_t((texel.y - top) / kTile * across + texel.x / kTile); };
+    const auto tileOf = [&](glm::ivec2 texel) {
+        return std::size_t((texel.y - top) / kTile * across + texel.x / kTile);
+    };
     const auto eachRow = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(block)) {
             const Shown& t = shown_[i];

@@ -24,9 +24,9 @@ struct LowSurface {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint32_t> indices;
-    std::vector<glm::vec4> tangents;                  // one a corner, as tangentAlongV; empty if the frame reads none
-    std::vector<glm::vec3> cotangentsU, cotangentsV;  // one a vertex; empty if the frame reads none
-    std::vector<std::uint32_t> triangleInstance;      // which instance of the scene each triangle is of
+    std::vector<glm::vec4> tangents;                 // one a corner, as tangentAlongV; empty if the frame reads none
+    std::vector<glm::vec3> cotangentsU, cotangentsV; // one a vertex; empty if the frame reads none
+    std::vector<std::uint32_t> triangleInstance;     // which instance of the scene each triangle is of
 
     std::size_t triangleCount() const { return indices.size() / 3; }
     Corners cornersOf(std::size_t triangle) const

@@ -1,5 +1,6 @@
 // A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every
-// point. In double, per corner; made once, asked often. For one frame in the world, as it is baked, see low_surface.hpp.
+// point. In double, per corner; made once, asked often. For one frame in the world, as it is baked, see
+// low_surface.hpp.
 #pragma once
 
 #include <array>
@@ -21,9 +22,9 @@ namespace cotan {
 // that makeSurface was given.
 struct MappedSurface {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::dvec3> normals;    // unit, or zero where unknown
-    std::vector<glm::dvec2> uv;         // of the normal map, transformed; empty if the mesh has none
-    std::vector<glm::dvec4> stored;     // as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Empty if none
+    std::vector<glm::dvec3> normals; // unit, or zero where unknown
+    std::vector<glm::dvec2> uv;      // of the normal map, transformed; empty if the mesh has none
+    std::vector<glm::dvec4> stored;  // as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Empty if none
     std::array<std::vector<glm::dvec4>, kFrameCount> generated; // likewise; of the frames that read tangents
     std::vector<glm::dvec3> cotangentsU, cotangentsV;
 

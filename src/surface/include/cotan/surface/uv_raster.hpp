@@ -54,8 +54,8 @@ enum class UvReach {
 struct UvFirsts {
     std::vector<glm::ivec2> texels; // beside places
     std::vector<UvPlace> places;
-    std::vector<glm::ivec2> again;  // texels whose centre another triangle covers too; one that many cover comes again
-    UvScratch<glm::ivec2> scratch;  // no part of the result
+    std::vector<glm::ivec2> again; // texels whose centre another triangle covers too; one that many cover comes again
+    UvScratch<glm::ivec2> scratch; // no part of the result
 };
 
 // The texels of an image under a layout of uv. Keeps, per block of rows, a list of the triangles that
@@ -83,7 +83,7 @@ private:
     struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
         std::uint32_t triangle;
         glm::dvec2 corner[3];
-        bool mirrored; // corners 1 and 2 are exchanged
+        bool mirrored;          // corners 1 and 2 are exchanged
         glm::ivec2 first, last; // columns and rows that it may touch
     };
     struct Weights;
