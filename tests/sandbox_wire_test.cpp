@@ -175,6 +175,8 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
         {[](Scene& s, float x) { s.materials[0].baseColor.w = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].alphaCutoff = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].normalScale = x; }, "material 0: expected finite factors"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.expansion = Expansion(4); }, "expected a way to store normals"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.channels = Channels(-1); }, "expected a way to store normals"},
         {[](Scene& s, float) { s.meshes[0].material = 1; }, "mesh 0: expected a material below 1, found 1"},
         {[](Scene& s, float) { s.meshes[0].material = -1; }, "expected a material below 1, found -1"},
         {[](Scene& s, float) { s.meshes[0].indices[5] = 9; }, "triangle 1: expected an index below 9, found 9"},
