@@ -92,7 +92,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
     for (const glm::dmat3& linear : placed) {
         MapUse use;
         use.surface = makeSurface(mesh, Texture{}, linear);
-        use.format = {0, 0, -1.0, info->value("scale", 1.0)}; // glTF: exact, xyz, green against +v
+        use.strength = info->value("scale", 1.0);
         use.wrapU = wrapOf(root, texture, "wrapS");
         use.wrapV = wrapOf(root, texture, "wrapT");
         job.uses.push_back(std::move(use));

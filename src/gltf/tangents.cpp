@@ -49,7 +49,7 @@ bool hasNormalMap(const Json& root, std::size_t m, std::size_t p)
 template<class Visit>
 Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, const TangentsOptions& options, const Visit& visit)
 {
-    if (options.frame != Frame::mikktspace && options.frame != Frame::vertex)
+    if (!readsTangents(options.frame))
         return usageError(fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
     std::vector<PrimitiveTangents> rows;
     std::size_t all = 0, done = 0;
@@ -75,7 +75,7 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
 
 std::vector<glm::vec4> generate(const GltfPrimitiveGeometry& read, const TangentsOptions& options)
 {
-    return options.frame == Frame::vertex ? vertexTangents(read.view()) : mikktspaceTangents(read.view(), options.threads);
+    return generateTangents(options.frame, read.view(), options.threads);
 }
 
 } // namespace
