@@ -6,18 +6,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
 
 namespace {
-
-glm::vec2 transformed(const Texture& map, glm::vec2 uv)
-{
-    if (!map.present())
-        return uv;
-    return {map.uRow.x * uv.x + map.uRow.y * uv.y + map.uRow.z, map.vRow.x * uv.x + map.vRow.y * uv.y + map.vRow.z};
-}
 
 glm::vec3 normalizedOrZero(glm::vec3 v)
 {
@@ -40,7 +34,7 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
         surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(cofactors * mesh.normals[v]));
-        surface.texcoords.push_back(transformed(map, texcoords[v]));
+        surface.texcoords.push_back(textureUv(map, texcoords[v]));
     }
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::uint32_t corner[3] = {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};

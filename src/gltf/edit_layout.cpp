@@ -33,15 +33,15 @@ struct Part {
 std::vector<Part> partsOf(const GltfDocument& document)
 {
     std::vector<Part> parts(countOf(document.root, "bufferViews"));
-    const std::size_t old = countOf(document.source->root, "bufferViews");
+    const std::size_t old = document.source->views.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].bytes = viewBytes(document, i);
         parts[i].fromFile = i < old;
         if (!parts[i].fromFile)
             continue;
-        const OrderedJson& view = document.source->root["bufferViews"][i];
-        parts[i].buffer = sizeOr(view, "buffer", 0);
-        parts[i].offset = sizeOr(view, "byteOffset", 0);
+        const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+        parts[i].buffer = view.buffer;
+        parts[i].offset = view.offset;
     }
     return parts;
 }
@@ -53,7 +53,7 @@ void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
 
 void place(Layout& out, const Part& part, std::size_t offset)
 {
-    OrderedJson& view = out.root["bufferViews"][part.view];
+    Json& view = out.root["bufferViews"][part.view];
     view["buffer"] = 0;
     if (offset > 0 || view.contains("byteOffset"))
         view["byteOffset"] = offset;
@@ -95,7 +95,7 @@ void appendWhole(const GltfDocument& document, const std::vector<Part>& parts, L
 
 void describeBuffer(GltfDocument& document, Layout& out)
 {
-    OrderedJson first = OrderedJson::object();
+    Json first = Json::object();
     if (const std::size_t count = countOf(out.root, "buffers"); count > 0) {
         first = out.root["buffers"][0];
         if (count > 1)
@@ -108,7 +108,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
     if (out.buffer.empty())
         out.root.erase("buffers");
     else
-        out.root["buffers"] = OrderedJson::array({std::move(first)});
+        out.root["buffers"] = Json::array({std::move(first)});
 }
 
 } // namespace

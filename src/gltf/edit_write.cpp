@@ -23,18 +23,18 @@ struct Output {
     std::vector<std::byte> bytes;
 };
 
-bool isExternal(const OrderedJson& image)
+bool isExternal(const Json& image)
 {
     return image.contains("uri")
         && !image["uri"].get_ref<const std::string&>().starts_with("data:");
 }
 
 // The image files that the JSON names, by image; those that are missing are left out.
-std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const OrderedJson& root)
+std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json& root)
 {
     std::map<std::size_t, fs::path> files;
     for (std::size_t i = 0; i < countOf(root, "images"); ++i) {
-        const OrderedJson& image = root["images"][i];
+        const Json& image = root["images"][i];
         if (!isExternal(image))
             continue;
         GltfResource resource =
@@ -95,7 +95,7 @@ std::string mimeTypeOf(std::span<const std::byte> bytes)
 // An image file used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
-    std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
+    std::map<fs::path, Json> embedded; // what the image gets in place of its uri
     for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
         if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(file, limits);
@@ -197,7 +197,7 @@ std::string plainName(const std::string& name)
 }
 
 // What an image is called: by its name, or by the file that it was in.
-std::string nameOfImage(const GltfSource& source, const OrderedJson& root, std::size_t i)
+std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
     if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
@@ -213,9 +213,9 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
     if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > limits.fileBytes)
         return uris;
     std::ifstream stream(file, std::ios::binary); // no input of ours: it goes
-    const OrderedJson root = OrderedJson::parse(stream, nullptr, false);
+    const Json root = Json::parse(stream, nullptr, false);
     if (root.is_object() && root.contains("images") && root["images"].is_array())
-        for (const OrderedJson& image : root["images"])
+        for (const Json& image : root["images"])
             if (image.is_object() && image.contains("uri") && image["uri"].is_string())
                 uris.push_back(image["uri"].get<std::string>());
     return uris;
@@ -226,13 +226,13 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
 void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits, std::vector<Output>& outputs)
 {
     const GltfSource& source = *document.source;
-    const std::size_t old = countOf(source.root, "bufferViews");
+    const std::size_t old = source.views.size();
     const std::vector<std::string> own = ownImages(file, limits);
     std::vector<fs::path> read;
     for (const auto& [i, path] : imageFiles(source, source.root))
         read.push_back(path);
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i) {
-        OrderedJson& image = document.root["images"][i];
+        Json& image = document.root["images"][i];
         if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
             continue;
         const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
@@ -256,7 +256,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
 
 // Image files go to the same place relative to the new folder; what is there already has to be the
 // same.
-void copyImages(const GltfSource& source, const OrderedJson& root, const fs::path& folder,
+void copyImages(const GltfSource& source, const Json& root, const fs::path& folder,
                 const LoadLimits& limits, std::vector<Output>& outputs)
 {
     std::error_code error;

@@ -1,17 +1,16 @@
 #include "file.hpp"
 
 #include <array>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "cotan/files/bytes.hpp"
 #include "cotan/files/folder.hpp"
+#include "parse.hpp"
 
 namespace cotan {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -65,39 +64,6 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
         if (chunk == 1 && type == kChunkBinary)
             file.binary = bytes.subspan(at + 8, length);
         at += 8 + length;
-    }
-}
-
-// The parsers recurse once a level, so a file of brackets could run them out of stack.
-void checkDepth(std::string_view text)
-{
-    int depth = 0;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (inString) {
-            if (c == '\\')
-                ++i;
-            inString = c != '"';
-        } else if (c == '"') {
-            inString = true;
-        } else if (c == '[' || c == '{') {
-            if (++depth > kGltfDepth)
-                failGltf("JSON: nested deeper than {} levels", kGltfDepth);
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-}
-
-template<class Json> Json parseText(std::span<const std::byte> bytes)
-{
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    checkDepth(text);
-    try {
-        return Json::parse(text);
-    } catch (const json::exception& problem) {
-        failGltf("JSON: {}", problem.what());
     }
 }
 
@@ -200,8 +166,7 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
 
 } // namespace
 
-GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings,
-                  bool keepOrder)
+GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
 {
     GltfFile file;
     Result<std::vector<std::byte>> bytes = readFileBytes(path, limits.fileBytes);
@@ -217,16 +182,14 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
         splitChunks(file, warnings);
     else
         file.text = file.bytes;
-    file.json = parseText<json>(file.text);
-    if (keepOrder)
-        file.ordered = parseText<nlohmann::ordered_json>(file.text);
+    file.json = parseGltfJson(file.text);
     if (!file.isBinary)
         file.bytes = {}; // large where buffers are embedded as text
     file.text = {};
     return file;
 }
 
-GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const std::string& field,
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field,
                             bool mayMiss)
 {
     GltfResource resource;
@@ -235,30 +198,30 @@ GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const 
         return resource;
     }
     if (hasScheme(uri))
-        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
+        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(std::string(uri)));
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
         failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it",
-                 field, oneLine(uri));
+                 field, oneLine(std::string(uri)));
     if (!found && !mayMiss)
-        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(uri));
+        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
     resource.file = found.value_or(fs::path());
     return resource;
 }
 
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
 {
-    const json none = json::array();
-    const json& list = file.json.contains("buffers") ? file.json["buffers"] : none;
-    file.bufferBytes.reserve(list.size()); // spans point into it
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    const gltf::Json* const list = gltf::member(file.json, "buffers");
+    const std::size_t count = list ? list->size() : 0;
+    file.bufferBytes.reserve(count); // spans point into it
+    for (std::size_t i = 0; i < count; ++i) {
         const std::string field = fmt::format("buffers[{}]", i);
-        const auto length = list[i]["byteLength"].get<std::size_t>();
+        const gltf::Json& buffer = (*list)[i];
+        const auto length = buffer["byteLength"].get<std::size_t>();
         std::span<const std::byte> bytes;
-        if (list[i].contains("uri")) {
-            GltfResource resource =
-                resolveGltfUri(file, list[i]["uri"].get_ref<const std::string&>(), field + ".uri");
+        if (const gltf::Json* const uri = gltf::member(buffer, "uri")) {
+            GltfResource resource = resolveGltfUri(file, uri->get_ref<const std::string&>(), field + ".uri");
             if (resource.file.empty())
                 bytes = file.bufferBytes.emplace_back(std::move(resource.bytes));
             else

@@ -13,7 +13,6 @@
 namespace cotan {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -27,17 +26,16 @@ std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const json& entry = model.file.json["images"][static_cast<std::size_t>(image)];
+    const gltf::Image& entry = model.structure.images[static_cast<std::size_t>(image)];
     const std::string field = imageField(image);
     ImageSource source;
-    source.name = oneLine(entry.value("name", std::string()));
-    if (entry.contains("uri") == entry.contains("bufferView"))
+    source.name = oneLine(entry.name);
+    if (entry.uri.has_value() == (entry.view >= 0))
         failGltf("{}: expected either uri or bufferView", field);
-    if (entry.contains("bufferView")) {
-        source.bytes = gltfView(model, entry["bufferView"].get<int>());
+    if (entry.view >= 0) {
+        source.bytes = model.views[static_cast<std::size_t>(entry.view)].bytes;
     } else {
-        const auto& uri = entry["uri"].get_ref<const std::string&>();
-        source.resource = resolveGltfUri(model.file, uri, field + ".uri", mayMiss);
+        source.resource = resolveGltfUri(model.file, *entry.uri, field + ".uri", mayMiss);
         source.bytes = source.resource.bytes;
         if (!source.resource.file.empty())
             source.name = source.resource.file.filename().string();
@@ -177,10 +175,7 @@ void lookAt(const GltfModel& model, int image, bool used)
 
 void GltfMaterials::checkUnusedImages() const
 {
-    const json none = json::array();
-    const json& file = model_.file.json;
-    const json& images = file.contains("images") ? file["images"] : none;
-    for (int i = 0; i < static_cast<int>(images.size()); ++i) {
+    for (int i = 0; i < static_cast<int>(model_.structure.images.size()); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
             continue; // it was decoded

@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "codes.hpp"
+
 namespace cotan::gltf_schema {
 
 enum class Shape {
@@ -47,6 +49,7 @@ struct Field {
     double high = FLT_MAX;
     std::span<const std::string_view> texts = {}; // allowed values; empty: any
     std::span<const int> integers = {};           // allowed values; empty: any in range
+    unsigned multipleOf = 1;                      // integers
 };
 
 constexpr Field boolean(std::string_view n) { return {n, Shape::boolean}; }
@@ -96,11 +99,17 @@ constexpr Field required(Field field)
 // ---- the tables, leaves first ---------------------------------------------------------------
 
 using std::string_view;
-inline constexpr std::array kComponentTypes{5120, 5121, 5122, 5123, 5125, 5126};
-inline constexpr std::array kIndexTypes{5121, 5123, 5125};
-inline constexpr std::array kMagFilters{9728, 9729};
-inline constexpr std::array kMinFilters{9728, 9729, 9984, 9985, 9986, 9987};
-inline constexpr std::array kWraps{10497, 33071, 33648};
+inline constexpr std::array kComponentTypes{gltf::kByte,          gltf::kUnsignedByte, gltf::kShort,
+                                            gltf::kUnsignedShort, gltf::kUnsignedInt,  gltf::kFloat};
+inline constexpr std::array kIndexTypes{gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt};
+inline constexpr std::array kMagFilters{gltf::kNearest, gltf::kLinear};
+inline constexpr std::array kMinFilters{gltf::kNearest,
+                                        gltf::kLinear,
+                                        gltf::kNearestMipmapNearest,
+                                        gltf::kLinearMipmapNearest,
+                                        gltf::kNearestMipmapLinear,
+                                        gltf::kLinearMipmapLinear};
+inline constexpr std::array kWraps{gltf::kRepeat, gltf::kClampToEdge, gltf::kMirroredRepeat};
 inline constexpr std::array kElementTypes{
     string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"), string_view("VEC4"),
     string_view("MAT2"),   string_view("MAT3"), string_view("MAT4")};
@@ -160,7 +169,7 @@ inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       numbers("max")};
 inline constexpr std::array kBufferView{required(index("buffer", "buffers")), size("byteOffset"),
                                         required(size("byteLength")),
-                                        integer("byteStride", 0, 252)};
+                                        Field{.name = "byteStride", .shape = Shape::integer, .low = 0, .high = 252, .multipleOf = 4}};
 inline constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
 
 inline constexpr std::array kTransform{numbers("offset", 2), number("rotation"),
