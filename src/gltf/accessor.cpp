@@ -44,8 +44,7 @@ void findViews(GltfModel& model)
 }
 
 template<class T>
-std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value,
-                         const std::string& field)
+std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, const std::string& field)
 {
     takeGltfBytes(model, count * sizeof(T), field);
     return std::vector<T>(count, value);
@@ -65,11 +64,12 @@ void findGltfAccessors(GltfModel& model)
     model.accessors = gltf::readAll(&model.file.json, "accessors", [&](const gltf::Json& json) {
         const std::string field = fmt::format("accessors[{}]", i);
         const Accessor a = gltf::readAccessor(json);
-        Elements elements = gltf::findElements(a, [&](std::size_t view) { return model.views[view]; }, field);
+        Elements elements = gltf::findElements(
+            a, [&](std::size_t view) { return model.views[view]; }, field);
         total += a.count * gltf::elementSize(a);
         if (total > most)
-            failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}",
-                     field, total, most, model.file.size);
+            failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}", field, total, most,
+                     model.file.size);
         gltf::checkSparse(elements, field);
         if (!texcoords.contains(static_cast<int>(i++)))
             gltf::checkFinite(elements, field);
@@ -77,8 +77,7 @@ void findGltfAccessors(GltfModel& model)
     });
 }
 
-std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const Choice& choice,
-                                      const std::string& field)
+std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
 {
     if (accessorAt(model, accessor).type != ElementType::vec3)
         return readGltfVectors<glm::vec4>(model, accessor, choice, field);
@@ -89,8 +88,7 @@ std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const Choi
     return colors;
 }
 
-std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const Choice& choice,
-                                       const std::string& field)
+std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
 {
     const Accessor& a = accessorAt(model, accessor);
     gltf::expectElements(a, ElementType::vec4, choice.count, {accessor, field});
@@ -103,42 +101,37 @@ std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const Cho
     return joints;
 }
 
-std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::size_t count,
-                                        const std::string& field)
+std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field)
 {
     const Accessor& a = accessorAt(model, accessor);
     if (a.type != ElementType::mat4 || a.componentType != gltf::kFloat)
-        failGltf("{}: expected MAT4 of floats in accessors[{}], found {} of {}", field, accessor,
-                 gltf::nameOf(a.type), gltf::nameOfComponent(a.componentType));
+        failGltf("{}: expected MAT4 of floats in accessors[{}], found {} of {}", field, accessor, gltf::nameOf(a.type),
+                 gltf::nameOfComponent(a.componentType));
     if (a.count < count)
-        failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor,
-                 a.count);
+        failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
     std::vector<glm::mat4> matrices = makeArray(model, count, glm::mat4(0), field);
     if (count > 0)
         gltf::readFloats(model.accessors[std::size_t(accessor)], count, 16, &matrices[0][0].x);
     return matrices;
 }
 
-std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor,
-                                           std::size_t vertexCount, const std::string& field)
+std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor, std::size_t vertexCount,
+                                           const std::string& field)
 {
     const Accessor& a = accessorAt(model, accessor);
     gltf::expectIndices(a, {accessor, field});
     if (a.view < 0)
         failGltf("{}: expected accessors[{}] with a bufferView, found none", field, accessor);
     if (a.count > model.limits.triangles * 3)
-        failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3,
-                 a.count);
+        failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3, a.count);
     std::vector<std::uint32_t> indices = makeArray(model, a.count, std::uint32_t(0), field);
     gltf::readIntegers(model.accessors[std::size_t(accessor)], a.count, 1, indices.data());
     const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * gltf::componentSize(a.componentType));
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] == restart)
-            failGltf("{}: index {} is {}, the primitive restart value, which glTF forbids", field,
-                     i, restart);
+            failGltf("{}: index {} is {}, the primitive restart value, which glTF forbids", field, i, restart);
         if (indices[i] >= vertexCount)
-            failGltf("{}: index {} is {}, but there are {} vertices", field, i, indices[i],
-                     vertexCount);
+            failGltf("{}: index {} is {}, but there are {} vertices", field, i, indices[i], vertexCount);
     }
     return indices;
 }

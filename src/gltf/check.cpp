@@ -95,8 +95,7 @@ private:
             wrong(place, "an integer", value);
         const auto x = value.get<double>();
         if (!(x >= field.low && x <= field.high))
-            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high),
-                  value);
+            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
         bool allowed = field.integers.empty();
         for (const int i : field.integers)
             allowed = allowed || x == i;
@@ -143,8 +142,7 @@ private:
     void checkArray(const Json& value, const Field& field, const Place& place) const
     {
         if (field.length > 0 && value.is_array() && value.size() != field.length)
-            failGltf("{}: expected {} numbers, found {}", describe(place), field.length,
-                     value.size());
+            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
         each(value, place, [&](const Json& item, const Place& at) {
             switch (field.shape) {
             case Shape::numbers: checkNumber(item, field.low, field.high, at); break;
@@ -235,8 +233,7 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
         for (std::size_t i = 0; names && i < names->size(); ++i) {
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const bool known =
-                std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+            const bool known = std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
             const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))

@@ -27,8 +27,8 @@ void checkCounts(const GltfModel& model)
             const auto check = [&](const gltf::Attributes& attributes) {
                 for (const auto& [name, accessor] : attributes)
                     if (countOf(accessor) != expected)
-                        failGltf("{}.{}: expected {} elements, found {}", primitiveField(m, p), oneLine(name),
-                                 expected, countOf(accessor));
+                        failGltf("{}.{}: expected {} elements, found {}", primitiveField(m, p), oneLine(name), expected,
+                                 countOf(accessor));
             };
             check(primitives[p].attributes);
             for (const gltf::Attributes& target : primitives[p].targets)
@@ -76,8 +76,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     return document;
 }
 
-Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes,
-                      const std::string& mimeType)
+Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes, const std::string& mimeType)
 {
     image.erase("uri");
     image["bufferView"] = addView(document, std::move(bytes));
@@ -94,8 +93,7 @@ Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const L
 
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }
 
-Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image,
-                                              const LoadLimits& limits)
+Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image, const LoadLimits& limits)
 {
     const gltf::Image entry = gltf::readImage(document.root["images"][image]);
     if (entry.view >= 0) {
@@ -118,12 +116,11 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType)
 {
-    document.root["images"][image] =
-        withImage(document, document.root["images"][image], std::move(bytes), mimeType);
+    document.root["images"][image] = withImage(document, document.root["images"][image], std::move(bytes), mimeType);
 }
 
-std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes,
-                         const std::string& mimeType, const std::string& name)
+std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, const std::string& mimeType,
+                         const std::string& name)
 {
     Json image = Json::object();
     if (!name.empty())

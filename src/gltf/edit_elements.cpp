@@ -41,8 +41,7 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
     return gltfTriangles(primitive.mode, std::move(order));
 }
 
-std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride,
-                    int target)
+std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride, int target)
 {
     Json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
     if (stride > 0)
@@ -74,14 +73,14 @@ namespace {
 
 // The attribute of the chosen vertices; empty where the primitive lacks it.
 template<class Vector>
-std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Primitive& primitive, const std::string& name,
-                                  const gltf::Choice& choice, const std::string& field)
+std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Primitive& primitive,
+                                  const std::string& name, const gltf::Choice& choice, const std::string& field)
 {
     const int accessor = gltf::accessorOf(primitive.attributes, name);
     if (accessor < 0)
         return {};
-    return gltf::readVectors<Vector>(gltf_edit::elementsOf(document, document.root["accessors"][std::size_t(accessor)]), choice,
-                                     {accessor, field + "." + name});
+    return gltf::readVectors<Vector>(gltf_edit::elementsOf(document, document.root["accessors"][std::size_t(accessor)]),
+                                     choice, {accessor, field + "." + name});
 }
 
 // The uv as the material's normal map reads them; uv set 0 where there is no normal map.
@@ -123,8 +122,7 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
 
 } // namespace
 
-Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh,
-                                  std::size_t primitive)
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive)
 {
     return caughtGltf(document.source->path, [&] {
         return readGeometry(document, document.root["meshes"][mesh]["primitives"][primitive],

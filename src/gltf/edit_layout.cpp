@@ -17,10 +17,7 @@ std::vector<bool> released(const GltfDocument& document, Collection collection)
     return removed;
 }
 
-bool any(const std::vector<bool>& flags)
-{
-    return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
+bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
 
 // A buffer view with its bytes and where in the file they are.
 struct Part {
@@ -70,9 +67,7 @@ void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layo
     for (std::size_t first = 0, last; first < parts.size(); first = last) {
         const std::size_t buffer = parts[first].buffer, begin = parts[first].offset;
         std::size_t end = begin + parts[first].bytes.size();
-        for (last = first + 1; last < parts.size() && parts[last].buffer == buffer
-             && parts[last].offset < end;
-             ++last)
+        for (last = first + 1; last < parts.size() && parts[last].buffer == buffer && parts[last].offset < end; ++last)
             end = std::max(end, parts[last].offset + parts[last].bytes.size());
         alignFor(out.buffer, begin);
         const std::size_t start = out.buffer.size();
@@ -100,8 +95,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
         first = out.root["buffers"][0];
         if (count > 1)
             document.notes.push_back(
-                fmt::format("buffers: {} were joined into one; names and extras of the first are kept",
-                            count));
+                fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }
     first.erase("uri");
     first["byteLength"] = out.buffer.size();
@@ -129,9 +123,8 @@ Layout layOut(GltfDocument& document)
             removeItems(document.root, Collection::accessors, accessors);
         }
     } else {
-        document.notes.push_back(fmt::format(
-            "nothing is removed: unknown extensions may refer to any data ({})",
-            oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
+        document.notes.push_back(fmt::format("nothing is removed: unknown extensions may refer to any data ({})",
+                                             oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
     }
 
     std::vector<Part> parts = partsOf(document);

@@ -59,11 +59,9 @@ void visitPrimitive(Json& primitive, const Visit& visit)
 
 void visitAccessors(Json& root, const Visit& visit)
 {
-    forItems(root, "meshes", [&](Json& mesh) {
-        forItems(mesh, "primitives", [&](Json& p) { visitPrimitive(p, visit); });
-    });
-    forItems(root, "skins",
-             [&](Json& skin) { visitMember(skin, "inverseBindMatrices", visit); });
+    forItems(root, "meshes",
+             [&](Json& mesh) { forItems(mesh, "primitives", [&](Json& p) { visitPrimitive(p, visit); }); });
+    forItems(root, "skins", [&](Json& skin) { visitMember(skin, "inverseBindMatrices", visit); });
     forItems(root, "animations", [&](Json& animation) {
         forItems(animation, "samplers", [&](Json& sampler) {
             visitMember(sampler, "input", visit);
@@ -110,15 +108,17 @@ void visitImages(Json& root, const Visit& visit)
 // that are visited above.
 bool isKnown(std::string_view name)
 {
-    constexpr std::array families{
-        std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
-        std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
-        std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
-    constexpr std::array single{
-        std::string_view("KHR_lights_punctual"),       std::string_view("KHR_mesh_quantization"),
-        std::string_view("KHR_draco_mesh_compression"), std::string_view("KHR_animation_pointer"),
-        std::string_view("EXT_mesh_gpu_instancing"),   std::string_view("MSFT_texture_dds"),
-        std::string_view("MSFT_lod"),                  std::string_view("FB_ngon_encoding")};
+    constexpr std::array families{std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
+                                  std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
+                                  std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
+    constexpr std::array single{std::string_view("KHR_lights_punctual"),
+                                std::string_view("KHR_mesh_quantization"),
+                                std::string_view("KHR_draco_mesh_compression"),
+                                std::string_view("KHR_animation_pointer"),
+                                std::string_view("EXT_mesh_gpu_instancing"),
+                                std::string_view("MSFT_texture_dds"),
+                                std::string_view("MSFT_lod"),
+                                std::string_view("FB_ngon_encoding")};
     return std::find(single.begin(), single.end(), name) != single.end()
         || std::any_of(families.begin(), families.end(),
                        [&](std::string_view family) { return name.starts_with(family); });

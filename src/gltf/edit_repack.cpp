@@ -19,8 +19,7 @@ using Cluster = std::vector<Range>; // ranges that overlap, by `begin`
 
 std::vector<Cluster> clusters(std::vector<Range> ranges)
 {
-    std::sort(ranges.begin(), ranges.end(),
-              [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
     std::vector<Cluster> out;
     std::size_t end = 0;
     for (const Range& r : ranges) {
@@ -58,8 +57,7 @@ std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
 }
 
 // Interleaved attributes without the words that nobody uses, as a view of their own.
-void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster,
-             const std::vector<bool>& used)
+void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, const std::vector<bool>& used)
 {
     const std::span<const std::byte> from = viewBytes(document, view);
     const std::size_t stride = used.size() * 4, start = cluster.front().begin / 4 * 4;

@@ -19,10 +19,10 @@ using Json = nlohmann::ordered_json;
 
 struct GltfSource {
     std::filesystem::path path;
-    std::size_t bytes = 0; // of the model file itself
-    GltfFile file;         // folder and buffers
+    std::size_t bytes = 0;              // of the model file itself
+    GltfFile file;                      // folder and buffers
     std::vector<gltf::ViewBytes> views; // of the file
-    Json root;             // as read
+    Json root;                          // as read
 };
 
 namespace gltf_edit {
@@ -36,8 +36,7 @@ const char* nameOf(Collection collection);
 
 // Calls `visit` for every place known to us that holds an index into the collection, be it in the
 // core of glTF or in an extension. Values that are no index are passed over.
-void forEachReference(Json& root, Collection collection,
-                      const std::function<void(Json&)>& visit);
+void forEachReference(Json& root, Collection collection, const std::function<void(Json&)>& visit);
 
 // For each item of the collection whether something refers to it.
 std::vector<bool> usedItems(const Json& root, Collection collection);
@@ -63,8 +62,7 @@ gltf::Elements elementsOf(const GltfDocument& document, const Json& accessor);
 std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const gltf::Primitive& primitive);
 
 // Adds a buffer view; stride and target 0: left out. Returns its index.
-std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0,
-                    int target = 0);
+std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
 std::size_t addAccessor(GltfDocument& document, Json accessor);
 
 // Refuses geometry that cannot be read without a decoder. field: meshes[i].primitives[j].

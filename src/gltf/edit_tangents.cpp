@@ -45,8 +45,7 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
         const Json& attributes = primitive["attributes"];
         for (const char* const needed : {"POSITION", "NORMAL"})
             if (!attributes.contains(needed))
-                failGltf("{}: expected {}, without which glTF gives TANGENT no meaning", field,
-                         needed);
+                failGltf("{}: expected {}, without which glTF gives TANGENT no meaning", field, needed);
         const auto [place, isNew] = known.emplace(sharedKey(primitive), groups.size());
         if (isNew)
             groups.emplace_back().vertexCount =
@@ -56,8 +55,8 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
         group.triangles.push_back(readTriangles(document, gltf::readPrimitive(primitive)));
         if (group.triangles.back().size() != t.corners.size())
             throw Error{ErrorKind::usage,
-                        fmt::format("{}: expected {} corner tangents, found {}", field,
-                                    group.triangles.back().size(), t.corners.size())};
+                        fmt::format("{}: expected {} corner tangents, found {}", field, group.triangles.back().size(),
+                                    t.corners.size())};
     }
     return groups;
 }
@@ -89,8 +88,8 @@ template<class Index> std::vector<std::byte> asBytes(std::span<const std::uint32
 
 // Indices in the smallest type, but not bytes where `bytesToo` is false; the largest value of a
 // type restarts primitives and is not used.
-std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint32_t> values,
-                                                       std::size_t count, bool bytesToo)
+std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint32_t> values, std::size_t count,
+                                                       bool bytesToo)
 {
     if (count <= 0xff && bytesToo)
         return {gltf::kUnsignedByte, asBytes<std::uint8_t>(values)};
@@ -128,16 +127,14 @@ Json splitSparse(GltfDocument& document, const gltf::Elements& old, Json sparse,
 }
 
 // The accessor for the new vertices. All old ones are among them, so min and max stay.
-std::size_t splitAccessor(GltfDocument& document, std::size_t index,
-                          const std::vector<std::uint32_t>& sources)
+std::size_t splitAccessor(GltfDocument& document, std::size_t index, const std::vector<std::uint32_t>& sources)
 {
     Json accessor = document.root["accessors"][index]; // a copy: adding moves the original
     const gltf::Elements old = elementsOf(document, accessor);
     if (old.accessor.sparse)
         accessor["sparse"] = splitSparse(document, old, accessor["sparse"], sources);
     if (old.dense.first) {
-        accessor["bufferView"] =
-            addVertexView(document, old.dense, gltf::elementSize(old.accessor), sources);
+        accessor["bufferView"] = addVertexView(document, old.dense, gltf::elementSize(old.accessor), sources);
         accessor.erase("byteOffset");
     }
     accessor["count"] = sources.size();
@@ -150,16 +147,13 @@ std::size_t addTangents(GltfDocument& document, const std::vector<glm::vec4>& va
 {
     std::vector<std::byte> bytes(values.size() * sizeof(glm::vec4));
     std::memcpy(bytes.data(), values.data(), bytes.size());
-    const std::size_t view =
-        addView(document, std::move(bytes), sizeof(glm::vec4), gltf::kArrayBuffer);
-    return addAccessor(document, {{"bufferView", view},
-                                  {"componentType", gltf::kFloat},
-                                  {"count", values.size()},
-                                  {"type", "VEC4"}});
+    const std::size_t view = addView(document, std::move(bytes), sizeof(glm::vec4), gltf::kArrayBuffer);
+    return addAccessor(
+        document, {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
 }
 
-void setTriangles(GltfDocument& document, Json& primitive,
-                  std::span<const std::uint32_t> indices, std::size_t vertexCount)
+void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> indices,
+                  std::size_t vertexCount)
 {
     Json accessor = Json::object();
     if (primitive.contains("indices"))
@@ -176,8 +170,7 @@ void setTriangles(GltfDocument& document, Json& primitive,
     primitive["indices"] = addAccessor(document, std::move(accessor));
 }
 
-bool sameOrder(const GltfDocument& document, const Json& primitive,
-               std::span<const std::uint32_t> indices)
+bool sameOrder(const GltfDocument& document, const Json& primitive, std::span<const std::uint32_t> indices)
 {
     if (primitive.value("mode", 4) != 4)
         return false;
@@ -186,8 +179,7 @@ bool sameOrder(const GltfDocument& document, const Json& primitive,
 }
 
 // Replaces every accessor that a map of attributes names; each is copied once.
-void splitAttributes(GltfDocument& document, Json& attributes,
-                     const std::vector<std::uint32_t>& sources,
+void splitAttributes(GltfDocument& document, Json& attributes, const std::vector<std::uint32_t>& sources,
                      std::map<std::size_t, std::size_t>& copies)
 {
     for (auto& [name, index] : attributes.items()) {
@@ -201,8 +193,7 @@ void splitAttributes(GltfDocument& document, Json& attributes,
 }
 
 // The tangents of a target are differences and go with the vertices, unlike TANGENT itself.
-void splitTargets(GltfDocument& document, Json& primitive,
-                  const std::vector<std::uint32_t>& sources,
+void splitTargets(GltfDocument& document, Json& primitive, const std::vector<std::uint32_t>& sources,
                   std::map<std::size_t, std::size_t>& copies)
 {
     if (!primitive.contains("targets"))
@@ -219,8 +210,8 @@ void splitTargets(GltfDocument& document, Json& primitive,
 void noteExtensions(GltfDocument& document, const Json& primitive, const std::string& field)
 {
     for (const std::string& name : unknownExtensions(primitive))
-        document.notes.push_back(fmt::format(
-            "{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
+        document.notes.push_back(
+            fmt::format("{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
 }
 
 // Returns how many vertices were added.
@@ -258,8 +249,7 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
         if (copied) {
             splitAttributes(document, primitive["attributes"], split.sources, copies);
             splitTargets(document, primitive, split.sources, copies);
-            noteExtensions(document, primitive,
-                           primitiveField(group.members[m]->mesh, group.members[m]->primitive));
+            noteExtensions(document, primitive, primitiveField(group.members[m]->mesh, group.members[m]->primitive));
         }
     }
     return count - group.vertexCount;
@@ -270,14 +260,12 @@ void fillEmptyTarget(GltfDocument& document, std::size_t count, Json& target)
 {
     const Json zero = {0, 0, 0};
     target["POSITION"] = addAccessor(
-        document,
-        {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
+        document, {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
 }
 
 } // namespace
 
-Result<std::size_t> setGltfTangents(GltfDocument& document,
-                                    std::span<const GltfCornerTangents> tangents)
+Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents)
 {
     try {
         std::size_t added = 0;

@@ -7,8 +7,9 @@
 #include <new>
 #include <system_error>
 
-#include "cotan/files/output.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/output.hpp"
+#include "cotan/image/file.hpp"
 #include "edit_state.hpp"
 
 namespace cotan {
@@ -25,8 +26,7 @@ struct Output {
 
 bool isExternal(const Json& image)
 {
-    return image.contains("uri")
-        && !image["uri"].get_ref<const std::string&>().starts_with("data:");
+    return image.contains("uri") && !image["uri"].get_ref<const std::string&>().starts_with("data:");
 }
 
 // The image files that the JSON names, by image; those that are missing are left out.
@@ -37,9 +37,8 @@ std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json&
         const Json& image = root["images"][i];
         if (!isExternal(image))
             continue;
-        GltfResource resource =
-            resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
-                           fmt::format("images[{}].uri", i), /*mayMiss*/ true);
+        GltfResource resource = resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
+                                               fmt::format("images[{}].uri", i), /*mayMiss*/ true);
         if (!resource.file.empty())
             files.emplace(i, std::move(resource.file));
     }
@@ -80,16 +79,12 @@ std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits
 // Empty: no picture that glTF knows.
 std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
-    const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
-    if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
-        return "image/png";
-    if (bytes.size() > 3 && at(0) == 0xff && at(1) == 0xd8)
-        return "image/jpeg";
-    if (bytes.size() > 12 && at(0) == 'R' && at(8) == 'W' && at(9) == 'E')
-        return "image/webp";
-    if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
-        return "image/ktx2";
-    return {};
+    const std::string foreign = foreignFormat(bytes);
+    return isPng(bytes)     ? "image/png"
+        : isJpeg(bytes)     ? "image/jpeg"
+        : foreign == "WebP" ? "image/webp"
+        : foreign == "KTX2" ? "image/ktx2"
+                            : "";
 }
 
 // An image file used twice is embedded once.
@@ -111,9 +106,8 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
     }
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
         if (isExternal(document.root["images"][i]))
-            document.notes.push_back(fmt::format(
-                "images[{}]: \"{}\" is missing or no picture and stays a reference", i,
-                oneLine(document.root["images"][i]["uri"].get<std::string>())));
+            document.notes.push_back(fmt::format("images[{}]: \"{}\" is missing or no picture and stays a reference", i,
+                                                 oneLine(document.root["images"][i]["uri"].get<std::string>())));
 }
 
 // ---- GLB ------------------------------------------------------------------------------------
@@ -124,8 +118,7 @@ void appendWord(std::vector<std::byte>& bytes, std::size_t word)
         bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
 }
 
-void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type,
-                 std::span<const std::byte> content, char padding)
+void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<const std::byte> content, char padding)
 {
     const std::size_t padded = (content.size() + 3) / 4 * 4;
     appendWord(bytes, padded);
@@ -168,10 +161,7 @@ std::string encodePercent(const std::string& name)
     return uri;
 }
 
-fs::path folderOf(const fs::path& file)
-{
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 // NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
 fs::path binaryBeside(const GltfSource& source, const fs::path& file)
@@ -223,7 +213,8 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
 
 // Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
 // already is taken only if that file belongs to the model that is replaced; else it gets a number.
-void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits, std::vector<Output>& outputs)
+void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits,
+                     std::vector<Output>& outputs)
 {
     const GltfSource& source = *document.source;
     const std::size_t old = source.views.size();
@@ -239,7 +230,8 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         const std::string ending = image.value("mimeType", std::string()) == "image/jpeg" ? ".jpg" : ".png";
         const auto taken = [&](const fs::path& target) {
             std::error_code error;
-            const bool here = std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
+            const bool here =
+                std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
             const bool input = std::find(read.begin(), read.end(), fs::weakly_canonical(target, error)) != read.end();
             const bool ours = std::find(own.begin(), own.end(), encodePercent(target.filename().string())) != own.end();
             return here || input || (fs::exists(target, error) && !ours);
@@ -256,8 +248,8 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
 
 // Image files go to the same place relative to the new folder; what is there already has to be the
 // same.
-void copyImages(const GltfSource& source, const Json& root, const fs::path& folder,
-                const LoadLimits& limits, std::vector<Output>& outputs)
+void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
+                std::vector<Output>& outputs)
 {
     std::error_code error;
     if (fs::equivalent(folder, source.file.folder, error))
@@ -272,8 +264,7 @@ void copyImages(const GltfSource& source, const Json& root, const fs::path& fold
             const auto there = readFileBytes(target, limits.fileBytes);
             if (!there || *there != bytes)
                 throw outputError(
-                    fmt::format("{}: a different file is in the way of an image to be copied",
-                                target.string()));
+                    fmt::format("{}: a different file is in the way of an image to be copied", target.string()));
             continue;
         }
         outputs.push_back({target, std::move(bytes)});
@@ -304,8 +295,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
     const bool binary = file.extension() == ".glb";
     std::error_code error;
     if (!fs::is_directory(folderOf(file), error))
-        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(),
-                                      folderOf(file).string()));
+        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     GltfWritten written;
     written.bytesBefore = sizeBefore(*document.source);
     std::vector<Output> outputs(1);
@@ -335,8 +325,8 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw done.error();
     std::vector<fs::path> images;
     for (const auto& image : imageFiles(*document.source, layout.root))
-        if (const fs::path& path = image.second;
-            std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
+        if (const fs::path& path = image.second; std::none_of(
+                outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
             images.push_back(path);
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)
@@ -347,12 +337,10 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
 
 } // namespace
 
-Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file,
-                              const LoadLimits& limits)
+Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file, const LoadLimits& limits)
 {
     if (file.extension() != ".glb" && file.extension() != ".gltf")
-        return usageError(
-            fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
+        return usageError(fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
     try {
         return write(document, file, limits);
     } catch (const Error& failure) {

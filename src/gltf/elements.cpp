@@ -21,8 +21,8 @@ std::uint32_t indexAt(const std::byte* at, int componentType)
 
 // Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
 // strides at most 252, so nothing here overflows 64 bits.
-Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t stride, std::size_t size,
-          std::size_t count, const std::string& field)
+Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t stride, std::size_t size, std::size_t count,
+          const std::string& field)
 {
     if (stride < size)
         failGltf("{}: expected a stride of at least {} bytes, found {}", field, size, stride);
@@ -55,9 +55,7 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
     else if (!normalized)
         return static_cast<float>(value);
     else
-        return std::max(static_cast<float>(value)
-                            / static_cast<float>(std::numeric_limits<Stored>::max()),
-                        -1.0f);
+        return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f);
 }
 
 // An element of a run, and where its numbers go.
@@ -68,8 +66,8 @@ struct Move {
 
 // Converts `count` elements; move(i): the i-th of them. room: numbers that an element of `out` has.
 template<class Stored, class Out, class MoveOf>
-void convertRun(const Run& run, std::size_t components, bool normalized, std::size_t count,
-                const MoveOf& move, Out* out, std::size_t room)
+void convertRun(const Run& run, std::size_t components, bool normalized, std::size_t count, const MoveOf& move,
+                Out* out, std::size_t room)
 {
     for (std::size_t i = 0; i < count; ++i) {
         const Move m = move(i);
@@ -83,12 +81,10 @@ void convertRun(const Run& run, std::size_t components, bool normalized, std::si
 }
 
 template<class Out, class MoveOf>
-void convertAny(const Run& run, const Accessor& a, std::size_t count, const MoveOf& move, Out* out,
-                std::size_t room)
+void convertAny(const Run& run, const Accessor& a, std::size_t count, const MoveOf& move, Out* out, std::size_t room)
 {
     const auto as = [&](auto stored) {
-        convertRun<decltype(stored), Out>(run, componentCount(a.type), a.normalized, count, move, out,
-                                          room);
+        convertRun<decltype(stored), Out>(run, componentCount(a.type), a.normalized, count, move, out, room);
     };
     switch (a.componentType) {
     case kByte: return as(std::int8_t());
@@ -134,7 +130,8 @@ template<class Out> void readNumbers(const Elements& elements, const Choice& cho
     if (!a.sparse)
         return;
     const std::vector<Move> moves = sparseMoves(elements, choice);
-    convertAny(elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
+    convertAny(
+        elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
 }
 
 } // namespace
@@ -150,8 +147,7 @@ Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std
     const std::size_t size = elementSize(a);
     if (a.view >= 0) {
         const ViewBytes view = viewBytes(std::size_t(a.view));
-        elements.dense =
-            runIn(view, a.view, a.offset, view.stride > 0 ? view.stride : size, size, a.count, field);
+        elements.dense = runIn(view, a.view, a.offset, view.stride > 0 ? view.stride : size, size, a.count, field);
     }
     if (!a.sparse)
         return elements;
@@ -160,8 +156,8 @@ Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std
                  a.sparse->count);
     const std::size_t indexSize = componentSize(a.sparse->indicesType);
     elements.sparseIndices =
-        runIn(viewBytes(std::size_t(a.sparse->indicesView)), a.sparse->indicesView, a.sparse->indicesOffset,
-              indexSize, indexSize, a.sparse->count, field + ".sparse.indices");
+        runIn(viewBytes(std::size_t(a.sparse->indicesView)), a.sparse->indicesView, a.sparse->indicesOffset, indexSize,
+              indexSize, a.sparse->count, field + ".sparse.indices");
     elements.sparseValues = runIn(viewBytes(std::size_t(a.sparse->valuesView)), a.sparse->valuesView,
                                   a.sparse->valuesOffset, size, size, a.sparse->count, field + ".sparse.values");
     return elements;
@@ -173,11 +169,11 @@ void checkSparse(const Elements& elements, const std::string& field)
     for (std::size_t i = 0; i < elements.sparseIndices.count; ++i) {
         const std::uint32_t at = elements.sparseIndex(i);
         if (at >= elements.accessor.count)
-            failGltf("{}.sparse.indices[{}]: expected an index below {}, found {}", field, i,
-                     elements.accessor.count, at);
+            failGltf("{}.sparse.indices[{}]: expected an index below {}, found {}", field, i, elements.accessor.count,
+                     at);
         if (i > 0 && at <= before)
-            failGltf("{}.sparse.indices[{}]: expected an index above {}, the one before, found {}",
-                     field, i, before, at);
+            failGltf("{}.sparse.indices[{}]: expected an index above {}, the one before, found {}", field, i, before,
+                     at);
         before = at;
     }
 }
@@ -209,8 +205,7 @@ void expectElements(const Accessor& a, ElementType type, std::size_t count, cons
         failGltf("{}: expected accessors[{}] of type {}, found {}", role.field, role.accessor, nameOf(type),
                  nameOf(a.type));
     if (a.count != count)
-        failGltf("{}: expected accessors[{}] with {} elements, found {}", role.field, role.accessor, count,
-                 a.count);
+        failGltf("{}: expected accessors[{}] with {} elements, found {}", role.field, role.accessor, count, a.count);
 }
 
 void expectIndices(const Accessor& a, const Role& role)
@@ -231,8 +226,7 @@ void readIntegers(const Elements& elements, const Choice& choice, std::size_t ro
     readNumbers(elements, choice, room, out);
 }
 
-template<class Vector>
-std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role)
+template<class Vector> std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role)
 {
     constexpr ElementType types[] = {ElementType::vec2, ElementType::vec3, ElementType::vec4};
     expectElements(elements.accessor, types[Vector::length() - 2], choice.count, role);

@@ -82,6 +82,7 @@ void readFloats(const Elements& elements, const Choice& choice, std::size_t room
 void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out);
 
 // The same as vectors. Throws GltfProblem where the elements are none, and for unsigned integers.
-template<class Vector> std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role);
+template<class Vector>
+std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role);
 
 } // namespace cotan::gltf

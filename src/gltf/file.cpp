@@ -35,8 +35,7 @@ void checkHeader(std::span<const std::byte> bytes)
     if (readWord(bytes, 4) != 2)
         failGltf("GLB header: expected version 2, found {}", readWord(bytes, 4));
     if (readWord(bytes, 8) != bytes.size())
-        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8),
-                 bytes.size());
+        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
 }
 
 // Walks the chunks; unknown ones are passed over, as the specification asks.
@@ -52,8 +51,7 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
         const std::size_t length = readWord(bytes, at);
         const std::uint32_t type = readWord(bytes, at + 4);
         if (length > left - 8)
-            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length,
-                     left - 8);
+            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length, left - 8);
         if (length % 4 != 0)
             warnings.add(fmt::format("GLB chunk {}", chunk), "its length is not a multiple of 4");
         if ((chunk == 0) != (type == kChunkJson))
@@ -84,8 +82,7 @@ std::string decodePercent(std::string_view uri)
 {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0
-            && hexDigit(uri[i + 2]) >= 0;
+        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
         text += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
         i += code ? 2 : 0;
     }
@@ -96,8 +93,7 @@ std::string decodePercent(std::string_view uri)
 constexpr std::array<signed char, 256> kBase64 = [] {
     std::array<signed char, 256> values{};
     values.fill(-1);
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < digits.size(); ++i)
         values[static_cast<unsigned char>(digits[i])] = static_cast<signed char>(i);
     return values;
@@ -134,10 +130,8 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
 {
     const std::size_t comma = uri.find(',');
     const std::string_view head = uri.substr(0, comma);
-    if (comma == std::string_view::npos || !head.ends_with(";base64")
-        || head.find(";;") != std::string_view::npos)
-        failGltf("{}: expected data:TYPE;base64,... , found {}...", field,
-                 oneLine(std::string(uri.substr(0, 60))));
+    if (comma == std::string_view::npos || !head.ends_with(";base64") || head.find(";;") != std::string_view::npos)
+        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(std::string(uri.substr(0, 60))));
     auto bytes = decodeBase64(uri.substr(comma + 1));
     if (!bytes)
         failGltf("{}: the data URI is not valid base64", field);
@@ -150,8 +144,8 @@ bool hasScheme(std::string_view uri)
     return end != std::string_view::npos && uri[end] == ':';
 }
 
-std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
-                                      const std::string& field, const LoadLimits& limits)
+std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, const std::string& field,
+                                      const LoadLimits& limits)
 {
     auto known = file.bufferFiles.find(path);
     if (known == file.bufferFiles.end()) {
@@ -189,8 +183,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     return file;
 }
 
-GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field,
-                            bool mayMiss)
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss)
 {
     GltfResource resource;
     if (uri.starts_with("data:")) {
@@ -202,8 +195,8 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
-        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it",
-                 field, oneLine(std::string(uri)));
+        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field,
+                 oneLine(std::string(uri)));
     if (!found && !mayMiss)
         failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
     resource.file = found.value_or(fs::path());

@@ -28,9 +28,9 @@ struct GltfFile {
     std::span<const std::byte> text;   // its JSON, until that is parsed
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
-    std::size_t size = 0;              // bytes of the model and, once they are loaded, of its buffer files
+    std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files
     gltf::Json json;
-    std::vector<std::span<const std::byte>> buffers; // one for each buffer, exactly byteLength long
+    std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
 };
@@ -46,8 +46,7 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 // folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
 // symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
 // not exist gives an empty resource instead of a failure.
-GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field,
-                            bool mayMiss = false);
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
 
 // Checks that every member the reader uses has the type, range and length that the glTF 2.0
 // specification asks for, and that every index points at something. Also the version and the

@@ -14,14 +14,14 @@ using namespace gltf_edit;
 namespace {
 
 template<class T>
-std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type,
-                        int componentType, int target, Json more = Json::object())
+std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type, int componentType,
+                        int target, Json more = Json::object())
 {
     const auto bytes = std::as_bytes(std::span(elements));
     Json accessor = {{"bufferView", addView(document, {bytes.begin(), bytes.end()}, 0, target)},
-                            {"componentType", componentType},
-                            {"count", elements.size()},
-                            {"type", type}};
+                     {"componentType", componentType},
+                     {"count", elements.size()},
+                     {"type", type}};
     accessor.update(more);
     return addAccessor(document, std::move(accessor));
 }
@@ -35,7 +35,8 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    return addElements(document, positions, "VEC3", gltf::kFloat, gltf::kArrayBuffer, {{"min", array(low)}, {"max", array(high)}});
+    return addElements(document, positions, "VEC3", gltf::kFloat, gltf::kArrayBuffer,
+                       {{"min", array(low)}, {"max", array(high)}});
 }
 
 Json primitiveOf(GltfDocument& document, const Mesh& mesh)
@@ -58,7 +59,8 @@ Json primitiveOf(GltfDocument& document, const Mesh& mesh)
 std::size_t addTexture(GltfDocument& document, const Texture& texture)
 {
     document.root["samplers"].push_back(gltf::writeSampler(texture.sampler));
-    document.root["textures"].push_back({{"source", std::size_t(texture.image)}, {"sampler", document.root["samplers"].size() - 1}});
+    document.root["textures"].push_back(
+        {{"source", std::size_t(texture.image)}, {"sampler", document.root["samplers"].size() - 1}});
     return document.root["textures"].size() - 1;
 }
 
@@ -85,7 +87,8 @@ void putTexture(GltfDocument& document, const Texture& texture, Json& owner, con
         bool sheared = false;
         info["extensions"]["KHR_texture_transform"] = transformOf(texture, sheared);
         if (sheared)
-            document.notes.push_back(fmt::format("{}: the shear of its texture coordinates cannot be stored in glTF", slot));
+            document.notes.push_back(
+                fmt::format("{}: the shear of its texture coordinates cannot be stored in glTF", slot));
     }
     owner[slot] = std::move(info);
 }
@@ -93,7 +96,8 @@ void putTexture(GltfDocument& document, const Texture& texture, Json& owner, con
 Json materialOf(GltfDocument& document, const Material& m)
 {
     Json pbr = {{"baseColorFactor", {m.baseColor.x, m.baseColor.y, m.baseColor.z, m.baseColor.w}},
-                       {"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
+                {"metallicFactor", m.metallic},
+                {"roughnessFactor", m.roughness}};
     putTexture(document, m.baseColorMap, pbr, "baseColorTexture");
     putTexture(document, m.metallicRoughnessMap, pbr, "metallicRoughnessTexture");
     Json material = {{"name", m.name}, {"pbrMetallicRoughness", std::move(pbr)}};
@@ -146,8 +150,8 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
     root = {{"asset", {{"version", "2.0"}, {"generator", "cotan"}}}, {"scene", 0}};
     for (const Image& image : scene.images) {
         if (image.type == PixelType::float32 || image.pixelCount() == 0)
-            return inputError(fmt::format("{}: expected pixels of 8 or 16 bits, which glTF can hold; found {}", image.name,
-                                          image.pixelCount() == 0 ? "none" : "floats"));
+            return inputError(fmt::format("{}: expected pixels of 8 or 16 bits, which glTF can hold; found {}",
+                                          image.name, image.pixelCount() == 0 ? "none" : "floats"));
         auto png = encodePng(image);
         if (!png)
             return png.error();

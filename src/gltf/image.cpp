@@ -6,8 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "cotan/image/file.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/image/file.hpp"
 #include "material.hpp"
 
 namespace cotan {
@@ -44,20 +44,6 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
         source.name = fmt::format("image {}", image);
     return source;
 }
-
-bool beginsWith(std::span<const std::byte> bytes, std::initializer_list<int> head)
-{
-    return bytes.size() >= head.size()
-        && std::equal(head.begin(), head.end(), bytes.begin(),
-                      [](int h, std::byte b) { return h == std::to_integer<int>(b); });
-}
-
-bool isPng(std::span<const std::byte> bytes)
-{
-    return beginsWith(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
-}
-
-bool isJpeg(std::span<const std::byte> bytes) { return beginsWith(bytes, {0xff, 0xd8, 0xff}); }
 
 std::vector<std::byte> readImageFile(const fs::path& file, const LoadLimits& limits)
 {
@@ -111,8 +97,7 @@ public:
         std::size_t left = left_.load();
         do {
             if (bytes > left)
-                failGltf("all images together take more than the limit of {} bytes",
-                         limits_.allImageBytes);
+                failGltf("all images together take more than the limit of {} bytes", limits_.allImageBytes);
         } while (!left_.compare_exchange_weak(left, left - bytes));
     }
 
@@ -167,7 +152,8 @@ void lookAt(const GltfModel& model, int image, bool used)
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
         failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
-    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes) && foreignFormat(source.bytes).empty())
+    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes)
+        && foreignFormat(source.bytes).empty())
         failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
 }
 

@@ -53,8 +53,7 @@ private:
                                         field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
-                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])]
-                                 * glm::dmat4(bind[j]));
+                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(bind[j]));
         }
     }
 
@@ -64,10 +63,7 @@ private:
         return finishGltfMesh(std::move(primitive), set, model_.warnings);
     }
 
-    const gltf::Mesh& sourceMesh(int mesh) const
-    {
-        return model_.structure.meshes[static_cast<std::size_t>(mesh)];
-    }
+    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[static_cast<std::size_t>(mesh)]; }
 
     // The scene's meshes for a use, made when it is met first.
     const std::vector<int>& meshesFor(const MeshUse& use)
@@ -80,8 +76,7 @@ private:
             if (!primitive)
                 continue;
             if (use.skin >= 0)
-                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)],
-                                  model_.warnings);
+                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)], model_.warnings);
             const int material = primitive->material;
             Mesh mesh = finish(std::move(*primitive));
             mesh.material = materials_.use(material, mesh);
@@ -105,14 +100,12 @@ private:
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
         if (use.skin >= 0 && !hasJoints(use.mesh)) {
             use.skin = -1;
-            model_.warnings.add(fmt::format("nodes[{}]", node),
-                                "its mesh lacks JOINTS_0, so its skin is ignored");
+            model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
         }
         return use;
     }
 
-    void addInstances(int node, const std::vector<int>& meshes,
-                      const std::vector<glm::mat4>& placements)
+    void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
     {
         const std::string& name = model_.structure.nodes[static_cast<std::size_t>(node)].name;
         if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
@@ -120,8 +113,7 @@ private:
         for (const glm::mat4& placement : placements)
             for (const int mesh : meshes)
                 scene_.instances.push_back(
-                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh,
-                     placement});
+                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh, placement});
     }
 
     // A skin puts vertices into world space by itself: the node's transform does not count.
@@ -133,8 +125,7 @@ private:
             const MeshUse use = useOf(node);
             const std::vector<int>& meshes = meshesFor(use);
             addInstances(node, meshes,
-                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)}
-                                       : gltfPlacements(model_, nodes_, node));
+                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node));
         }
     }
 

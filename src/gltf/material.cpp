@@ -32,8 +32,7 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     const gltf::Texture& source = model_.structure.textures[static_cast<std::size_t>(use.texture)];
     const int image = imageOf(source);
     if (image < 0) {
-        model_.warnings.add(fmt::format("textures[{}]", use.texture),
-                            "no PNG or JPEG image, the texture is left out");
+        model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
         return texture;
     }
     const int set = use.texcoord;

@@ -22,8 +22,8 @@ glm::dmat4 affine(glm::dmat4 m, const std::string& field)
 {
     constexpr double kRounding = 1e-4;
     if (std::abs(m[0].w) + std::abs(m[1].w) + std::abs(m[2].w) + std::abs(m[3].w - 1) > kRounding)
-        failGltf("{}.matrix: expected the last row 0 0 0 1, found {:g} {:g} {:g} {:g}", field,
-                 m[0].w, m[1].w, m[2].w, m[3].w);
+        failGltf("{}.matrix: expected the last row 0 0 0 1, found {:g} {:g} {:g} {:g}", field, m[0].w, m[1].w, m[2].w,
+                 m[3].w);
     m[0].w = m[1].w = m[2].w = 0;
     m[3].w = 1;
     return m;
@@ -45,8 +45,7 @@ std::vector<int> findParents(const GltfModel& model)
         for (const int child : nodeAt(model, i).children) {
             int& parent = parents[static_cast<std::size_t>(child)];
             if (parent >= 0)
-                failGltf("nodes[{}]: expected one parent, found nodes[{}] and nodes[{}]", child,
-                         parent, i);
+                failGltf("nodes[{}]: expected one parent, found nodes[{}] and nodes[{}]", child, parent, i);
             parent = i;
         }
     }
@@ -118,8 +117,7 @@ std::vector<int> shownRoots(GltfModel& model, const std::vector<int>& parents)
     const auto scene = static_cast<std::size_t>(std::max(structure.defaultScene, 0));
     for (const int node : structure.scenes[scene])
         if (parents[static_cast<std::size_t>(node)] >= 0)
-            model.warnings.add(fmt::format("scenes[{}]", scene),
-                               "it lists nodes that are not roots");
+            model.warnings.add(fmt::format("scenes[{}]", scene), "it lists nodes that are not roots");
     return structure.scenes[scene];
 }
 
@@ -135,8 +133,7 @@ void warnIfFlat(GltfModel& model, const glm::dmat4& world, int node)
 
 // ---- instancing -----------------------------------------------------------------------------
 
-std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attributes& instances,
-                                         const std::string& field)
+std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attributes& instances, const std::string& field)
 {
     const int translations = gltf::accessorOf(instances, "TRANSLATION");
     const int rotations = gltf::accessorOf(instances, "ROTATION");

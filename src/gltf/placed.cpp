@@ -1,24 +1,16 @@
 #include "cotan/gltf/placed.hpp"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "cotan/gltf/lookup.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/scene/placings.hpp"
+#include "mesh.hpp"
 #include "structure.hpp"
 
 namespace cotan {
 
 using Json = nlohmann::ordered_json;
-
-namespace {
-
-// Of a unit vector's length in float. Quantised normals are up to 0.007 off.
-constexpr double kRounding = 2e-6;
-
-} // namespace
 
 std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
 {
@@ -48,11 +40,8 @@ std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
 
 void makeUnit(std::vector<glm::vec3>& normals)
 {
-    for (glm::vec3& n : normals) {
-        const double length = glm::length(glm::dvec3(n));
-        if (length > 0 && std::abs(length - 1) > kRounding)
-            n = glm::vec3(glm::dvec3(n) / length);
-    }
+    for (glm::vec3& n : normals)
+        n = unitNormal(n);
 }
 
 Mesh gltfMesh(GltfGeometry geometry)

@@ -16,8 +16,7 @@ void takeVertices(GltfModel& model, std::size_t count, const std::string& field)
 {
     const std::size_t left = model.limits.vertices - model.verticesTaken;
     if (count > left)
-        failGltf("{}: the limit is {} vertices in all, this one brings {}", field,
-                 model.limits.vertices, count);
+        failGltf("{}: the limit is {} vertices in all, this one brings {}", field, model.limits.vertices, count);
     model.verticesTaken += count;
 }
 
@@ -25,13 +24,11 @@ void takeTriangles(GltfModel& model, std::size_t count, const std::string& field
 {
     const std::size_t left = model.limits.triangles - model.trianglesTaken;
     if (count > left)
-        failGltf("{}: the limit is {} triangles in all, this one brings {}", field,
-                 model.limits.triangles, count);
+        failGltf("{}: the limit is {} triangles in all, this one brings {}", field, model.limits.triangles, count);
     model.trianglesTaken += count;
 }
 
-void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field,
-                     GltfWarnings& warnings)
+void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field, GltfWarnings& warnings)
 {
     std::size_t bad = 0;
     for (glm::vec2& uv : texcoords) {
@@ -44,8 +41,7 @@ void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field
         warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
 }
 
-void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice,
-                   GltfPrimitive& out)
+void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
 {
     for (const auto& [name, accessor] : source.attributes) {
         if (!name.starts_with("TEXCOORD_"))
@@ -61,8 +57,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::
     }
 }
 
-void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice,
-                GltfPrimitive& out)
+void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
 {
     for (int set = 0;; ++set) {
         const int joints = gltf::accessorOf(source.attributes, fmt::format("JOINTS_{}", set));
@@ -73,15 +68,13 @@ void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Cho
             failGltf("{}: expected JOINTS_{} and WEIGHTS_{} together", out.field, set, set);
         if (set > 0)
             takeVertices(model, choice.size(), out.field);
-        out.joints.push_back(
-            readGltfJoints(model, joints, choice, fmt::format("{}.JOINTS_{}", out.field, set)));
+        out.joints.push_back(readGltfJoints(model, joints, choice, fmt::format("{}.JOINTS_{}", out.field, set)));
         out.weights.push_back(
             readGltfVectors<glm::vec4>(model, weights, choice, fmt::format("{}.WEIGHTS_{}", out.field, set)));
     }
 }
 
-void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice,
-                    GltfPrimitive& out)
+void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
 {
     if (const int a = gltf::accessorOf(source.attributes, "NORMAL"); a >= 0)
         out.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
@@ -99,8 +92,7 @@ void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf:
 
 // ---- morph targets --------------------------------------------------------------------------
 
-template<class Vector>
-void addScaled(std::vector<Vector>& to, const std::vector<glm::vec3>& delta, float weight)
+template<class Vector> void addScaled(std::vector<Vector>& to, const std::vector<glm::vec3>& delta, float weight)
 {
     if (to.empty() || weight == 0)
         return;
@@ -139,8 +131,8 @@ struct Corner {
     glm::vec4 color;
 };
 
-std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive& source,
-                                         std::size_t vertices, const GltfPrimitive& out)
+std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive& source, std::size_t vertices,
+                                         const GltfPrimitive& out)
 {
     std::vector<std::uint32_t> order;
     if (source.indices >= 0) {

@@ -22,8 +22,11 @@ MaterialSource readMaterial(const Json& source)
     const Json none = Json::object();
     const Json* const found = member(source, "pbrMetallicRoughness");
     const Json& pbr = found ? *found : none;
-    MaterialSource read{{}, readTextureUse(&pbr, "baseColorTexture"), readTextureUse(&pbr, "metallicRoughnessTexture"),
-                        readTextureUse(&source, "normalTexture"), readTextureUse(&source, "occlusionTexture"),
+    MaterialSource read{{},
+                        readTextureUse(&pbr, "baseColorTexture"),
+                        readTextureUse(&pbr, "metallicRoughnessTexture"),
+                        readTextureUse(&source, "normalTexture"),
+                        readTextureUse(&source, "occlusionTexture"),
                         readTextureUse(&source, "emissiveTexture")};
     Material& m = read.factors;
     m.name = valueOr(source, "name", std::string());
@@ -66,8 +69,7 @@ Camera readCamera(const Json& source, const std::string& field)
     camera.orthographic = kind == "orthographic";
     // Sizes that show nothing, or more than half a sphere, are brought to the nearest usable one.
     if (camera.orthographic)
-        camera.verticalExtent =
-            static_cast<float>(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
+        camera.verticalExtent = static_cast<float>(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
     else
         camera.verticalFieldOfView = static_cast<float>(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
     return camera;
@@ -106,7 +108,8 @@ Structure readStructure(const Json& root)
     s.nodes = readAll(&root, "nodes", readNode);
     s.meshes = readAll(&root, "meshes", readMesh);
     s.skins = readAll(&root, "skins", readSkin);
-    s.cameras = readAll(&root, "cameras", [&](const Json& c) { return readCamera(c, fmt::format("cameras[{}]", at++)); });
+    s.cameras =
+        readAll(&root, "cameras", [&](const Json& c) { return readCamera(c, fmt::format("cameras[{}]", at++)); });
     at = 0;
     s.lights = readAll(extension(root, "KHR_lights_punctual"), "lights", [&](const Json& l) {
         return readLight(l, fmt::format("extensions.KHR_lights_punctual.lights[{}]", at++));

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "codes.hpp"
+#include "elements.hpp"
 
 namespace cotan::gltf {
 
@@ -14,10 +15,7 @@ namespace {
 
 int indexOf(const Json& object, std::string_view name) { return valueOr(object, name, -1); }
 
-std::string textOf(const Json& object, std::string_view name)
-{
-    return valueOr(object, name, std::string());
-}
+std::string textOf(const Json& object, std::string_view name) { return valueOr(object, name, std::string()); }
 
 template<class T> std::vector<T> listOf(const Json& object, std::string_view name)
 {
@@ -188,10 +186,7 @@ Node readNode(const Json& node)
     return read;
 }
 
-Skin readSkin(const Json& skin)
-{
-    return {indexOf(skin, "inverseBindMatrices"), listOf<int>(skin, "joints")};
-}
+Skin readSkin(const Json& skin) { return {indexOf(skin, "inverseBindMatrices"), listOf<int>(skin, "joints")}; }
 
 glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale)
 {

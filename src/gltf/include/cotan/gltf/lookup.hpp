@@ -21,7 +21,8 @@ inline std::size_t countOf(const nlohmann::ordered_json& root, const char* colle
 // What messages call a primitive: "meshes[0].primitives[1]".
 std::string primitiveField(std::size_t mesh, std::size_t primitive);
 
-// Calls visit(mesh, primitive), which returns a Status, for every primitive of the file in order, up to the first error.
+// Calls visit(mesh, primitive), which returns a Status, for every primitive of the file in order, up to the first
+// error.
 template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root, const Visit& visit)
 {
     for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)

@@ -97,11 +97,11 @@ struct Node {
     int mesh = -1, skin = -1, camera = -1;
     int light = -1; // KHR_lights_punctual
     std::vector<int> children;
-    std::vector<double> weights;                                // empty: those of the mesh
-    std::optional<glm::dmat4> matrix;                           // in place of the next three
+    std::vector<double> weights;      // empty: those of the mesh
+    std::optional<glm::dmat4> matrix; // in place of the next three
     glm::dvec3 translation{0}, scale{1};
-    glm::dvec4 rotation{0, 0, 0, 1};                            // x y z w
-    Attributes instances;                                       // EXT_mesh_gpu_instancing; empty: one
+    glm::dvec4 rotation{0, 0, 0, 1}; // x y z w
+    Attributes instances;            // EXT_mesh_gpu_instancing; empty: one
 };
 
 // Joints are nodes.
@@ -136,8 +136,9 @@ struct TextureUse {
 
 struct Texture {
     int sampler = -1;
-    int image = -1;   // PNG or JPEG
-    int foreign = -1; // an image in another format that an extension names, of several the first by the extension's name
+    int image = -1; // PNG or JPEG
+    int foreign =
+        -1; // an image in another format that an extension names, of several the first by the extension's name
 };
 
 struct Image {
