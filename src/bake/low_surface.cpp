@@ -20,15 +20,14 @@ glm::vec3 normalizedOrZero(glm::vec3 v)
 }
 
 // Appends one mesh as an instance places it.
-void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::uint32_t instance,
-            bool storedTangents)
+void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld,
+            std::uint32_t instance, bool storedTangents)
 {
     const auto base = std::uint32_t(surface.positions.size());
     const glm::mat3 linear(toWorld);
     const float determinant = glm::determinant(linear);
-    const glm::mat3 cofactors =
-        glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]))
-        * (determinant < 0 ? -1.0f : 1.0f);
+    const glm::mat3 cofactors = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                                          glm::cross(linear[0], linear[1])) * (determinant < 0 ? -1.0f : 1.0f);
     // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
     const bool rigid = cofactors == linear;
     const auto& texcoords = mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)];
@@ -116,10 +115,7 @@ Differences<double> differencesOf(const LowSurface& s, Frame frame, std::uint32_
     const double determinant = w1.x * w2.y - w1.y * w2.x;
     if (determinant == 0 || frame == Frame::exact)
         return {Vector3d(e1), Vector3d(e2), w1, w2};
-    return {Vector3d((e1 * w2.y - e2 * w1.y) / determinant),
-            Vector3d((e2 * w1.x - e1 * w2.x) / determinant),
-            {1, 0},
-            {0, 1}};
+    return {Vector3d((e1 * w2.y - e2 * w1.y) / determinant), Vector3d((e2 * w1.x - e1 * w2.x) / determinant), {1, 0}, {0, 1}};
 }
 
 LowPoint pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, double b1, double b2)
@@ -139,9 +135,8 @@ LowPoint pointOf(const LowSurface& s, Frame frame, std::uint32_t triangle, doubl
     const double length = glm::length(raw);
     p.normal = length > 0 ? raw / length : raw;
     if (frame == Frame::smooth) {
-        p.frame =
-            typed(f64::cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
-                                          blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
+        p.frame = typed(f64::cotan_frame_smooth(raw, blend(s.cotangentsU[v[0]], s.cotangentsU[v[1]], s.cotangentsU[v[2]]),
+                                                blend(s.cotangentsV[v[0]], s.cotangentsV[v[1]], s.cotangentsV[v[2]])));
     } else if (!s.tangents.empty()) {
         const glm::dvec3 t = blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2]);
         const double handedness = -s.tangents[first].w; // glTF's w has v up

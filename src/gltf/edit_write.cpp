@@ -1,6 +1,5 @@
 // A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/image/file.hpp"
 #include "edit_state.hpp"
+#include "parse.hpp"
 
 namespace cotan {
 
@@ -200,14 +200,19 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
 {
     std::vector<std::string> uris;
     std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > limits.fileBytes)
+    if (!fs::is_regular_file(file, error))
         return uris;
-    std::ifstream stream(file, std::ios::binary); // no input of ours: it goes
-    const Json root = Json::parse(stream, nullptr, false);
-    if (root.is_object() && root.contains("images") && root["images"].is_array())
-        for (const Json& image : root["images"])
-            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
-                uris.push_back(image["uri"].get<std::string>());
+    Json root; // no input of ours: whatever is wrong with it, it goes
+    if (const auto bytes = readFileBytes(file, limits.fileBytes))
+        try {
+            root = parseGltfJson(*bytes);
+        } catch (const GltfProblem&) {
+            return uris;
+        }
+    if (const Json* const images = gltf::member(root, "images"); images && images->is_array())
+        for (const Json& image : *images)
+            if (const Json* const uri = gltf::member(image, "uri"); uri && uri->is_string())
+                uris.push_back(uri->get<std::string>());
     return uris;
 }
 

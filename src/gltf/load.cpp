@@ -155,6 +155,8 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
     readGltfModel(model);
+    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
+    model.file.json = std::move(images);
     Scene scene;
     scene.name = path.stem().string();
     SceneBuilder(model, scene).build();
