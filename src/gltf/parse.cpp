@@ -8,9 +8,9 @@
 
 namespace cotan {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 // Builds the document from the events of the parser. The library's own builder looks for each new member among all
 // that its object has already, so that an object of a million members would take hours.
