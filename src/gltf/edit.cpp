@@ -60,13 +60,14 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     GltfModel model;
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
+    const std::size_t modelBytes = model.file.size; // buffers are added to it
     refuseMeshopt(model.file.json);
     readGltfModel(model);
     checkModel(model);
 
     auto source = std::make_shared<GltfSource>();
     source->path = path;
-    source->bytes = std::filesystem::file_size(path);
+    source->bytes = modelBytes;
     source->root = std::move(model.file.json);
     source->file = std::move(model.file);
     source->views = std::move(model.views);
@@ -107,7 +108,7 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
         GltfResource resource = resolveGltfUri(document.source->file, *entry.uri, field + ".uri");
         if (resource.file.empty())
             return std::move(resource.bytes);
-        return readFileBytes(resource.file, limits.fileBytes);
+        return readGltfResource(document.source->file, resource.file, limits);
     } catch (const GltfProblem& problem) {
         return inputError(document.source->path.string() + ": " + problem.message);
     }

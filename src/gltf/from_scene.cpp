@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cotan/image/file.hpp"
+#include "cotan/scene/check.hpp"
 #include "edit_state.hpp"
 
 namespace cotan {
@@ -142,6 +143,8 @@ Json nodeOf(const Instance& instance)
 
 Result<GltfDocument> gltfDocumentOf(const Scene& scene)
 {
+    if (const Status sound = checkScene(scene, "scene", {.pixels = false}); !sound)
+        return sound.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
     source->root = Json::object();
