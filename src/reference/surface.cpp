@@ -6,6 +6,7 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_uv.hpp"
 
 namespace cotan::reference {
 
@@ -34,12 +35,6 @@ glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterT
                              const std::array<double, 3>& weights)
 {
     return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
-}
-
-glm::vec2 transformed(const Texture& texture, glm::vec2 uv)
-{
-    return {texture.uRow.x * uv.x + texture.uRow.y * uv.y + texture.uRow.z,
-            texture.vRow.x * uv.x + texture.vRow.y * uv.y + texture.vRow.z};
 }
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
@@ -158,7 +153,7 @@ UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
                    Derivatives derivatives)
 {
     Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {transformed(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
+    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
             uvDifference(texture, quad, x), uvDifference(texture, quad, y)};
 }
 
