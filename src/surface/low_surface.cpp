@@ -1,8 +1,7 @@
 #include "cotan/surface/low_surface.hpp"
 
 #include <span>
-
-#include <fmt/format.h>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -84,7 +83,7 @@ template<class TextFrame> CotangentFrame<double> typed(const TextFrame& f)
 Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents)
 {
     if (dependsOnView(frame))
-        return usageError(fmt::format("the frame {} depends on the view: no map can be made for it", name(frame)));
+        return usageError("the frame " + std::string(name(frame)) + " depends on the view: no map can be made for it");
     LowSurface surface;
     surface.frame = frame;
     bool allStored = readsTangents(frame) && tangents == TangentOrigin::stored;
@@ -100,12 +99,12 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
             continue;
         const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
         if (mesh.texcoords[uvSetOf(map)].empty())
-            return inputError(fmt::format("{}: mesh '{}' has no texture coordinates (uv set {})", scene.name, mesh.name,
-                                          uvSetOf(map)));
+            return inputError(scene.name + ": mesh '" + mesh.name + "' has no texture coordinates (uv set "
+                              + std::to_string(uvSetOf(map)) + ")");
         append(surface, mesh, map, scene.instances[i].toWorld, std::uint32_t(i), allStored);
     }
     if (surface.indices.empty())
-        return inputError(fmt::format("{}: expected triangles; found none", scene.name));
+        return inputError(scene.name + ": expected triangles; found none");
     if (readsCotangents(frame))
         deriveCotangents(surface);
     else if (readsTangents(frame) && !allStored)
