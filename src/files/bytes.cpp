@@ -12,14 +12,17 @@ namespace cotan {
 
 namespace fs = std::filesystem;
 
-Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
+namespace {
+
+Result<std::size_t> usableSize(const fs::path& file, std::size_t limit, bool isInput)
 {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status))
         return inputError(fmt::format("{}: no such file", file.string()));
-    if (Status free = noteInput(file); !free)
-        return free.error();
+    if (isInput)
+        if (Status free = noteInput(file); !free)
+            return free.error();
     if (fs::is_directory(status))
         return inputError(fmt::format("{}: expected a file, found a folder", file.string()));
     if (!fs::is_regular_file(status))
@@ -34,9 +37,9 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
     return static_cast<std::size_t>(size);
 }
 
-Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
+Result<std::vector<std::byte>> readBytes(const fs::path& file, std::size_t limit, bool isInput)
 {
-    const auto size = usableFileSize(file, limit);
+    const auto size = usableSize(file, limit, isInput);
     if (!size)
         return size.error();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(std::fopen(file.c_str(), "rb"),
@@ -47,6 +50,20 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;
+}
+
+} // namespace
+
+Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit) { return usableSize(file, limit, true); }
+
+Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
+{
+    return readBytes(file, limit, true);
+}
+
+Result<std::vector<std::byte>> readReplacedBytes(const fs::path& file, std::size_t limit)
+{
+    return readBytes(file, limit, false);
 }
 
 } // namespace cotan

@@ -202,8 +202,8 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
     std::error_code error;
     if (!fs::is_regular_file(file, error))
         return uris;
-    Json root; // no input of ours: whatever is wrong with it, it goes
-    if (const auto bytes = readFileBytes(file, limits.fileBytes))
+    Json root; // whatever is wrong with it, it goes
+    if (const auto bytes = readReplacedBytes(file, limits.fileBytes))
         try {
             root = parseGltfJson(*bytes);
         } catch (const GltfProblem&) {

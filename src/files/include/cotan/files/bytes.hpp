@@ -17,4 +17,7 @@ Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_
 // Errors (ErrorKind::input): missing, not a regular file, empty, too large, not readable; those of noteInput.
 Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit);
 
+// The same of an older output, which the new one replaces: no input, so noteInput does not hear of it.
+Result<std::vector<std::byte>> readReplacedBytes(const std::filesystem::path& file, std::size_t limit);
+
 } // namespace cotan
