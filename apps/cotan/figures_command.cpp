@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -36,6 +38,11 @@ Status run(const FiguresCommandOptions& o)
     const auto size = parseSize(o.size);
     if (!size)
         return size.error();
+    const auto only = splitAtCommas(o.only);
+    const auto names = figures::figureNames();
+    for (const std::string& word : only)
+        if (std::ranges::find(names, word) == names.end())
+            return notOneOf("--only", names, word);
     if (Status planned = planOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
         return planned;
     const auto painter = openDevice(o.device, o);
@@ -43,7 +50,6 @@ Status run(const FiguresCommandOptions& o)
         return painter.error();
     if (Status made = makeFolder(o.output); !made)
         return made;
-    const auto only = splitAtCommas(o.only);
     const auto figures = withProgress(o, 1, "drawing figures", [&](Progress progress) {
         return figures::drawFigures(
             **painter, o.output,

@@ -66,12 +66,11 @@ Status run(const MapBlendCommandOptions& o)
     const auto options = parseOptions(o);
     if (!options)
         return options.error();
-    const auto done = onFiles(o, o.base, [&](const maps::FileOptions& files) {
+    const auto done = onFilesToMap(o, o.base, [&](const maps::FileOptions& files) {
         return maps::blendFiles(o.base, o.detail, o.output, *options, files);
     });
     if (!done)
         return done.error();
-    warnIfLossy(o, o.output);
     if (done->invalid > 0)
         warn(o, "{} texels are no direction in one of the maps; the other counts alone there", done->invalid);
     say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,

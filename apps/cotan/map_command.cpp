@@ -24,7 +24,7 @@ Result<Convention> parseConvention(const std::string& text, const std::string& o
 Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to)
 {
     const auto first = parseConvention(from, "--from");
-    const auto second = parseConvention(to.empty() ? from : to, "--to");
+    const auto second = parseConvention(to, "--to");
     if (!first || !second)
         return first ? second.error() : first.error();
     return std::pair(*first, *second);

@@ -40,11 +40,11 @@ Status run(const MapConvertCommandOptions& o)
                         o.material};
     }
     const auto done =
-        onFiles(o, o.mesh.empty() ? o.file : "turning texels by the mesh",
-                [&](const maps::FileOptions& files) { return maps::convertFile(o.file, o.output, options, files); });
+        onFilesToMap(o, o.mesh.empty() ? o.file : "turning texels by the mesh", [&](const maps::FileOptions& files) {
+            return maps::convertFile(o.file, o.output, options, files);
+        });
     if (!done)
         return done.error();
-    warnIfLossy(o, o.output);
     if (!o.mesh.empty())
         say(o, "{}: the mesh shows {:.1f} % of the map; the rest is padding", o.mesh,
             100 * double(done->shown) / (double(done->width) * double(done->height)));

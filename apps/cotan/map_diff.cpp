@@ -16,7 +16,7 @@ Status run(const MapDiffCommandOptions& o)
 {
     if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
-    const auto conventions = parseFromTo(o.from, o.to);
+    const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
     if (!conventions)
         return conventions.error();
     const auto compared = onFiles(o, o.a, [&](const maps::FileOptions& files) {

@@ -72,7 +72,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     const auto metres = parseMetres(o.metres);
     if (!metres)
         return metres.error();
-    const auto done = onFiles(o, o.file, [&](const maps::FileOptions& files) {
+    const auto done = onFilesToMap(o, o.file, [&](const maps::FileOptions& files) {
         return maps::normalsFromHeightFile(o.file, o.output,
                                            {.to = *to,
                                             .kernel = *kernel,
@@ -86,7 +86,6 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     });
     if (!done)
         return done.error();
-    warnIfLossy(o, o.output);
     if (done->invalid > 0)
         warn(o, "{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid);
     if (done->heights == PixelType::unorm8)

@@ -21,7 +21,7 @@ Status run(const MapMipsCommandOptions& o)
     const std::filesystem::path first = maps::firstMipFile(o.output);
     if (Status given = needOutput(o, "mips", first); !given)
         return given;
-    const auto conventions = parseFromTo(o.from, o.to);
+    const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
     if (!conventions)
         return conventions.error();
     const auto& [from, to] = *conventions;

@@ -24,7 +24,7 @@ void addDither(Arguments& command, bool& dither);
 // conventionFromWords with the option in front of its message.
 Result<Convention> parseConvention(const std::string& text, const std::string& option);
 
-// The two of --from and --to; an empty `to` is as `from`.
+// The two of --from and --to.
 Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to);
 
 // For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
@@ -38,6 +38,20 @@ template<class Work> auto onFiles(const MapOptions& o, const std::string& what, 
         return work(maps::FileOptions{limitsFor(o.memory), o.threads, std::move(progress)});
     });
     return result ? std::move(result) : decltype(result)(inWords(result.error()));
+}
+
+// The same for work that writes a normal map: once the work has begun, warns where the format of -o does not keep it.
+template<class Work> auto onFilesToMap(const MapOptions& o, const std::string& what, const Work& work)
+{
+    bool told = false;
+    return onFiles(o, what, [&](maps::FileOptions files) {
+        files.progress = [&, line = std::move(files.progress)](double share) {
+            if (!std::exchange(told, true))
+                warnIfLossy(o, o.output);
+            return line(share);
+        };
+        return work(files);
+    });
 }
 
 // Each adds its command.

@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,9 +93,8 @@ std::string frameNames()
 std::vector<std::string> splitAtCommas(const std::string& text)
 {
     std::vector<std::string> words;
-    std::istringstream stream(text);
-    for (std::string word; std::getline(stream, word, ',');)
-        words.push_back(word);
+    for (std::size_t at = 0; !text.empty() && at <= text.size(); at += words.back().size() + 1)
+        words.push_back(text.substr(at, text.find(',', at) - at));
     return words;
 }
 
