@@ -152,15 +152,15 @@ Status run(const AccuracyCommandOptions& o)
 
 void declare(Arguments& a, AccuracyCommandOptions& o)
 {
-    a.option("--tables", o.tables, "names, separated by commas (default: all; see --list)").in("A,B");
+    a.option("--tables", o.tables, "tables, separated by commas (default: all; see --list)").in("A,B");
     a.option("--frames", o.frames, "frames, separated by commas (default: all): " + frameNames()).in("A,B");
     a.option("--device", o.device,
-             "draws the table rendered: auto, reference, a part of a Vulkan device's name, or none")
+             "device for the table `rendered`: auto, reference, a part of a Vulkan device's name, or none")
         .in("DEVICE");
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
     a.option("--csv", o.csv, "write all figures as CSV").in("FILE");
     a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
-    a.flag("--list", o.list, "name the tables and stop");
+    a.flag("--list", o.list, "print the names of the tables and stop");
 }
 
 } // namespace
@@ -170,8 +170,8 @@ void addAccuracyCommand(Arguments& tool)
     addCommand<AccuracyCommandOptions>(
         tool,
         {"accuracy",
-         "every frame against analytic truth, in degrees",
-         "write the tables (Markdown) there instead of printing them",
+         "the error of every frame on surfaces whose normals are known exactly, in degrees",
+         "file for the tables (Markdown) instead of standard output",
          {"cotan accuracy --list", "cotan accuracy --tables flat --frames cotangent,orthonormal --csv flat.csv"}},
         declare, run);
 }

@@ -181,14 +181,15 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
     a.option("--size", o.size, "width and height in texels").in("WxH");
-    a.option("--samples", o.samples, "samples a texel: 1, 4 or 16").from({1, 4, 16}).in("N");
+    a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
     a.option("--max-distance", o.maxDistance,
-             "how far rays look forward and back, model units; 0: 5 % of the high mesh's diagonal")
+             "how far rays reach to both sides of the low mesh, in model units; 0: 5 % of the high mesh's diagonal")
         .within(0.0, 1e9)
         .in("D");
-    a.option("--cage", o.cage, "mesh of the same triangles as the low one, around both; rays run from it inwards")
+    a.option("--cage", o.cage,
+             "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
         .in("FILE");
-    a.flag("--match-by-name", o.matchByName, "a low mesh NAME_low sees only the high mesh NAME_high");
+    a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
     addTangentsOption(a, o.tangents,
@@ -210,21 +211,25 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "--high-map")
         .in("NAME");
     a.option("--bits", o.bits, "8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
-    a.flag("--dither", o.dither, "8 bit: round by a fixed pattern");
+    a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention,
              "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
         .in("NAME");
-    a.option("--unsigned", o.expansion, "which code is zero: exact (128; 32768 of 16 bits), biased (none: 2c - 1)")
+    a.option("--unsigned", o.expansion,
+             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
         .from({"exact", "biased"})
         .in("NAME");
-    a.option("--padding", o.padding, "texels around charts that are filled from the nearest chart; 0: all, -1: none")
+    a.option("--padding", o.padding,
+             "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)
         .in("N");
-    a.option("--ao-rays", o.occlusionRays, "rays a sample for ao").within(1, 65536).in("N");
-    a.option("--mask", o.mask, "picture of what became of each texel").in("FILE");
+    a.option("--ao-rays", o.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
+    a.option("--mask", o.mask, "write a picture of what became of each texel").in("FILE");
     addMemoryOption(a, o.memory);
-    a.option("--verify", o.verify, "folder: draw the low mesh with the map and compare with the high one").in("DIR");
-    addDeviceOption(a, o.device, "draws for --verify: ");
+    a.option("--verify", o.verify,
+             "draw the low mesh with the map, compare it with the high one, and write the pictures into this folder")
+        .in("DIR");
+    addDeviceOption(a, o.device, "for --verify: ");
 }
 
 } // namespace
@@ -234,7 +239,7 @@ void addBakeCommand(Arguments& tool)
     addCommand<BakeCommandOptions>(
         tool,
         {"bake",
-         "normal map of a detailed mesh for a simple one, in a named frame",
+         "bake the normal map of a detailed mesh for a simple one, for a named frame",
          "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},

@@ -29,10 +29,10 @@ void addCommonOptions(Arguments& command, CommonOptions& options, const std::str
     if (outputHelp.empty())
         output.unlisted().refused(
             [name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
-    command.option("--json", options.json, "machine-readable report; - is standard output").in("FILE");
-    command.flag("--quiet", options.quiet, "no notes and warnings");
+    command.option("--json", options.json, "write a machine-readable report; - is standard output").in("FILE");
+    command.flag("--quiet", options.quiet, "print no notes and warnings");
     command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024);
-    command.flag("--overwrite", options.overwrite, "replace files that are read, too");
+    command.flag("--overwrite", options.overwrite, "let outputs replace input files");
 }
 
 void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value)

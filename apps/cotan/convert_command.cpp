@@ -162,22 +162,22 @@ void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required();
     a.option("--from-frame", o.from, "frame that the maps were made for").in("FRAME");
-    a.option("--to-frame", o.to,
-             "frame that they shall be for; mikktspace and vertex write TANGENT, all others drop it")
+    a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
         .in("FRAME");
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
     addTangentsOption(
         a, o.tangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
-    a.flag("--keep-tangents", o.keepTangents, "leave TANGENT where it is");
+    a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.bits,
-             "of the new maps: 8 or 16, and all are written anew (default: as the old ones, which stay where they fit)")
+             "bits of the new maps, 8 or 16; writes all anew (default: bits of the old map; a map that fits stays)")
         .from({8, 16})
         .in("N")
         .withoutDefault();
     addMemoryOption(a, o.memory);
-    a.option("--verify", o.verify, "folder: draw both models from five sides, compare normals, write the pictures")
+    a.option("--verify", o.verify,
+             "draw both models from five sides, compare normals, and write the pictures into this folder")
         .in("FOLDER");
     addDeviceOption(a, o.device, "for --verify: ");
 }

@@ -51,19 +51,18 @@ Status run(const CostCommandOptions& o)
 void declare(Arguments& a, CostCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
-    a.option("--frames", o.frames, "rows to price besides floor and mikktspace; default: all")
+    a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
         .in("A,B");
-    a.option("--device", o.devices, "devices with this in their name; default: all").in("NAME");
+    a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
-             "cards that Mesa's Radeon driver compiles for without having one; default, if "
-             "no --device is "
+             "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
              "given: POLARIS10, VEGA10, NAVI21, GFX1100")
         .in("NAME");
-    a.flag("--no-timing", o.noTiming, "do not draw to take times");
-    a.flag("--time-cpu-devices", o.timeCpuDevices, "take times also where a driver draws on the processor");
-    a.option("--repeats", o.repeats, "draws of which the median is taken").within(1, 1000);
-    a.option("--csv", o.csv, "every number, one a line").in("FILE");
+    a.flag("--no-timing", o.noTiming, "measure no times");
+    a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
+    a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000);
+    a.option("--csv", o.csv, "write every number, one per line").in("FILE");
 }
 
 } // namespace

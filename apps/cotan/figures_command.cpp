@@ -87,7 +87,7 @@ void addFiguresCommand(Arguments& tool)
     addCommand<FiguresCommandOptions>(
         tool,
         {"figures",
-         "draw the figures, with their errors in degrees, as one HTML page and PNGs",
+         "draw the figures of the papers, with errors in degrees, as one HTML page and PNGs",
          "folder for index.html and the pictures",
          {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,decode --size 240x180 -o figures"}},
         declare, run);

@@ -118,21 +118,23 @@ void declare(Arguments& a, LintCommandOptions& o)
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required();
     addMemoryOption(a, o.memory);
-    a.flag("--details", o.details, "also the figures of each primitive and map");
+    a.flag("--details", o.details, "print the figures of each primitive and map, too");
     addNormalMapOption(a, o.normalMap);
     a.option("--distance", o.distance,
-             "from the eye to the surface in world units, 45 degrees and 1080 lines high; 0: where the model fills the "
-             "picture")
+             "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "
+             "fills it")
         .in("D");
     a.flag("--strict", o.strict, "exit code 5 if something is over a limit, or a normal map could not be judged");
-    a.option("--limit", o.limits.degrees, "degrees: 95 % of the expected error of reading with --frame, and rounding")
+    a.option("--limit", o.limits.degrees,
+             "exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area")
         .in("DEGREES")
         .withoutDefault();
     a.option("--limit-area", o.limits.area,
-             "% of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv")
+             "exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv exceed this "
+             "% of a primitive's area")
         .in("PERCENT")
         .withoutDefault();
-    a.option("--frame", o.limits.frame, "for --limit: cotangent, orthonormal, smooth, exact or stored")
+    a.option("--frame", o.limits.frame, "frame that --limit judges: cotangent, orthonormal, smooth, exact or stored")
         .from({"cotangent", "orthonormal", "smooth", "exact", "stored"})
         .in("NAME");
 }
@@ -143,7 +145,7 @@ void addLintCommand(Arguments& tool)
 {
     addCommand<LintCommandOptions>(tool,
                                    {"lint",
-                                    "what to expect of a model's normal maps without stored tangents, in degrees",
+                                    "how far off a model's normal maps will be without stored tangents, in degrees",
                                     "",
                                     {"cotan lint model.glb", "cotan lint model.glb --distance 3 --json report.json"}},
                                    declare, run);

@@ -11,9 +11,7 @@ namespace cotan::app {
 
 void addMemoryOption(Arguments& command, int& memory)
 {
-    command.option("--memory", memory, "MiB that one picture may take where it has to be held whole")
-        .within(1, 1 << 16)
-        .in("MIB");
+    command.option("--memory", memory, "largest picture held in memory at once, in MiB").within(1, 1 << 16).in("MIB");
 }
 
 void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help)

@@ -111,7 +111,7 @@ void addMapBlend(Arguments& map)
     addCommand<MapBlendCommandOptions>(
         map,
         {"blend",
-         "a base and a detail map as one",
+         "combine a base map and a detail map",
          "the blend, of the base's size",
          {"cotan map blend rocks.png grain.png -o out.png",
           "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"}},

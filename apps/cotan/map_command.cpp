@@ -12,7 +12,7 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
 
 void addDither(Arguments& command, bool& dither)
 {
-    command.flag("--dither", dither, "noise of half a step before rounding, the same on every run");
+    command.flag("--dither", dither, "add noise of half a step before rounding; it is the same on every run");
 }
 
 Result<Convention> parseConvention(const std::string& text, const std::string& option)
@@ -39,7 +39,7 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 
 void addMapCommand(Arguments& tool)
 {
-    Arguments map = tool.command("map", "normal-map files: what they are, and from one form to another");
+    Arguments map = tool.command("map", "normal-map files: inspect them, and convert between ways to store them");
     addExamples(map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
     for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
                            addMapBlend, addMapMips})

@@ -74,12 +74,14 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     a.option("--to", o.to, "how to store it; the same words").in("WORDS").required();
     addBits(a, o, "");
     a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents");
-    a.flag("--normalise", o.normalise, "make every vector unit; otherwise three channels keep their lengths");
+    a.flag("--normalise", o.normalise,
+           "make every vector of unit length; without this, vectors of three channels keep their lengths");
     addDither(a, o.dither);
-    a.option("--mesh", o.mesh, "the mesh of the map, to or from object space").in("FILE");
+    a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE");
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map");
-    a.option("--material", o.material, "with --mesh: only what has this material; -1: all").within(-1, 1 << 20);
-    a.option("--tangents", o.tangents, "with --mesh: stored, or generated").from({"stored", "generated"});
+    a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all").within(-1, 1 << 20);
+    a.option("--tangents", o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated")
+        .from({"stored", "generated"});
 }
 
 } // namespace
@@ -89,7 +91,7 @@ void addMapConvert(Arguments& map)
     addCommand<MapConvertCommandOptions>(
         map,
         {"convert",
-         "the same directions, stored another way",
+         "store the same directions another way",
          "the new map: .png .exr .tif .tga .jpg .hdr",
          {"cotan map convert rocks.png --from directx --to gltf -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},

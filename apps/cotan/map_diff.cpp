@@ -54,8 +54,8 @@ void addMapDiff(Arguments& map)
 {
     addCommand<MapDiffCommandOptions>(map,
                                       {"diff",
-                                       "two maps against each other, in degrees",
-                                       "heat map",
+                                       "the angle between two maps, in degrees",
+                                       "heat map of the angles",
                                        {"cotan map diff rocks.png other.png",
                                         "cotan map diff rocks.png other.png --from gltf --to directx -o heat.png"}},
                                       declare, run);

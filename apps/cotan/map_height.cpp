@@ -174,14 +174,14 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "heights: grey, or the red channel").required();
     a.option("--to", o.convention, "how to store it: " + conventionWords()).in("WORDS");
-    a.option("--metres", o.metres, "metres that the picture covers; with --range").in("W[xH]");
+    a.option("--metres", o.metres, "size of the picture in metres; with --range").in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
-    a.option("--range", o.range, "metres from black to white (floats: metres per unit); negative: white is low")
+    a.option("--range", o.range, "metres from black to white (floats: metres per unit); below 0: white is low")
         .in("METRES")
         .withoutDefault();
     a.option("--strength", o.strength,
-             "without metres: white is this many hundredths of the picture's width above black");
-    a.option("--kernel", o.kernel, "forward, central, sobel or scharr");
+             "without --metres: height from black to white, in hundredths of the picture's width");
+    a.option("--kernel", o.kernel, "how slopes are measured: forward, central, sobel or scharr");
     a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror");
     addBits(a, o, " (as the heights)");
     addDither(a, o.dither);
@@ -192,12 +192,12 @@ void declareTo(Arguments& a, MapToHeightCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required();
     a.option("--from", o.convention, "how it is stored: " + conventionWords()).in("WORDS");
-    a.option("--metres", o.metres, "metres that the picture covers: heights come in metres, otherwise in texels")
+    a.option("--metres", o.metres, "size of the picture in metres; heights are then in metres, without this in texels")
         .in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--kernel", o.kernel,
              "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
-    a.flag("--free", o.free, "the map does not repeat: free borders");
+    a.flag("--free", o.free, "the map does not repeat at its borders");
     addBits(a, o, " (16 where the file can hold it)");
 }
 
@@ -219,7 +219,7 @@ void addMapToHeight(Arguments& map)
 {
     addCommand<MapToHeightCommandOptions>(map,
                                           {"to-height",
-                                           "the height whose slopes are nearest to a normal map's",
+                                           "a height picture from a normal map: the one whose slopes are nearest",
                                            "the heights; floats keep their unit, others go from black to white",
                                            {"cotan map to-height rocks.png -o height.png",
                                             "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"}},

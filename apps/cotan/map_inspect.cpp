@@ -53,7 +53,7 @@ void addMapInfo(Arguments& map)
 {
     addCommand<InspectOptions>(map,
                                {"info",
-                                "what a map is: lengths, tilt, centre, channels, what is wrong",
+                                "properties of a map: lengths, tilt, centre, channels, and what is wrong",
                                 "",
                                 {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
                                declare, runInfo);

@@ -65,9 +65,9 @@ void declare(Arguments& a, MapMipsCommandOptions& o)
     a.option("FILE", o.file, "the map").required();
     a.option("--from", o.from, "how it is stored: " + conventionWords()).in("WORDS");
     a.option("--to", o.to, "how to store the levels; as the map if not given").in("WORDS");
-    a.option("--roughness", o.roughness, "of the material, perceptual, 0 to 1").within(0.0, 1.0);
-    a.option("--model", o.model, "toksvig, vmf or lean");
-    a.flag("--keep-lengths", o.keepLengths, "three channels: store the shortened mean vectors");
+    a.option("--roughness", o.roughness, "perceptual roughness of the material, 0 to 1").within(0.0, 1.0);
+    a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean");
+    a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths");
     addBits(a, o, " (as the map)");
 }
 
@@ -78,7 +78,7 @@ void addMapMips(Arguments& map)
     addCommand<MapMipsCommandOptions>(
         map,
         {"mips",
-         "smaller levels, filtered as vectors, and the roughness they need",
+         "mip levels, filtered as vectors, and the roughness that each needs",
          "OUT.dds (all levels, roughness in alpha), or OUT.png and others: OUT_0.png, OUT_roughness_0.png, ...",
          {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
         declare, run);

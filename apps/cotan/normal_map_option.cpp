@@ -29,11 +29,12 @@ bool anyMeshShows(const Scene& scene, int material)
 
 void addNormalMapOption(Arguments& a, NormalMapOption& o)
 {
-    a.option("--normal-map", o.file,
-             "image that takes the place of the model's normal maps, such as one that was just baked")
+    a.option("--normal-map", o.file, "image that takes the place of the model's normal maps, such as a new bake")
         .in("FILE");
     a.option("--convention", o.convention, "how that image is stored: " + conventionWords()).in("WORDS");
-    a.option("--material", o.material, "number of the only material that gets it; -1: all").within(-1, 100000).in("N");
+    a.option("--material", o.material, "number of the material that gets this image; -1: all")
+        .within(-1, 100000)
+        .in("N");
 }
 
 Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)

@@ -56,22 +56,23 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     addDeviceOption(a, o.device);
     a.option("--shading", o.shading, "pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
     a.option("--lighting", o.lighting,
-             "world, or, on the reference device and for comparison, tangent-vertex or tangent-pixel: light "
-             "and view vectors are taken to tangent space")
+             "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
+             "(tangent-pixel), for comparison and on the reference device only")
         .from({"world", "tangent-vertex", "tangent-pixel"})
         .in("NAME");
     addTangentsOption(
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
-    a.option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
-    a.option("--exposure", o.exposure, "factor on all light").above0().in("X");
-    a.option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
+    a.option("--samples", o.samples, "samples per pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
+    a.option("--exposure", o.exposure, "factor that multiplies all light").above0().in("X");
+    a.option("--rows", o.rows,
+             "whether the rows of the render target run down or up; the picture is upright either way")
         .from({"down", "up"})
         .in("NAME");
-    a.option("--derivatives", o.derivatives, "fine or coarse").from({"fine", "coarse"}).in("NAME");
-    a.flag("--no-shadows", o.noShadows, "no shadows");
-    a.flag("--no-normal-maps", o.noNormalMaps, "interpolated normals only");
-    a.flag("--point-sampled", o.pointSampled, "nearest texel of the finest level, for comparing devices");
+    a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
+    a.flag("--no-shadows", o.noShadows, "draw no shadows");
+    a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
+    a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,

@@ -104,7 +104,8 @@ void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
-    a.option("--view", o.show, "shaded, normal, tangent, bitangent, uv, depth, or error: degrees from the frame exact")
+    a.option("--view", o.show,
+             "what to draw: shaded, normal, tangent, bitangent, uv, depth, or error (degrees from the frame exact)")
         .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
         .in("NAME");
 }

@@ -148,15 +148,18 @@ void declare(Arguments& a, ShaderCommandOptions& o)
              "v, exact")
         .in("NAME");
     a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope").in("N");
-    a.option("--green", o.green, "along-v or against-v: where green points").in("WAY");
+    a.option("--green", o.green, "where green points: along-v or against-v").in("WAY");
     a.option("--unsigned", o.expansion,
-             "exact, (255c - 128)/127; exact16, the same for maps of 16 bits; biased, 2c - 1; signed, as sampled")
+             "how a stored value c becomes a number: exact, (255c - 128)/127; exact16, the same for maps of 16 bits; "
+             "biased, 2c - 1; signed, as sampled")
         .in("NAME");
-    a.option("--uv-sets", o.uvSets, "normal maps over uv sets of their own, 1 to 4, added as gradients").in("N");
+    a.option("--uv-sets", o.uvSets,
+             "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
+        .in("N");
     a.option("--set", o.sets, "more functions: gradient, blend, light, all").separatedByCommas().in("A,B");
     a.option("--differences", o.differences,
-             "shader: also a function that takes the screen derivatives itself; caller: not (for compute, "
-             "ray tracing, vertex stages)")
+             "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
+             "tracing and vertex stages")
         .in("WHO");
 }
 
@@ -167,7 +170,7 @@ void addShaderCommand(Arguments& tool)
     addCommand<ShaderCommandOptions>(
         tool,
         {"shader",
-         "the text of a frame for your shader, self-contained",
+         "print the shader code of a frame, self-contained",
          "file for the text instead of standard output",
          {"cotan shader --lang wgsl -o normal.wgsl", "cotan shader --lang glsl --preset unity --set blend,light"}},
         declare, run);

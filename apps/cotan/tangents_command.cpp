@@ -172,7 +172,8 @@ void declare(Arguments& a, TangentsCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required();
     a.option("--frame", o.frame, "mikktspace, vertex (classic averages), or smooth (statistics only)");
-    a.flag("--replace", o.replace, "generate also where the file has TANGENT; else only where it is missing");
+    a.flag("--replace", o.replace,
+           "generate tangents also where the file has them; without this only where they are missing");
 }
 
 } // namespace
@@ -182,8 +183,7 @@ void addTangentsCommand(Arguments& tool)
     addCommand<TangentsCommandOptions>(
         tool,
         {"tangents",
-         "write tangents into a glTF model; without -o say of those in it whether they equal "
-         "MikkTSpace, w is inverted, half of them are turned, or how far off they are",
+         "write tangents into a glTF model; without -o: compare those in the file with MikkTSpace",
          "the model with tangents, .glb or .gltf",
          {"cotan tangents model.glb", "cotan tangents model.glb --replace -o with-tangents.glb"}},
         declare, run);
