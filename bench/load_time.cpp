@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cotan/model/load.hpp"
+#include "cotan/model/reader.hpp"
 
 namespace {
 

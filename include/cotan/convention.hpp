@@ -12,10 +12,10 @@ namespace cotan {
 
 // Expansion and Channels have the numbers of COTAN_EXPAND_... and COTAN_CHANNELS_... in shaders/cotan/normal.h.
 enum class Expansion {
-    exact,        // zero is the middle code: (255c - 128)/127, and what its bits ask for elsewhere (expansionFor)
+    exact,        // zero is the middle code: (255c - 128)/127 of 8 bits; of others see expansionFor
     biased,       // 2c - 1
     signedValues, // stored signed (snorm, float)
-    exact16,      // (65535c - 32768)/32767: exact of 16 bits, where nobody says how many there are
+    exact16,      // (65535c - 32768)/32767: exact of 16 bits, for readers that do not know the number of bits
 };
 
 enum class Channels {

@@ -9,7 +9,7 @@
 
 namespace cotan {
 
-// Gets the share that is done, from 0 to 1, and returns whether to go on; empty: nobody wants to know. Work that is
+// Gets the share that is done, from 0 to 1, and returns whether to go on. May be empty. Work that is
 // told to stop ends soon with stoppedError, writes no file and changes nothing that it was given.
 using Progress = std::function<bool(double share)>;
 

@@ -7,7 +7,7 @@
 
 namespace cotan {
 
-// The numbers are the exit codes of the command line, which is never stopped by itself.
+// The numbers are the exit codes of the command line, which has none for `stopped`.
 enum class ErrorKind {
     usage = 1,       // the call itself is wrong
     input = 2,       // a file or value given to us is bad

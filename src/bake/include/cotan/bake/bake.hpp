@@ -26,7 +26,7 @@ struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
     int width = 1024, height = 1024;
-    int samples = 1;             // a texel and axis: 1, 2 or 4
+    int samples = 1;             // per texel and axis: 1, 2 or 4
     glm::ivec2 tile{0, 0};       // unit square of uv
     float maxDistance = 0;       // model units, forward and back along the low normal; 0: 5 % of the high surface's box
     std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the

@@ -1,4 +1,4 @@
-// All normal maps of a glTF file made for another frame, in one call.
+// Makes all normal maps of a glTF file for another frame, in one call.
 //
 //     auto document = openGltfDocument("in.glb");
 //     auto report = convertModel(*document, {.frames = {Frame::mikktspace, Frame::smooth}});
@@ -33,7 +33,7 @@ struct ConvertedMap {
 
 struct ConvertModelOptions {
     FramePair frames{}; // neither may depend on the view
-    int bits = 0; // of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit
+    int bits = 0;       // of the new maps, 8 or 16: writes all anew; 0: bits of the old map, and a map that fits stays
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     LoadLimits limits{};       // of reading the pictures

@@ -1,5 +1,5 @@
-// A normal map that was made for one frame, made for another: per texel, what the one makes of it at
-// its place on the surface, and what the other needs there for the same.
+// Makes a normal map for another frame than the one it was made for: decodes each texel with the old
+// frame at its place on the surface, and encodes the normal with the new one.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace cotan::cost {
 struct PriceOptions {
     std::vector<std::string> frames;   // rows besides floor and mikktspace; empty: all
     std::vector<std::string> devices;  // those with one of these in their name; empty: all
-    std::vector<std::string> families; // cards that Mesa's Radeon driver compiles for without having one; empty: the
+    std::vector<std::string> families; // cards that Mesa's Radeon driver compiles for without the card; empty: the
                                        // usual ones, where `devices` is empty too
     bool timing = true;
     bool timeCpuDevices = false; // take times also where a driver draws on the processor

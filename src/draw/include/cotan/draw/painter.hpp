@@ -18,7 +18,7 @@ public:
 
     // Takes a scene in the place of the one before. It must live until the next load, forget or the
     // painter's end. Frames from vertices read what deriveVertexFrames (cotan/surface/vertex_frames.hpp)
-    // has put into it; without that the picture shows the interpolated normals.
+    // has put into it; without that draw() refuses them.
     // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over kMostTrianglesDrawn
     // (cotan/scene/bounds.hpp) of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable
     // when the device has not enough memory.

@@ -20,7 +20,7 @@ struct Image;
 enum class Pixels {
     all,           // those that are used; one that cannot be read is an error
     whereReadable, // the same, but those in a format that glTF extensions allow and nothing here reads (foreignFormat
-                   // in image_file.hpp) stay without pixels, and a warning names them
+                   // in cotan/image/file.hpp) stay without pixels, and a warning names them
     none,          // no image
 };
 

@@ -1,5 +1,5 @@
 // Reading in a child process, so that a file that makes a third-party reader crash, hang or take all memory costs that
-// process and not ours. The child is a program of the caller's that begins with
+// process and not ours. The child is a program of the caller's that begins as follows (cotan/model/reader.hpp),
 //
 //     int main(int argc, char** argv)
 //     {

@@ -9,7 +9,7 @@
 namespace cotan {
 
 struct LintLimits {
-    double degrees = -1; // 95 % of the error of reading with `frame`, and rounding; -1: no limit
+    double degrees = -1; // that the error with `frame` may exceed on 5 % of the area; -1: no limit
     double area = -1; // % of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv
     std::string frame = "cotangent"; // a Reading::name
 };

@@ -1,4 +1,4 @@
-// What to expect of a model whose normal maps are read without stored tangents, before anything is
+// How far off a model's normal maps will be without stored tangents, told before anything is
 // drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
 #pragma once
 

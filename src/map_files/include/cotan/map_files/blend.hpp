@@ -1,4 +1,4 @@
-// A base and a detail map as one.
+// Combines a base map and a detail map.
 #pragma once
 
 #include "cotan/map_files/map_file.hpp"

@@ -1,4 +1,4 @@
-// The same directions, stored another way.
+// Stores the same directions another way.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ struct FromHeightFileOptions {
     Wrap wrap = Wrap::repeat;
     std::optional<Metres> metres{}; // with them `range` counts, without them `strength`
     double range = 0;               // metres from black to white, or per unit of floats; negative: white is low
-    double strength = 1;            // white is this many hundredths of the picture's width above black
+    double strength = 1;            // height from black to white, in hundredths of the picture's width
     std::string bits = "auto";      // as bitsFor
     bool dither = false;
 };

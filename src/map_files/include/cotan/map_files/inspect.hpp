@@ -1,4 +1,4 @@
-// What files of maps are, and how far two are apart. Nothing is changed.
+// Properties of map files, and the angles between two of them. Nothing is changed.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Files of normal maps: how they are read, and how what becomes of them is stored.
+// Files of normal maps: how they are read, and how results are stored.
 //
 // The calls of this part take files of any size: what works row by row holds a few strips of a picture at a time. A
 // file appears whole or not at all. Errors of an option begin with its name, "options.bits: ".

@@ -12,8 +12,8 @@ namespace cotan::maps {
 struct MipFileOptions {
     Convention from{}, to{};
     SpreadModel model = SpreadModel::lean;
-    double roughness = 0.3;    // of the material, perceptual, 0 to 1
-    bool keepLengths = false;  // three channels: store the shortened mean vectors
+    double roughness = 0.3;    // perceptual roughness of the material, 0 to 1
+    bool keepLengths = false;  // three channels: store mean vectors with their shortened lengths
     std::string bits = "auto"; // as bitsFor; .dds has 8
     // Asked about each file before the first is written; an error ends the call. May be empty.
     std::function<Status(const std::filesystem::path&)> mayWrite{};

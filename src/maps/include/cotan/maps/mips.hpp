@@ -1,4 +1,4 @@
-// Chains of smaller maps, filtered as vectors, and what that takes from the look.
+// Chains of smaller maps, filtered as vectors, and the roughness that makes up for lost detail.
 //
 // The mean of unit vectors that spread has a length R below 1. Normalising it loses the spread, and
 // a rough surface seen from afar turns smooth. The spread goes into the roughness instead.

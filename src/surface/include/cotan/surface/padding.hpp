@@ -1,4 +1,4 @@
-// For texels that show nothing: which texel that shows something is nearest.
+// Finds, for each texel that shows nothing, the nearest one that shows something.
 #pragma once
 
 #include <cstdint>
