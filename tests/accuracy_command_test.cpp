@@ -67,6 +67,7 @@ TEST(AccuracyCommand, wrongWordsGetOneLineAndTheirExitCode)
     const std::pair<std::vector<std::string>, int> runs[] = {
         {{"accuracy", "--tables", "flatt"}, 1},
         {{"accuracy", "--frames", "cotan"}, 1},
+        {{"accuracy", "--frames", "smooth,"}, 1},
         {{"accuracy", "--tables", "views", "--scene", "nowhere"}, 1},
         {{"accuracy", "--tables", "views", "--against", "missing.csv"}, 2},
         {{"accuracy", "--tables", "views", "--against", "not.csv"}, 2},

@@ -179,10 +179,14 @@ TEST(Help, mapsInJpegAreWarnedOf)
     prepare(folder);
     for (const Words& words :
          std::vector<Words>{{"bake", "--high", "statue.obj", "--low", "statue_low.obj", "--size", "8x8", "-o", "x.jpg"},
-                            {"map", "from-height", "height.png", "--bits", "8", "-o", "x.JPEG"}}) {
+                            {"map", "from-height", "height.png", "--bits", "8", "-o", "x.JPEG"},
+                            {"map", "convert", "rocks.png", "--from", "gltf", "--to", "directx", "-o", "y.jpg"},
+                            {"map", "blend", "rocks.png", "grain.png", "-o", "z.jpg"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 0) << run.err;
-        EXPECT_NE(run.err.find("JPEG loses degrees"), std::string::npos) << words[0] << run.err;
+        const std::size_t first = run.err.find("JPEG loses degrees");
+        EXPECT_NE(first, std::string::npos) << words[0] << run.err;
+        EXPECT_EQ(run.err.find("JPEG loses degrees", first + 1), std::string::npos) << run.err;
     }
 }
 
