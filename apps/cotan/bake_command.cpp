@@ -177,7 +177,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE");
     a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE");
     a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME");
-    a.option("--kind", o.kind, "normal, object-normal, height (model units) or ao")
+    a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
     a.option("--size", o.size, "width and height in texels").in("WxH");
@@ -210,7 +210,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
              "--high-map")
         .in("NAME");
-    a.option("--bits", o.bits, "8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
+    a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention,
              "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")

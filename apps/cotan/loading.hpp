@@ -20,8 +20,8 @@ void addMemoryOption(Arguments& command, int& memory);
 // Adds --tangents, stored or generated.
 void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help);
 
-// Adds --device.
-void addDeviceOption(Arguments& command, std::string& device, const std::string& use = "");
+// Adds --device. use: what its help begins with.
+void addDeviceOption(Arguments& command, std::string& device, const std::string& use = "device that draws: ");
 
 // The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
 // than is usual.

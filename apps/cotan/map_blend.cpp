@@ -93,7 +93,7 @@ void declare(Arguments& a, MapBlendCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.option("BASE", o.base, "the base map").required();
     a.option("DETAIL", o.detail, "the detail map").required();
-    a.option("--mode", o.mode, "reoriented, whiteout, udn, slopes or linear");
+    a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear");
     a.option("--strength", o.strength, "factor on the detail's slopes");
     a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]");
     a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE");

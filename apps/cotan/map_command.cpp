@@ -7,7 +7,7 @@ namespace cotan::app {
 
 void addBits(Arguments& command, MapOptions& options, const std::string& help)
 {
-    command.option("--bits", options.bits, "auto" + help + ", 8, 16, half (.exr) or float");
+    command.option("--bits", options.bits, "bits per component: auto" + help + ", 8, 16, half (.exr) or float");
 }
 
 void addDither(Arguments& command, bool& dither)

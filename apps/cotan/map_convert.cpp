@@ -70,8 +70,8 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required();
-    a.option("--from", o.from, "how it is stored: " + conventionWords()).in("WORDS").required();
-    a.option("--to", o.to, "how to store it; the same words").in("WORDS").required();
+    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").required();
+    a.option("--to", o.to, "how to store the result; the same words").in("WORDS").required();
     addBits(a, o, "");
     a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents");
     a.flag("--normalise", o.normalise,

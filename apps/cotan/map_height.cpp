@@ -173,7 +173,7 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "heights: grey, or the red channel").required();
-    a.option("--to", o.convention, "how to store it: " + conventionWords()).in("WORDS");
+    a.option("--to", o.convention, "how to store the map: " + conventionWords()).in("WORDS");
     a.option("--metres", o.metres, "size of the picture in metres; with --range").in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--range", o.range, "metres from black to white (floats: metres per unit); below 0: white is low")
@@ -191,7 +191,7 @@ void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required();
-    a.option("--from", o.convention, "how it is stored: " + conventionWords()).in("WORDS");
+    a.option("--from", o.convention, "how the map is stored: " + conventionWords()).in("WORDS");
     a.option("--metres", o.metres, "size of the picture in metres; heights are then in metres, without this in texels")
         .in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);

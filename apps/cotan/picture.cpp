@@ -54,7 +54,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
         .in("CAMERA");
     addDeviceOption(a, o.device);
-    a.option("--shading", o.shading, "pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
+    a.option("--shading", o.shading, "shading model: pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
     a.option("--lighting", o.lighting,
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
              "(tangent-pixel), for comparison and on the reference device only")
