@@ -26,6 +26,17 @@ float4 main(float3 n : TEXCOORD0, float3 p : TEXCOORD1, float2 uv : TEXCOORD2) :
     sum += cotan_perturb_cotangent_area(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_gradient(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_orthonormal(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
+    cotan_triangle flat_pair = cotan_triangle_of_vertices(n, p, m, uv, uv, uv, n, n, n);
+    flat_pair = cotan_triangle_transformed(flat_pair, n, p, m, -1.0);
+    cotan_triangle sound = cotan_triangle_of_sound_edges(n, p, uv, uv, m);
+    sum += cotan_apply(cotan_frame_triangle(n, flat_pair.u, flat_pair.v), m);
+    sum += cotan_perturb_triangle(n, sound.u, sound.v, m);
+    sum += cotan_perturb_triangle_scaled(n, sound.u, sound.v, m) + cotan_perturb_smooth(n, p, m, m);
+    cotan_packed_triangle packed = cotan_pack_triangle(sound.u, sound.v);
+    sum += cotan_unpack_triangle_u(packed) + cotan_unpack_triangle_v(packed);
+    sum += cotan_unpack_smooth8(n, cotan_pack_smooth8(n, p, m)).t;
+    sum += cotan_unpack_smooth4(n, cotan_pack_smooth4(n, p, m)).b;
+    sum += cotan_unpack_tangent2(n, cotan_pack_tangent2(n, p, 1.0)).xyz;
     sum += cotan_encode(cotan_frame_cotangent(n, ddx(p), ddy(p), ddx(uv), ddy(uv)), sum);
     sum += cotan_encode_texel(m, format);
     float2 slope = cotan_slope_of_texel(m);

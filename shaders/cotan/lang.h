@@ -31,6 +31,8 @@
 #define cotan_float_bits(x) floatBitsToUint(x)
 #define cotan_bits_float(x) uintBitsToFloat(x)
 #define cotan_uint uint
+#define cotan_pack_half(v) packHalf2x16(v)
+#define cotan_unpack_half(word) unpackHalf2x16(word)
 
 #elif defined(COTAN_LANG_HLSL)
 
@@ -44,11 +46,14 @@
 #define cotan_float_bits(x) asuint(x)
 #define cotan_bits_float(x) asfloat(x)
 #define cotan_uint uint
+#define cotan_pack_half(v) (f32tof16((v).x) | (f32tof16((v).y) << 16))
+#define cotan_unpack_half(word) float2(f16tof32((word) & 0xffffu), f16tof32((word) >> 16))
 
 #elif defined(COTAN_LANG_CPP)
 
 #define COTAN_FUNCTION inline
 using cotan_real = COTAN_CPP_REAL;
+using cotan_uint = std::uint32_t;
 using cotan_vec2 = glm::vec<2, cotan_real, glm::defaultp>;
 using cotan_vec3 = glm::vec<3, cotan_real, glm::defaultp>;
 using cotan_vec4 = glm::vec<4, cotan_real, glm::defaultp>;
@@ -65,6 +70,14 @@ using std::sqrt;
 inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
 inline cotan_real cotan_mix(cotan_real a, cotan_real b, cotan_real k) { return a + (b - a) * k; }
 inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a + (b - a) * k; }
+inline cotan_uint cotan_pack_half(cotan_vec2 v)
+{
+    return glm::packHalf2x16(glm::vec2(float(v.x), float(v.y)));
+}
+inline cotan_vec2 cotan_unpack_half(cotan_uint word)
+{
+    return cotan_vec2(glm::unpackHalf2x16(word));
+}
 
 #else
 #error "cotan: define COTAN_LANG_GLSL, COTAN_LANG_HLSL or COTAN_LANG_CPP before including lang.h"
