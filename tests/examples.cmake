@@ -7,7 +7,7 @@ target_compile_definitions(examples_test PRIVATE
 add_dependencies(examples_test cotan)
 
 # As their own CMakeLists.txt build them, but within this build.
-target_sources(examples_test PRIVATE examples_sheets_test.cpp)
+target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp)
 find_package(embree 3 CONFIG QUIET)
 if(embree_FOUND)
   add_executable(example_raytracing ${PROJECT_SOURCE_DIR}/examples/raytracing/main.cpp)
@@ -23,4 +23,11 @@ if(Vulkan_FOUND AND COTAN_GLSLANG)
   target_compile_options(vulkan_example PRIVATE -Wno-missing-field-initializers) # Vulkan's structs: the rest is zero
   target_compile_definitions(examples_test PRIVATE COTAN_VULKAN_EXAMPLE="$<TARGET_FILE:vulkan_example>")
   add_dependencies(examples_test vulkan_example)
+  foreach(part core model shapes portable)
+    add_library(cotan::${part} ALIAS cotan_${part})
+  endforeach()
+  add_subdirectory(${PROJECT_SOURCE_DIR}/examples/triangle ${CMAKE_CURRENT_BINARY_DIR}/examples_triangle)
+  target_link_libraries(triangle_example PRIVATE cotan_warnings)
+  target_compile_definitions(examples_test PRIVATE COTAN_TRIANGLE_EXAMPLE="$<TARGET_FILE:triangle_example>")
+  add_dependencies(examples_test triangle_example)
 endif()
