@@ -43,7 +43,8 @@ const char kTriangle[] = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nod
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"material":0}]}],
 "materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],"images":[{"uri":"map.png"}],
 "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"min":[0,0,0],"max":[1,1,0]},
-{"bufferView":1,"componentType":5126,"type":"VEC3","count":3},{"bufferView":2,"componentType":5126,"type":"VEC2","count":3}],
+{"bufferView":1,"componentType":5126,"type":"VEC3","count":3},
+{"bufferView":2,"componentType":5126,"type":"VEC2","count":3}],
 "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36},
 {"buffer":0,"byteOffset":72,"byteLength":24}],"buffers":[{"byteLength":96,"uri":"data:;base64,)"
                          "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAA"

@@ -4,3 +4,8 @@ cotan_test(docs_test
   LIBRARIES fmt::fmt)
 target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(docs_test cotan)
+# The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
+  add_test(NAME Format.noLineIsOverTheLimit COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --long-lines)
+endif()
