@@ -10,7 +10,8 @@
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later
 //   COTAN_LANG_CPP    C++20 over GLM; COTAN_CPP_REAL names the scalar type. Included through
 //                     <cotan/portable.hpp>, once per scalar type, inside a namespace. It asks for
-//                     cotan_inverse_power_of_two of that type, as portable.hpp has it.
+//                     cotan_inverse_power_of_two of that type, cotan_pack_half and
+//                     cotan_unpack_half, as portable.hpp has them.
 //
 // What the text may use: scalars and vectors of two to four components, structs, functions,
 // selects. What it may not: matrices (row and column order differ between the languages),
@@ -31,6 +32,7 @@
 #define cotan_float_bits(x) floatBitsToUint(x)
 #define cotan_bits_float(x) uintBitsToFloat(x)
 #define cotan_uint uint
+#define cotan_real_of(x) float(x)
 #define cotan_pack_half(v) packHalf2x16(v)
 #define cotan_unpack_half(word) unpackHalf2x16(word)
 
@@ -46,6 +48,7 @@
 #define cotan_float_bits(x) asuint(x)
 #define cotan_bits_float(x) asfloat(x)
 #define cotan_uint uint
+#define cotan_real_of(x) float(x)
 #define cotan_pack_half(v) (f32tof16((v).x) | (f32tof16((v).y) << 16))
 #define cotan_unpack_half(word) float2(f16tof32((word) & 0xffffu), f16tof32((word) >> 16))
 
@@ -70,14 +73,7 @@ using std::sqrt;
 inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
 inline cotan_real cotan_mix(cotan_real a, cotan_real b, cotan_real k) { return a + (b - a) * k; }
 inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a + (b - a) * k; }
-inline cotan_uint cotan_pack_half(cotan_vec2 v)
-{
-    return glm::packHalf2x16(glm::vec2(float(v.x), float(v.y)));
-}
-inline cotan_vec2 cotan_unpack_half(cotan_uint word)
-{
-    return cotan_vec2(glm::unpackHalf2x16(word));
-}
+inline cotan_real cotan_real_of(cotan_uint x) { return cotan_real(x); }
 
 #else
 #error "cotan: define COTAN_LANG_GLSL, COTAN_LANG_HLSL or COTAN_LANG_CPP before including lang.h"

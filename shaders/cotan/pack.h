@@ -154,9 +154,9 @@ COTAN_FUNCTION cotan_uint cotan_pack_smooth4(cotan_vec3 n, cotan_vec3 t, cotan_v
 
 COTAN_FUNCTION cotan_covectors cotan_unpack_smooth4(cotan_vec3 n, cotan_uint word)
 {
-    cotan_real x = cotan_real(word & 1023u) / cotan_real(511.0) - cotan_real(1.0);
-    cotan_real y = cotan_real((word >> 10u) & 1023u) / cotan_real(511.0) - cotan_real(1.0);
-    cotan_real z = cotan_real((word >> 20u) & 511u) / cotan_real(255.0) - cotan_real(1.0);
+    cotan_real x = cotan_real_of(word & 1023u) / cotan_real(511.0) - cotan_real(1.0);
+    cotan_real y = cotan_real_of((word >> 10u) & 1023u) / cotan_real(511.0) - cotan_real(1.0);
+    cotan_real z = cotan_real_of((word >> 20u) & 511u) / cotan_real(255.0) - cotan_real(1.0);
     cotan_real largest = (word & 0x20000000u) != 0u ? cotan_real(-1.0) : cotan_real(1.0);
     cotan_uint which = word >> 30u;
     cotan_vec4 q = cotan_vec4(largest, x, y, z);
@@ -196,7 +196,7 @@ COTAN_FUNCTION cotan_uint cotan_pack_tangent2(cotan_vec3 n, cotan_vec3 t, cotan_
 COTAN_FUNCTION cotan_vec4 cotan_unpack_tangent2(cotan_vec3 n, cotan_uint word)
 {
     cotan_basis basis = cotan_basis_of_normal(n);
-    cotan_real place = cotan_real(word & 0x7fffu) / cotan_real(8192.0);
+    cotan_real place = cotan_real_of(word & 0x7fffu) / cotan_real(8192.0);
     cotan_real x = place > cotan_real(2.0) ? place - cotan_real(3.0) : cotan_real(1.0) - place;
     cotan_real y = cotan_real(1.0) - abs(x);
     y = place > cotan_real(2.0) ? -y : y;

@@ -1,11 +1,11 @@
 #include "cotan/cost/scalar_count.hpp"
 
 #include <glm/geometric.hpp>
-#include <glm/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/portable.hpp"
 #include "counted_real.hpp"
 
 namespace cotan::cost {

@@ -5,10 +5,11 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
-#include <glm/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include "cotan/portable.hpp"
 
 namespace cotan {
 
