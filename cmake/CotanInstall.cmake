@@ -49,7 +49,7 @@ foreach(name ${components})
     endif()
   endforeach()
   list(REMOVE_ITEM pc_requires cotan-portable)
-  string(APPEND COTAN_COMPONENT_TABLE "set(cotan_parts_${name} ${parts})\n")
+  string(APPEND COTAN_COMPONENT_TABLE "set(cotan_parts_${name} \"${parts}\")\n")
   string(REPLACE ";" "\" \"" quoted "${packages}")
   string(APPEND COTAN_COMPONENT_TABLE "set(cotan_packages_${name} \"${quoted}\")\n")
 
@@ -68,8 +68,14 @@ foreach(name ${components})
     endif()
     set(definitions "")
     if(name STREQUAL "core")
-      set(definitions " -I\${prefix}/share/cotan/shaders -DGLM_FORCE_XYZW_ONLY -std=c++20")
+      set(definitions " -I\${prefix}/share/cotan/shaders -std=c++20")
     endif()
+    get_target_property(defined ${target} INTERFACE_COMPILE_DEFINITIONS)
+    foreach(definition ${defined})
+      if(definition)
+        string(APPEND definitions " -D${definition}")
+      endif()
+    endforeach()
     list(JOIN pc_requires " " pc_requires)
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/cotan-${name}.pc @ONLY CONTENT "prefix=\${pcfiledir}/@up@
 libdir=\${prefix}/@CMAKE_INSTALL_LIBDIR@
@@ -84,6 +90,16 @@ Cflags: -I\${prefix}/@CMAKE_INSTALL_INCLUDEDIR@@definitions@
   endif()
 endforeach()
 
+# What find_package says of parts that are left out, and of those that lack something.
+get_property(left_out GLOBAL PROPERTY COTAN_LEFT_OUT)
+foreach(name ${components} ${left_out})
+  get_property(misses GLOBAL PROPERTY COTAN_MISSES_${name})
+  if(misses)
+    list(JOIN misses ", " misses)
+    string(APPEND COTAN_COMPONENT_TABLE "set(cotan_misses_${name} \"${misses}\")\n")
+  endif()
+endforeach()
+
 configure_file(cmake/version.hpp.in ${PROJECT_BINARY_DIR}/include/cotan/version.hpp @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/include/cotan/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cotan)
 get_property(includes GLOBAL PROPERTY COTAN_INCLUDES)
@@ -92,6 +108,8 @@ install(DIRECTORY shaders/cotan DESTINATION share/cotan/shaders)
 install(FILES LICENSE DESTINATION share/doc/cotan)
 install(EXPORT cotanTargets NAMESPACE cotan:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)
 
+list(REMOVE_ITEM components portable)
+list(JOIN components " " COTAN_COMPONENT_NAMES)
 configure_package_config_file(cmake/cotanConfig.cmake.in ${PROJECT_BINARY_DIR}/cotanConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake

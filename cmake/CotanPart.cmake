@@ -1,6 +1,7 @@
 # cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...])
 # One part of the house: a library with its own include folder (src/NAME/include), so that only
-# the parts it links can be included. Without SOURCES it is header-only.
+# the parts it links can be included. Without SOURCES it is header-only. A part that links something which is not there
+# is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.
 add_library(cotan_warnings INTERFACE)
 target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
@@ -15,23 +16,68 @@ function(cotan_unity target batch)
   endif()
 endfunction()
 
+# What static and shared libraries of parts have in common. Objects are the same for both: no definition says which.
+function(cotan_library target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL ""
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
+endfunction()
+
 # Where headers of a part are found here and once installed, and what find_package(cotan COMPONENTS name) needs for it:
-# the parts and packages that it links, privately or not, since the libraries are static.
+# the parts and packages that it links, privately or not, since static libraries need them and shared ones may.
 function(cotan_component target name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY COTAN_COMPONENTS ${name})
   set_property(GLOBAL PROPERTY COTAN_LINKS_${name} ${ARGN})
 endfunction()
 
+# Leaves a target out, and remembers which of the targets that it needs are missing.
+function(cotan_leave_out name missing)
+  set(libraries "")
+  foreach(target ${missing})
+    get_property(word GLOBAL PROPERTY COTAN_WORD_${target})
+    if(target MATCHES "^cotan_(.+)$")
+      get_property(word GLOBAL PROPERTY COTAN_MISSES_${CMAKE_MATCH_1})
+    endif()
+    list(APPEND libraries ${word})
+  endforeach()
+  list(REMOVE_DUPLICATES libraries)
+  set_property(GLOBAL APPEND PROPERTY COTAN_LEFT_OUT ${name})
+  set_property(GLOBAL PROPERTY COTAN_MISSES_${name} ${libraries})
+endfunction()
+
+# A part that is there, but lacks what a library would give it.
+function(cotan_lacks name target)
+  if(TARGET cotan_${name} AND NOT TARGET ${target})
+    get_property(word GLOBAL PROPERTY COTAN_WORD_${target})
+    set_property(GLOBAL APPEND PROPERTY COTAN_MISSES_${name} ${word})
+  endif()
+endfunction()
+
+# Those of some targets that are not there.
+function(cotan_missing result)
+  set(missing "")
+  foreach(target ${ARGN})
+    if(NOT TARGET ${target} AND NOT target IN_LIST CMAKE_DL_LIBS)
+      list(APPEND missing ${target})
+    endif()
+  endforeach()
+  set(${result} "${missing}" PARENT_SCOPE)
+endfunction()
+
 function(cotan_part name)
   cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cotan_missing(missing ${PART_PUBLIC} ${PART_PRIVATE})
+  if(missing)
+    cotan_leave_out(${name} "${missing}")
+    return()
+  endif()
   set(includes $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   if(PART_SOURCES)
-    add_library(cotan_${name} STATIC ${PART_SOURCES})
+    add_library(cotan_${name} ${PART_SOURCES})
     target_include_directories(cotan_${name} PUBLIC ${includes})
     target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC}
       PRIVATE ${PART_PRIVATE} $<BUILD_INTERFACE:cotan_warnings>)
-    set_target_properties(cotan_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    cotan_library(cotan_${name})
     cotan_unity(cotan_${name} 8)
   else()
     add_library(cotan_${name} INTERFACE)

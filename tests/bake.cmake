@@ -1,10 +1,16 @@
 # The baker: its raster, its frames, its numbers; and `cotan bake` as a user runs it.
-cotan_test(bake_test SEPARATE
-  SOURCES bake_bilinear_test.cpp bake_curved_test.cpp bake_high_map_test.cpp bake_model_test.cpp bake_raster_test.cpp bake_store_test.cpp
-          bake_test.cpp
+cotan_test(bake_test # four in a line are compiled at once; names of two lines may be the same
+  SOURCES bake_curved_test.cpp bake_model_test.cpp bake_raster_test.cpp bake_store_test.cpp
+    bake_bilinear_test.cpp bake_high_map_test.cpp bake_test.cpp
   LIBRARIES cotan_bake cotan_model cotan_shapes cotan_truth cotan_core)
 cotan_test(bake_command_test SEPARATE
   SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp
   LIBRARIES cotan_model cotan_shapes cotan_truth cotan_core nlohmann_json::nlohmann_json)
 target_compile_definitions(bake_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_command_test cotan)
+cotan_test(not_built_test
+  SOURCES not_built_test.cpp ${PROJECT_SOURCE_DIR}/src/bake/no_rays.cpp ${PROJECT_SOURCE_DIR}/src/model/no_assimp.cpp
+  LIBRARIES cotan_core cotan_scene cotan_files)
+foreach(part bake model gltf)
+  target_include_directories(not_built_test PRIVATE ${PROJECT_SOURCE_DIR}/src/${part}/include)
+endforeach()

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -118,7 +119,10 @@ TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
     options.tiles = {1002, 1011};
     options.mask = true;
     std::vector<double> shares;
-    const auto model = bakeModel(low, highOf(high), options, [&](double share) { shares.push_back(share); });
+    const auto model = bakeModel(low, highOf(high), options, [&](double share) {
+        shares.push_back(share);
+        return true;
+    });
     ASSERT_TRUE(model) << model.error().message;
     ASSERT_EQ(model->maps.size(), 2u);
     EXPECT_EQ(model->maps[0].tile, 1002);
@@ -136,6 +140,24 @@ TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
     ASSERT_FALSE(empty);
     EXPECT_EQ(empty.error().kind, ErrorKind::input);
     EXPECT_EQ(errorOf(empty), "options.tiles: no triangle lies on tile 1005 of the texture coordinates");
+}
+
+TEST(BakeModel, endsWithAnErrorThatSaysSoWhereItsProgressStopsIt)
+{
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0}), square({2, 0, 0}, {1, 0, 0}, {1, 0})});
+    BakeModelOptions options = smallOptions();
+    options.tiles = {1001, 1002};
+    for (const double limit : {0.0, 0.3, 0.6, 0.99}) { // in the first tile, in the second, at the last row
+        std::atomic<int> after = 0;
+        const auto baked = bakeModel(low, highOf(low), options, [&](double share) {
+            after += share > limit;
+            return share <= limit;
+        });
+        ASSERT_FALSE(baked) << limit;
+        EXPECT_EQ(baked.error().kind, ErrorKind::stopped) << baked.error().message;
+        EXPECT_EQ(baked.error().message.find('\n'), std::string::npos);
+        EXPECT_LE(after, 8) << "rows of one block at most go on";
+    }
 }
 
 TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)

@@ -12,7 +12,7 @@ target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(files_test cotan)
 cotan_test(help_test
   SOURCES help_test.cpp progress_test.cpp
-  LIBRARIES cotan_app fmt::fmt)
+  LIBRARIES cotan_app cotan_shapes fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)
 # A few commands under every fault; the whole table is in docs/testing.md.
@@ -21,4 +21,4 @@ set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
 # Words as values, without a process.
 cotan_test(words_test
   SOURCES picture_options_test.cpp
-  LIBRARIES cotan_app fmt::fmt)
+  LIBRARIES cotan_app cotan_shapes fmt::fmt)

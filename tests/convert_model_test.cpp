@@ -176,12 +176,36 @@ TEST(ConvertModel, progressRunsToOneAndEachMapIsToldOfOnce)
                                                     const std::lock_guard lock(mutex);
                                                     last = share;
                                                     most = std::max(most, share);
+                                                    return true;
                                                 },
                                                 .mapDone = [&](const ConvertedMap& map) { told += map.image == 0; }});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(last, 1);
     EXPECT_EQ(most, 1);
     EXPECT_EQ(told, 1u);
+}
+
+TEST(ConvertModel, stoppedByItsProgressItChangesNothing)
+{
+    for (const double limit : {0.0, 0.5, 0.999}) {
+        GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
+        const auto before = document.root;
+        const auto done = convertModel(document, {.frames = kThere, .progress = [=](double share) { return share <= limit; }});
+        ASSERT_FALSE(done) << limit;
+        EXPECT_EQ(done.error().kind, ErrorKind::stopped);
+        EXPECT_EQ(done.error().message, stoppedError().message);
+        EXPECT_EQ(document.root, before);
+    }
+}
+
+TEST(GiveTangents, stoppedByTheirProgressTheyChangeNothing)
+{
+    GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
+    const auto before = document.root;
+    const auto given = giveTangents(document, {.replace = true, .progress = [](double) { return false; }});
+    ASSERT_FALSE(given);
+    EXPECT_EQ(given.error().kind, ErrorKind::stopped);
+    EXPECT_EQ(document.root, before);
 }
 
 TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)

@@ -4,6 +4,13 @@ cotan_test(core_test
           frame_range_test.cpp light_test.cpp frame_guards_test.cpp normal_codec_test.cpp result_test.cpp
   LIBRARIES cotan_truth cotan_core)
 
+# What is left with a compiler and GLM alone, as shared libraries, installed and used from outside.
+if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
+  add_test(NAME SmallestHouse.buildsInstallsAndWorks
+    COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-smallest ${PROJECT_BINARY_DIR}/smallest ${CMAKE_CXX_COMPILER})
+  set_tests_properties(SmallestHouse.buildsInstallsAndWorks PROPERTIES TIMEOUT 300 COST 100 PROCESSORS 2)
+endif()
+
 # The portable text compiles unchanged in every language: joined, behind a few lines that declare
 # the language and call every function.
 foreach(language glsl essl hlsl)

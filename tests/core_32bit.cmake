@@ -1,6 +1,6 @@
-# Builds src/core and tests/core_32bit.cpp for 32 bits and runs them; not optimised, which may hide a shift
-# that is too far. CXX, FLAGS, SOURCE (the repository), OUT (a folder). Says "skipped:" where the compiler has
-# no 32-bit libraries.
+# Builds src/core with tests/core_facts.cpp, and the C API's array functions with tests/c_facts.cpp, for 32 bits and runs
+# them; not optimised, which may hide a shift that is too far. CXX, FLAGS, SOURCE (the repository), OUT (a folder). Says
+# "skipped:" where the compiler has no 32-bit libraries.
 file(MAKE_DIRECTORY ${OUT})
 separate_arguments(FLAGS UNIX_COMMAND "${FLAGS}")
 file(WRITE ${OUT}/empty.cpp "#include <thread>\nint main() { std::thread([] {}).join(); }\n")
@@ -14,15 +14,47 @@ if(failed)
   return()
 endif()
 
-file(GLOB core ${SOURCE}/src/core/*.cpp)
-execute_process(
-  COMMAND ${CXX} -std=c++20 -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror ${FLAGS} -pthread
-    -I${SOURCE}/include -I${SOURCE}/shaders ${core} ${SOURCE}/tests/core_32bit.cpp -o ${OUT}/core_32bit
-  RESULT_VARIABLE failed)
-if(failed)
-  message(FATAL_ERROR "src/core does not compile for 32 bits")
-endif()
-execute_process(COMMAND ${OUT}/core_32bit RESULT_VARIABLE failed)
-if(failed)
-  message(FATAL_ERROR "src/core is wrong on 32 bits: ${failed}")
-endif()
+# The files of a part in one, `most` at a time: names in unnamed namespaces meet.
+function(joined part most)
+  file(GLOB files ${SOURCE}/src/${part}/*.cpp)
+  set(made "")
+  while(files)
+    list(SUBLIST files 0 ${most} batch)
+    list(REMOVE_ITEM files ${batch})
+    list(TRANSFORM batch REPLACE "(.+)" "#include \"\\1\"\n")
+    string(CONCAT text ${batch})
+    list(LENGTH made number)
+    file(WRITE ${OUT}/${part}${number}.cpp "${text}")
+    list(APPEND made ${OUT}/${part}${number}.cpp)
+  endwhile()
+  set(${part} ${made} PARENT_SCOPE)
+endfunction()
+joined(core 100)
+joined(maps 8)
+
+function(compile what)
+  execute_process(
+    COMMAND ${CXX} -std=c++20 -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+      -Wno-unknown-warning-option -Wno-subobject-linkage -Werror ${FLAGS}
+      -pthread -DGLM_FORCE_XYZW_ONLY -DCOTAN_VERSION="0.0.0" -I${SOURCE}/include -I${SOURCE}/shaders
+      -I${SOURCE}/src/c/include -I${SOURCE}/src/scene/include -I${SOURCE}/src/maps/include
+      -I${SOURCE}/src/parallel/include -I${SOURCE}/src/c ${ARGN}
+    RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${what} does not compile for 32 bits")
+  endif()
+endfunction()
+
+# Builds the program `name` of the sources and the core, and runs it.
+function(run_32bit name)
+  compile(${name} ${ARGN} ${OUT}/core.o -o ${OUT}/${name})
+  execute_process(COMMAND ${OUT}/${name} RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${name}, wrong on 32 bits: ${failed}")
+  endif()
+endfunction()
+
+compile(src/core ${core} -c -o ${OUT}/core.o) # files of the core are one batch
+run_32bit(core_facts ${SOURCE}/tests/core_facts.cpp)
+run_32bit(c_facts ${maps} ${SOURCE}/src/c/geometry.cpp ${SOURCE}/src/c/library.cpp ${SOURCE}/src/c/maps.cpp
+  ${SOURCE}/tests/c_facts.cpp)

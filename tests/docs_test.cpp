@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -125,6 +126,19 @@ TEST(Documents, everyNameInThemIsInTheSources)
     EXPECT_GT(checked, 25u);
 }
 
+// `src/...` and the like, up to a place in capitals such as NAME.
+TEST(Documents, everyFileThatTheyNameIsThere)
+{
+    const std::regex name(R"(`((?:apps|docs|examples|fuzz|include|scripts|shaders|src|tests)/[a-z0-9_./-]*)[`:])");
+    std::size_t checked = 0;
+    for (const fs::path& file : documents())
+        for (const std::string& path : matches(readWhole(file), name, 1)) {
+            EXPECT_TRUE(fs::exists(kSources / path)) << shortName(file) << " names " << path;
+            ++checked;
+        }
+    EXPECT_GT(checked, 60u);
+}
+
 // Lines of code that call the tool, continued lines joined, comments off.
 std::vector<std::string> callsIn(const std::string& text)
 {
@@ -158,7 +172,6 @@ std::string helpOf(const std::vector<std::string>& words)
     return entry->second;
 }
 
-// A command and its subcommand, and each --option of the line, are what --help has.
 // docs/architecture.md: a row for each folder of src, and no other; the picture has them all.
 TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
 {
@@ -174,6 +187,45 @@ TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
         EXPECT_NE(picture.find(">" + folder + "<"), std::string::npos) << folder;
 }
 
+// What a command of the shell prints, run in the sources.
+std::string printed(const std::string& command)
+{
+    std::string text;
+    if (FILE* pipe = ::popen(("cd '" + kSources.string() + "' && " + command).c_str(), "r")) {
+        for (int c; (c = std::fgetc(pipe)) != EOF;)
+            text += char(c);
+        ::pclose(pipe);
+    }
+    return text;
+}
+
+// docs/extending.md: under each heading with a grep, a list of the files that it prints and no other.
+TEST(Documents, walkThroughsListTheFilesThatNameTheirExample)
+{
+    const std::string page = readWhole(kSources / "docs/extending.md");
+    std::size_t checked = 0;
+    for (std::size_t at = page.find("\n## "); at != std::string::npos;) {
+        const std::size_t next = page.find("\n## ", at + 1);
+        const std::string section = page.substr(at, next - at);
+        at = next;
+        const std::string heading = section.substr(4, section.find('\n', 1) - 4);
+        const auto greps = matches(section, std::regex(R"(\n    (grep [^\n]+))"), 1);
+        ASSERT_EQ(greps.size(), 1u) << heading;
+        const auto listed = matches(section, std::regex(R"(\n- `([^`]+)`:)"), 1);
+        std::istringstream found(printed(greps[0]));
+        std::set<std::string> files;
+        for (std::string file; std::getline(found, file);)
+            files.insert(file);
+        for (const std::string& file : files)
+            EXPECT_TRUE(std::ranges::count(listed, file) == 1) << heading << ": the list lacks " << file;
+        for (const std::string& file : listed)
+            EXPECT_TRUE(files.contains(file)) << heading << ": nothing is to be done any more in " << file;
+        ++checked;
+    }
+    EXPECT_EQ(checked, 5u);
+}
+
+// A command and its subcommand, and each --option of the line, are what --help has.
 TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
 {
     std::size_t checked = 0;

@@ -113,12 +113,31 @@ TEST(Painter, progressGetsZeroBeforeEachPictureAndOneAtItsEnd)
     const Scene quad = mappedQuad();
     ASSERT_TRUE((*painter)->load(quad));
     std::vector<double> shares;
-    (*painter)->progress = [&](double share) { shares.push_back(share); };
+    (*painter)->progress = [&](double share) {
+        shares.push_back(share);
+        return true;
+    };
     for (int picture = 1; picture <= 2; ++picture) {
         ASSERT_TRUE((*painter)->draw(viewOf(Output::normal)));
         EXPECT_EQ(std::count(shares.begin(), shares.end(), 0.0), picture);
         EXPECT_EQ(shares.back(), 1.0);
     }
+}
+
+TEST(Painter, stopsWhereItsProgressSaysSoAndDrawsTheNextPicture)
+{
+    const auto painter = openPainter("reference", 1);
+    ASSERT_TRUE(painter);
+    const Scene quad = mappedQuad();
+    ASSERT_TRUE((*painter)->load(quad));
+    for (const double limit : {-1.0, 0.0}) { // before the picture, and within it
+        (*painter)->progress = [=](double share) { return share <= limit; };
+        const auto picture = (*painter)->draw(viewOf(Output::normal));
+        ASSERT_FALSE(picture) << limit;
+        EXPECT_EQ(picture.error().kind, ErrorKind::stopped);
+    }
+    (*painter)->progress = {};
+    EXPECT_TRUE((*painter)->draw(viewOf(Output::normal)));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -197,6 +198,15 @@ inline bool warns(const Scene& scene, const std::string& word)
         if (warning.find(word) != std::string::npos)
             return true;
     return false;
+}
+
+// Rounding of a handful of float operations on numbers of order one.
+inline constexpr float kRounding = 1e-6f;
+
+inline void expectNear(const glm::vec3& a, const glm::vec3& b)
+{
+    EXPECT_LT(glm::length(a - b), kRounding)
+        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
 }
 
 } // namespace cotan::test

@@ -10,15 +10,6 @@ using namespace cotan::test;
 
 namespace {
 
-// Rounding of a handful of float operations on numbers of order one.
-constexpr float kRounding = 1e-6f;
-
-void expectNear(const glm::vec3& a, const glm::vec3& b)
-{
-    EXPECT_LT(glm::length(a - b), kRounding)
-        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
-}
-
 TEST(GltfNormals, missingOnesAreFlatAndUnwelded)
 {
     Gltf g = square();

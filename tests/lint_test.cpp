@@ -350,5 +350,23 @@ TEST(Lint, hostileNumbersGiveNoNaN)
     EXPECT_FALSE(lintOf(noUv).hasUv);
 }
 
+TEST(Lint, stopsWhereItsProgressSaysSoAndElseIsTheSameWithIt)
+{
+    const Scene scene = sceneOf({makeSphere(1, 8), makePlane(1, 1, 1)});
+    int calls = 0;
+    const auto stopped = lintScene(scene, {}, [&](double) { return ++calls < 1; });
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
+    EXPECT_EQ(calls, 1);
+    double last = 0;
+    const auto whole = lintScene(scene, {}, [&](double share) {
+        last = share;
+        return true;
+    });
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(last, 1);
+    EXPECT_EQ(whole->recommendation, lintScene(scene).recommendation);
+}
+
 } // namespace
 } // namespace cotan

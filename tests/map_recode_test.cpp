@@ -6,12 +6,12 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/global_control.h>
 
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/recode.hpp"
 #include "cotan/maps/texels.hpp"
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -197,8 +197,7 @@ TEST(Recode, threads_do_not_change_a_byte)
     const Image map = makeReliefMap(Relief::waves, 200);
     const Convention to{.expansion = Expansion::biased, .channels = Channels::stereographic, .greenUp = false};
     const Image many = recoded(map, kGltf, to, PixelType::unorm8, true);
-    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(recoded(map, kGltf, to, PixelType::unorm8, true).data, many.data);
+    withThreads(1, [&] { EXPECT_EQ(recoded(map, kGltf, to, PixelType::unorm8, true).data, many.data); });
 }
 
 TEST(Diff, the_angle_between_tilted_maps_is_their_angle)

@@ -1,11 +1,12 @@
 # The part maps by its functions, and `cotan map` as a user runs it.
-cotan_test(map_test SEPARATE
-  SOURCES blend_formula_test.cpp map_blend_test.cpp map_charts_test.cpp map_detect_test.cpp map_height_test.cpp map_kernel_test.cpp
-    map_mips_test.cpp map_recode_test.cpp map_small_test.cpp map_zero_test.cpp
+cotan_test(map_test # four in a line are compiled at once; names of two lines may be the same
+  SOURCES blend_formula_test.cpp map_blend_test.cpp map_charts_test.cpp map_kernel_test.cpp
+    map_detect_test.cpp map_height_test.cpp map_small_test.cpp map_zero_test.cpp
+    map_mips_test.cpp map_recode_test.cpp
   LIBRARIES cotan_maps cotan_model cotan_shapes)
 find_package(JPEG REQUIRED)
 cotan_test(map_command_test
-  SOURCES map_command_test.cpp map_hostile_test.cpp
-  LIBRARIES cotan_model cotan_shapes JPEG::JPEG nlohmann_json::nlohmann_json)
+  SOURCES map_command_test.cpp map_files_test.cpp map_hostile_test.cpp
+  LIBRARIES cotan_map_files cotan_model cotan_shapes JPEG::JPEG nlohmann_json::nlohmann_json)
 target_compile_definitions(map_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(map_command_test cotan)

@@ -6,6 +6,7 @@
 #include "common.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
+#include "cotan/report/words.hpp"
 #include "picture.hpp"
 
 namespace cotan::app {
@@ -75,14 +76,13 @@ TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
 TEST(PictureWords, exposureIsAPositiveNumber)
 {
     for (const auto& [text, good] : {std::pair("0.001", true), {"1e6", true}, {"0", false}, {"-1", false}, {"nan", false}, {"1e7", false}, {"2x", false}}) {
-        CLI::App app;
+        Arguments tool("tool", "", "");
         PictureOptions options;
-        addPictureOptions(app, options);
-        std::vector<std::string> words = {text, "--exposure"}; // CLI11 takes them from the back
-        if (good)
-            EXPECT_NO_THROW(app.parse(words)) << text;
-        else
-            EXPECT_THROW(app.parse(words), CLI::ParseError) << text;
+        addPictureOptions(tool, options);
+        tool.does([] { return Done{}; });
+        const Status done = tool.run({"--exposure", text}, {});
+        EXPECT_EQ(bool(done), good) << text;
+        EXPECT_TRUE(done || done.error().kind == ErrorKind::usage) << text;
     }
 }
 

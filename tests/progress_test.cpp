@@ -8,7 +8,7 @@
 #include <pty.h>
 
 #include "cotan/image/file.hpp"
-#include "progress.hpp"
+#include "cotan/terminal/progress_line.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 
@@ -65,7 +65,7 @@ double percentOf(const std::string& line)
 std::vector<std::string> workOf(unsigned short columns, const std::string& name, int milliseconds, int steps)
 {
     return states(onTerminal(columns, [&] {
-        app::Progress progress({}, std::size_t(2 * steps), name);
+        ProgressLine progress(false, std::size_t(2 * steps), name);
         const auto half = [&] {
             for (int i = 0; i < steps; ++i) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
@@ -126,13 +126,11 @@ TEST(ProgressLine, isSilentWhereNobodyLooks)
 {
     ::testing::internal::CaptureStderr();
     {
-        app::Progress progress({}, 3, "work");
+        ProgressLine progress(false, 3, "work");
         progress.step();
     }
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-    app::CommonOptions quiet;
-    quiet.quiet = true;
-    EXPECT_EQ(onTerminal(80, [&] { app::Progress progress(quiet, 3, "work"); }), "");
+    EXPECT_EQ(onTerminal(80, [&] { ProgressLine progress(true, 3, "work"); }), "");
 }
 
 // The commands that can take over two seconds.

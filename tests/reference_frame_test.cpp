@@ -9,9 +9,6 @@ namespace {
 // A patch seen at an angle, with uv stretched 2:1 and sheared.
 const Patch kSheared{{-1.2, 0.9, -0.4}, {2.4, 0.2, 0.7}, {0.4, -1.3, 0.6}};
 
-// A patch whose uv are square, so that every frame agrees on it.
-const Patch kSquare{{-1, 1, 0}, {2, 0, 0}, {0, -2, 0}};
-
 // Angles that float differences leave: positions of magnitude 4 are rounded to 2.4e-7 and their
 // differences are about 0.04, which makes 6e-6 radians; ten times that.
 constexpr double kDegrees = 4e-3;

@@ -43,6 +43,9 @@ struct Patch {
     }
 };
 
+// A patch whose uv are square, so that every frame agrees on it.
+inline const Patch kSquare;
+
 inline Mesh meshOf(const Patch& p)
 {
     Mesh mesh;

@@ -6,8 +6,6 @@ using namespace cotan::testing;
 
 namespace {
 
-const Patch kSquare{{-1, 1, 0}, {2, 0, 0}, {0, -2, 0}};
-
 View shadedView()
 {
     View view = viewOf(Output::shaded);

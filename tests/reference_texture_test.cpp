@@ -6,8 +6,6 @@ using namespace cotan::testing;
 
 namespace {
 
-const Patch kSquare{{-1, 1, 0}, {2, 0, 0}, {0, -2, 0}};
-
 // An orthographic view in which the unit square of uv covers 64 x 64 pixels exactly.
 View squareView()
 {

@@ -8,8 +8,8 @@
 
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/sandbox/request.hpp"
-#include "scene_check.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
+#include "cotan/scene/check.hpp"
 
 namespace cotan {
 namespace {

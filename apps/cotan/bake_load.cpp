@@ -9,7 +9,6 @@
 #include "cotan/convention.hpp"
 #include "cotan/image/file.hpp"
 #include "gltf_open.hpp"
-#include "map_options.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {
@@ -36,8 +35,9 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
     StoredAs as;
     as.format = *format;
     as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
-    if (namedAsGltf(o.common.output) && (as.format.greenAlongV || as.format.channels != 0))
-        return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
+    if (namedAsGltf(o.output) && (as.format.greenAlongV || as.format.channels != 0))
+        return usageError(
+            fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
     as.dither = o.dither;
     return as;
@@ -45,21 +45,24 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
 
 BakeKind kindOf(const std::string& word)
 {
-    return word == "normal" ? BakeKind::normal : word == "object-normal" ? BakeKind::objectNormal
-        : word == "height"  ? BakeKind::height : BakeKind::occlusion;
+    return word == "normal"       ? BakeKind::normal
+        : word == "object-normal" ? BakeKind::objectNormal
+        : word == "height"        ? BakeKind::height
+                                  : BakeKind::occlusion;
 }
 
 // What --high-normals and its options say.
 Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
 {
     const bool map = o.highNormals == "map";
-    for (const auto& [option, given] : {std::pair("--high-map", !o.highMaps.empty()), {"--high-convention", !o.highConvention.empty()},
+    for (const auto& [option, given] : {std::pair("--high-map", !o.highMaps.empty()),
+                                        {"--high-convention", !o.highConvention.empty()},
                                         {"--high-frame", !o.highFrame.empty()}})
         if (given && !map)
             return usageError(fmt::format("{}: expected --high-normals map with it; found {}", option, o.highNormals));
     if (o.highMaps.size() > 1 && o.highMaps.size() != o.high.size())
-        return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}", o.high.size(),
-                                      o.highMaps.size()));
+        return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}",
+                                      o.high.size(), o.highMaps.size()));
     if (!o.highConvention.empty()) {
         const auto format = formatFromName("--high-convention", o.highConvention);
         if (!format)
@@ -76,7 +79,8 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
     if (!frame)
         return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
     if (dependsOnView(*frame))
-        return usageError(fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
+        return usageError(
+            fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
     options.highFrame = *frame;
     return Done{};
 }
@@ -102,7 +106,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
     options.bake.maxDistance = o.maxDistance;
     options.bake.occlusionRays = o.occlusionRays;
-    options.bake.threads = o.common.threads;
+    options.bake.threads = o.threads;
     options.tiles = {o.udim};
     options.material = o.material;
     options.tangents = o.tangents == "stored" ? TangentSource::stored : TangentSource::generated;
@@ -133,7 +137,8 @@ Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
 }
 
 // What was odd about the files, each line once also where both are one file.
-std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high, bool mapsCount)
+std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high,
+                                    bool mapsCount)
 {
     std::vector<std::string> warnings = low.warnings;
     if (!mapsCount) {
@@ -150,19 +155,20 @@ std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& lo
 
 } // namespace
 
-Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error)
+Error inWordsOfBake(const BakeCommandOptions& o, const Error& error)
 {
-    const struct { std::string_view field; std::string words, hint; } all[] = {
-        {"options.material", "--material", ""},
+    const struct {
+        std::string_view field;
+        std::string words, hint;
+    } all[] = {
         {"options.cage", o.cage, ""},
-        {"options.matchByName", "--match-by-name", ""},
         {"options.tiles", o.low, " (--udim)"},
         {"document", o.low, ""},
     };
     for (const auto& [field, words, hint] : all)
         if (error.message.starts_with(std::string(field) + ": "))
             return {error.kind, words + error.message.substr(field.size()) + hint};
-    return error;
+    return inWords(error);
 }
 
 Result<BakeJob> loadBake(const BakeCommandOptions& o)
@@ -188,7 +194,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)
-        return inWordsOfCommand(o, setup.error());
+        return inWordsOfBake(o, setup.error());
     warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
     return BakeJob{std::move(*low), std::move(*setup), std::move(warnings)};
 }

@@ -6,15 +6,15 @@
 
 #include "common.hpp"
 #include "cotan/bake/bake_model.hpp"
-#include "memory_limit.hpp"
+#include "loading.hpp"
 
 namespace cotan::app {
 
-struct BakeCommandOptions {
-    CommonOptions common;
+struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact", tangents = "stored";
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact",
+                tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;
@@ -37,20 +37,6 @@ struct BakeJob {
 Result<BakeJob> loadBake(const BakeCommandOptions& o);
 
 // An error about one of the library's options, with the command's word for it.
-Error inWordsOfCommand(const BakeCommandOptions& o, const Error& error);
-
-// What can be said of an -o that names a glTF model before anything is loaded. Errors: ErrorKind::usage.
-Status checkModelOutput(const BakeCommandOptions& o);
-
-// Writes the low model with the map in it: a glTF model keeps all else as it was, another format is written as glTF.
-// TANGENT is what readers of the frame need. Warns where readers that make MikkTSpace would show the map wrongly.
-Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
-
-// Draws the low mesh with the stored map from four sides, by the device and the real shader, and
-// compares with the normals that rays from the eye find on the high mesh. Writes pictures and heat
-// maps into a folder; returns the report.
-// The names of the pictures that it writes.
-std::vector<std::string> bakePictures();
-Result<nlohmann::ordered_json> verifyBake(const BakeCommandOptions& o, const BakeJob& job, const Image& map);
+Error inWordsOfBake(const BakeCommandOptions& o, const Error& error);
 
 } // namespace cotan::app

@@ -5,18 +5,16 @@
 
 namespace cotan::app {
 
-Command addRenderCommand(CLI::App& app);
-Command addCompareCommand(CLI::App& app);
-Command addAccuracyCommand(CLI::App& app);
-Command addBakeCommand(CLI::App& app);
-Command addTangentsCommand(CLI::App& app);
-Command addLintCommand(CLI::App& app);
-Command addConvertCommand(CLI::App& app);
-Command addFiguresCommand(CLI::App& app);
-Command addShaderCommand(CLI::App& app);
-Command addMapCommand(CLI::App& app);
-#ifdef COTAN_WITH_VULKAN
-Command addCostCommand(CLI::App& app);
-#endif
+void addRenderCommand(Arguments& tool);
+void addCompareCommand(Arguments& tool);
+void addFiguresCommand(Arguments& tool);
+void addMapCommand(Arguments& tool);
+void addAccuracyCommand(Arguments& tool);
+void addBakeCommand(Arguments& tool);
+void addTangentsCommand(Arguments& tool);
+void addLintCommand(Arguments& tool);
+void addConvertCommand(Arguments& tool);
+void addShaderCommand(Arguments& tool);
+void addCostCommand(Arguments& tool);
 
 } // namespace cotan::app

@@ -2,42 +2,62 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
+#include "arguments.hpp"
+#include "cotan/files/plan.hpp"
+#include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
+#include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
 
 struct CommonOptions {
     std::filesystem::path output;
-    std::string json;  // a file, "-" for standard output, empty for none
+    std::string json; // a file, "-" for standard output, empty for none
     bool quiet = false;
-    int threads = 0;   // 0: all cores
+    int threads = 0;        // 0: all cores
     bool overwrite = false; // inputs, and one output by another
 };
 
 // Adds -o/--output, --json, --quiet, --threads and --overwrite to a command. An empty outputHelp: the command writes
 // nothing but its report; -o is not listed, and refused.
-void addCommonOptions(CLI::App& command, CommonOptions& options, const std::string& outputHelp);
+void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp);
 
 // Another name for an option of that name, which goes on working and is not listed.
-void addOlderName(CLI::App& command, const std::string& older, const std::string& name, std::string& value);
+void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value);
 
 // Ends a command's help with commands that work, and the exit codes.
-void addExamples(CLI::App& command, const std::vector<std::string>& lines);
+void addExamples(Arguments& command, const std::vector<std::string>& lines);
 
-// A command of the table in main.cpp: adds itself to the application; `run` is called after parsing
-// when its name was given.
-struct Command {
-    CLI::App* app = nullptr;
-    std::function<Status()> run;
+// Runs work with at most `threads` threads (0: all cores).
+Status withThreads(int threads, const std::function<Status()>& work);
+
+// What a command is, for addCommand.
+struct CommandText {
+    const char *name, *summary;
+    const char* output; // what -o writes; empty: nothing
+    std::vector<std::string> examples;
 };
+
+// Adds a command whose options are CommonOptions and more: `declare` adds the others, `run` does what they ask for.
+template<class Options>
+void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Arguments&, Options&),
+                Status (*run)(const Options&))
+{
+    Arguments command = parent.command(text.name, text.summary);
+    const auto options = std::make_shared<Options>();
+    addCommonOptions(command, *options, text.output);
+    declare(command, *options);
+    addExamples(command, text.examples);
+    command.does([options, run] { return withThreads(options->threads, [&] { return run(*options); }); });
+}
 
 // Seconds since it was made or last asked.
 class Stopwatch {
@@ -54,22 +74,11 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// A file that a command will write.
-struct PlannedOutput {
-    std::string option; // that asked for it, for messages
-    std::filesystem::path file;
-    bool makesFolder = false; // the command makes its folder
-};
-
-// The files of these names in a folder that an option names.
-std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
-                                     const std::vector<std::string>& names);
-
 // What every command calls before it reads anything: says what it will write, --json included; empty names are left
 // out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
 // what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output
 // where a file cannot be written.
-Status planOutputs(const CommonOptions& options, const std::vector<PlannedOutput>& files);
+Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
 
 // Prints on standard output. It does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);
@@ -78,7 +87,7 @@ void print(const std::string& text);
 Status flushOutput();
 
 // Writes the report where --json says; nothing if it was not asked for.
-Status writeReport(const CommonOptions& options, const nlohmann::ordered_json& report);
+Status writeReport(const CommonOptions& options, const Json& report);
 
 // Prints a line on standard output unless --quiet was given or the report goes there.
 void say(const CommonOptions& options, const std::string& line);
@@ -86,13 +95,27 @@ void say(const CommonOptions& options, const std::string& line);
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);
 
+// The same, formatted.
+template<class First, class... Others>
+void say(const CommonOptions& options, fmt::format_string<First, Others...> text, First&& first, Others&&... others)
+{
+    say(options, fmt::format(text, std::forward<First>(first), std::forward<Others>(others)...));
+}
+template<class First, class... Others>
+void warn(const CommonOptions& options, fmt::format_string<First, Others...> text, First&& first, Others&&... others)
+{
+    warn(options, fmt::format(text, std::forward<First>(first), std::forward<Others>(others)...));
+}
+
+// Runs work(progress) under a line for so many steps; 0: nobody knows how many.
+template<class Work>
+auto withProgress(const CommonOptions& options, std::size_t steps, std::string what, const Work& work)
+{
+    ProgressLine line(options.quiet, steps, std::move(what));
+    return work(line.within());
+}
+
 // Warns where a map goes into a format that does not keep it.
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map);
-
-// "1 primitive", "2 primitives".
-std::string counted(std::size_t number, const std::string& noun);
-
-// Makes a folder and those above it. Errors: ErrorKind::output.
-Status makeFolder(const std::filesystem::path& folder);
 
 } // namespace cotan::app

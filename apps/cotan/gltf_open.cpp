@@ -4,7 +4,6 @@
 
 #include "cotan/files/extension.hpp"
 #include "cotan/model/load.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
@@ -28,7 +27,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
 
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)
 {
-    const Progress loading(common, 0, "loading " + model);
+    const ProgressLine loading(common.quiet, 0, "loading " + model);
     LoadLimits limits;
     limits.pixels = Pixels::none;
     auto scene = loadGltf(model, limits);
@@ -40,6 +39,23 @@ Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions&
     if (!document)
         return document.error();
     return OpenedGltf{std::move(*document), std::move(scene->warnings)};
+}
+
+Result<GltfWritten> writeGltfTold(const GltfDocument& document, const CommonOptions& common)
+{
+    auto written = writeGltf(document, common.output);
+    if (written)
+        for (const std::string& note : written->notes)
+            warn(common, note);
+    return written;
+}
+
+std::vector<std::string> fileNames(const GltfWritten& written)
+{
+    std::vector<std::string> names;
+    for (const auto& file : written.files)
+        names.push_back(file.string());
+    return names;
 }
 
 } // namespace cotan::app

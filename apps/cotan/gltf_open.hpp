@@ -25,4 +25,10 @@ struct OpenedGltf {
 // shown is not rewritten. Errors: ErrorKind::input.
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common);
 
+// Writes it where -o says, and warns of what the user should know. Errors: as writeGltf.
+Result<GltfWritten> writeGltfTold(const GltfDocument& document, const CommonOptions& common);
+
+// The files that were written, for a report.
+std::vector<std::string> fileNames(const GltfWritten& written);
+
 } // namespace cotan::app

@@ -1,19 +1,17 @@
-// The command line: a table of commands, and exit codes.
+// The command line and its exit codes.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <span>
-#include <sstream>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "command_words.hpp"
 #include "commands.hpp"
-#include "cotan/files/sandbox.hpp"
-#include "cotan/model/reader.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
+#include "cotan/files/sandbox.hpp"
+#include "cotan/model/reader.hpp"
 
 namespace {
 
@@ -35,51 +33,16 @@ int finish(const cotan::Status& status)
     return printed ? 0 : fail(printed.error());
 }
 
-int runCommandLine(int argc, char** argv)
+int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
-    CLI::App app("Normal mapping without precomputed tangents.", "cotan");
-    app.set_version_flag("--version", std::string("cotan ") + COTAN_VERSION);
-    app.require_subcommand(1);
-    addExamples(app, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    std::vector<Command> commands;
-    constexpr Command (*kCommands[])(CLI::App&) = {
-        addRenderCommand,
-        addCompareCommand,
-        addFiguresCommand,
-        addMapCommand,
-        addAccuracyCommand,
-        addBakeCommand,
-        addTangentsCommand,
-        addLintCommand,
-        addConvertCommand,
-        addShaderCommand,
-#ifdef COTAN_WITH_VULKAN
-        addCostCommand,
-#endif
-    };
-    for (auto add : kCommands)
-        commands.push_back(add(app));
-    if (cotan::Status known = checkCommandWords(app, std::span(argv, std::size_t(argc)).subspan(std::min(argc, 1))); !known)
-        return fail(known.error());
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) { // help or version
-            std::ostringstream text;
-            app.exit(e, text, text);
-            print(text.str());
-            return finish(cotan::Done{});
-        }
-        std::string message = e.what();
-        for (char& c : message)
-            c = c == '\n' ? ' ' : c;
-        return fail(cotan::usageError(message + " (see --help)"));
-    }
-    for (const Command& command : commands)
-        if (command.app->parsed())
-            return finish(command.run());
-    return int(cotan::ErrorKind::usage);
+    Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
+    addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
+    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
+                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
+                           addCostCommand})
+        add(tool);
+    return finish(tool.run(std::move(words), print));
 }
 
 } // namespace
@@ -91,7 +54,7 @@ int main(int argc, char** argv)
     cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
-        return runCommandLine(argc, argv);
+        return runCommandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({cotan::ErrorKind::unavailable, "not enough memory"});
     } catch (const std::exception& e) {

@@ -1,38 +1,49 @@
-#include "map_command.hpp"
-
-#include <memory>
-#include <vector>
-
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
+#include <fmt/format.h>
 
 #include "commands.hpp"
+#include "map_options.hpp"
 
 namespace cotan::app {
 
-Status withThreads(int threads, const std::function<Status()>& work)
+void addBits(Arguments& command, MapOptions& options, const std::string& help)
 {
-    using oneapi::tbb::global_control;
-    const int count = threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
-    const global_control limit(global_control::max_allowed_parallelism, std::size_t(count));
-    return work();
+    command.option("--bits", options.bits, "auto" + help + ", 8, 16, half (.exr) or float");
 }
 
-Command addMapCommand(CLI::App& app)
+void addDither(Arguments& command, bool& dither)
 {
-    CLI::App* map = app.add_subcommand("map", "normal-map files: what they are, and from one form to another");
-    map->require_subcommand(1);
-    addExamples(*map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
-    auto commands = std::make_shared<std::vector<Command>>();
-    for (auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
-                     addMapBlend, addMapMips})
-        commands->push_back(add(*map));
-    return {map, [commands]() -> Status {
-                for (const Command& command : *commands)
-                    if (command.app->parsed())
-                        return command.run();
-                return usageError("map: expected a subcommand; found none");
-            }};
+    command.flag("--dither", dither, "noise of half a step before rounding, the same on every run");
+}
+
+Result<Convention> parseConvention(const std::string& text, const std::string& option)
+{
+    auto convention = conventionFromWords(text);
+    return convention ? convention : usageError(option + ": " + convention.error().message);
+}
+
+Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to)
+{
+    const auto first = parseConvention(from, "--from");
+    const auto second = parseConvention(to.empty() ? from : to, "--to");
+    if (!first || !second)
+        return first ? second.error() : first.error();
+    return std::pair(*first, *second);
+}
+
+Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file)
+{
+    if (options.output.empty())
+        return usageError(fmt::format("map {}: expected -o FILE; found none", command));
+    return planOutputs(options, {{"-o", file.empty() ? options.output : file}});
+}
+
+void addMapCommand(Arguments& tool)
+{
+    Arguments map = tool.command("map", "normal-map files: what they are, and from one form to another");
+    addExamples(map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
+    for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
+                           addMapBlend, addMapMips})
+        add(map);
 }
 
 } // namespace cotan::app

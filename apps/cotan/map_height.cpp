@@ -1,34 +1,230 @@
-#include "map_height.hpp"
-
+// `cotan map from-height` and `to-height`: a normal map from a height picture, and back.
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "cotan/map_files/height.hpp"
+#include "map_options.hpp"
+#include "parse.hpp"
+
 namespace cotan::app {
 
-Result<std::pair<double, double>> parseMetres(const std::string& text, int texelsX, int texelsY)
+namespace {
+
+// What both take.
+struct HeightOptions : MapOptions {
+    std::string file, convention = "gltf", metres, kernel;
+};
+
+struct MapFromHeightCommandOptions : HeightOptions {
+    MapFromHeightCommandOptions() { kernel = "central"; }
+    std::string wrap = "repeat";
+    double range = 0, strength = 1;
+    bool dither = false;
+};
+
+struct MapToHeightCommandOptions : HeightOptions {
+    MapToHeightCommandOptions() { kernel = "spectral"; }
+    bool free = false;
+};
+
+// "W" or "WxH" in metres; nothing for an empty text.
+Result<std::optional<maps::Metres>> parseMetres(const std::string& text)
 {
+    if (text.empty())
+        return std::optional<maps::Metres>();
     // from_chars, as strtod reads "0x1" as one number.
-    double width = 0, height = 0;
+    maps::Metres metres{0, 0};
     const char* const last = text.data() + text.size();
-    const char* end = std::from_chars(text.data(), last, width).ptr;
-    height = width * texelsY / texelsX;
-    if (end != last && *end == 'x')
-        end = std::from_chars(end + 1, last, height).ptr;
-    if (end != last || !(width > 0) || !(height > 0) || !std::isfinite(width * height))
+    const char* end = std::from_chars(text.data(), last, metres.width).ptr;
+    const bool both = end != last && *end == 'x';
+    if (both)
+        end = std::from_chars(end + 1, last, metres.height).ptr;
+    const double height = both ? metres.height : metres.width;
+    if (end != last || !(metres.width > 0) || !(height > 0) || !std::isfinite(metres.width * height))
         return usageError(fmt::format("--metres: expected metres as W or WxH, each over 0; found '{}'", text));
-    return std::pair(width, height);
+    return std::optional(metres);
 }
 
-std::optional<maps::Kernel> kernelFromName(const std::string& name)
+const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
+                                          {"central", maps::Kernel::central},
+                                          {"sobel", maps::Kernel::sobel},
+                                          {"scharr", maps::Kernel::scharr}};
+
+Status runFrom(const MapFromHeightCommandOptions& o)
 {
-    using enum maps::Kernel;
-    for (const auto& [word, kernel] : {std::pair("spectral", spectral), {"forward", forward}, {"central", central},
-                                       {"sobel", sobel}, {"scharr", scharr}})
-        if (name == word)
-            return kernel;
-    return std::nullopt;
+    if (Status given = needOutput(o, "from-height"); !given)
+        return given;
+    const auto to = parseConvention(o.convention, "--to");
+    if (!to)
+        return to.error();
+    const auto kernel = valueOf("--kernel", o.kernel, kDifferences);
+    if (!kernel)
+        return kernel.error();
+    using enum maps::Wrap;
+    const auto wrap = valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}});
+    if (!wrap)
+        return wrap.error();
+    if (o.metres.empty() != (o.range == 0))
+        return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
+    const auto metres = parseMetres(o.metres);
+    if (!metres)
+        return metres.error();
+    const auto done = onFiles(o, o.file, [&](const maps::FileOptions& files) {
+        return maps::normalsFromHeightFile(o.file, o.output,
+                                           {.to = *to,
+                                            .kernel = *kernel,
+                                            .wrap = *wrap,
+                                            .metres = *metres,
+                                            .range = o.range,
+                                            .strength = o.strength,
+                                            .bits = o.bits,
+                                            .dither = o.dither},
+                                           files);
+    });
+    if (!done)
+        return done.error();
+    warnIfLossy(o, o.output);
+    if (done->invalid > 0)
+        warn(o, "{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid);
+    if (done->heights == PixelType::unorm8)
+        warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to));
+    return writeReport(o,
+                       {{"command", "map from-height"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"to", describe(*to)},
+                        {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
+                        {"bits", bitsName(done->bits)},
+                        {"invalid", done->invalid}});
+}
+
+// The options that turn the heights back to the map.
+std::string backAgain(const MapToHeightCommandOptions& o, const maps::ToHeightFile& done)
+{
+    const double range = done.heights.highest - done.heights.lowest;
+    std::string options = o.metres.empty() ? fmt::format("--strength {:.9g}", 100 * range / done.width)
+                                           : fmt::format("--metres {} --range {:.9g}", o.metres, range * done.unit);
+    if (o.kernel != "spectral")
+        options += " --kernel " + o.kernel;
+    if (o.free)
+        options += " --wrap clamp";
+    return options;
+}
+
+Status runTo(const MapToHeightCommandOptions& o)
+{
+    if (Status given = needOutput(o, "to-height"); !given)
+        return given;
+    const auto from = parseConvention(o.convention, "--from");
+    if (!from)
+        return from.error();
+    Words<maps::Kernel> kernels = {{"spectral", maps::Kernel::spectral}};
+    kernels.insert(kernels.end(), kDifferences.begin(), kDifferences.end());
+    const auto kernel = valueOf("--kernel", o.kernel, kernels);
+    if (!kernel)
+        return kernel.error();
+    const auto metres = parseMetres(o.metres);
+    if (!metres)
+        return metres.error();
+    const auto done = onFiles(o, "solving for the height", [&](const maps::FileOptions& files) {
+        return maps::heightFromNormalsFile(o.file, o.output,
+                                           {.from = *from,
+                                            .kernel = *kernel,
+                                            .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
+                                            .metres = *metres,
+                                            .bits = o.bits},
+                                           files);
+    });
+    if (!done)
+        return done.error();
+    const maps::Heights& h = done->heights;
+    const double lowest = h.lowest * done->unit, highest = h.highest * done->unit;
+    const double share = h.slope > 0 ? h.residual / h.slope : 0;
+    const char* const unit = o.metres.empty() ? "texels" : "metres";
+    if (h.invalid > 0)
+        warn(o, "{}: {} texels are no direction; taken as flat", o.file, h.invalid);
+    if (!o.free && h.meanTilt > 1)
+        warn(o, "the whole map leans by {:.1f} degrees, which no repeating height can; --free follows it", h.meanTilt);
+    say(o, "{}: {} x {}, {}; from {:.6g} to {:.6g} {}", o.output.string(), done->width, done->height,
+        bitsName(done->bits), lowest, highest, unit);
+    say(o, "slopes {:.4f} (rms), {:.4f} of which no height explains ({:.1f} %)", h.slope, h.residual, share * 100);
+    if (done->bits.type != PixelType::float32)
+        say(o, "back: cotan map from-height " + backAgain(o, *done));
+    return writeReport(o,
+                       {{"command", "map to-height"},
+                        {"file", o.file},
+                        {"output", o.output.string()},
+                        {"from", describe(*from)},
+                        {"lowest", lowest},
+                        {"highest", highest},
+                        {"unit", unit},
+                        {"strength", 100 * (h.highest - h.lowest) / done->width},
+                        {"slope_rms", h.slope},
+                        {"residual_rms", h.residual},
+                        {"residual_share", share},
+                        {"mean_tilt_degrees", h.meanTilt},
+                        {"invalid", h.invalid}});
+}
+
+void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
+{
+    addMemoryOption(a, o.memory);
+    a.option("FILE", o.file, "heights: grey, or the red channel").required();
+    a.option("--to", o.convention, "how to store it: " + conventionWords()).in("WORDS");
+    a.option("--metres", o.metres, "metres that the picture covers; with --range").in("W[xH]");
+    addOlderName(a, "--size", "--metres", o.metres);
+    a.option("--range", o.range, "metres from black to white (floats: metres per unit); negative: white is low")
+        .in("METRES")
+        .withoutDefault();
+    a.option("--strength", o.strength,
+             "without metres: white is this many hundredths of the picture's width above black");
+    a.option("--kernel", o.kernel, "forward, central, sobel or scharr");
+    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror");
+    addBits(a, o, " (as the heights)");
+    addDither(a, o.dither);
+}
+
+void declareTo(Arguments& a, MapToHeightCommandOptions& o)
+{
+    addMemoryOption(a, o.memory);
+    a.option("FILE", o.file, "the map").required();
+    a.option("--from", o.convention, "how it is stored: " + conventionWords()).in("WORDS");
+    a.option("--metres", o.metres, "metres that the picture covers: heights come in metres, otherwise in texels")
+        .in("W[xH]");
+    addOlderName(a, "--size", "--metres", o.metres);
+    a.option("--kernel", o.kernel,
+             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
+    a.flag("--free", o.free, "the map does not repeat: free borders");
+    addBits(a, o, " (16 where the file can hold it)");
+}
+
+} // namespace
+
+void addMapFromHeight(Arguments& map)
+{
+    addCommand<MapFromHeightCommandOptions>(
+        map,
+        {"from-height",
+         "a normal map from a height picture",
+         "the normal map",
+         {"cotan map from-height height.png --metres 2 --range 0.05 -o normal.png",
+          "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"}},
+        declareFrom, runFrom);
+}
+
+void addMapToHeight(Arguments& map)
+{
+    addCommand<MapToHeightCommandOptions>(map,
+                                          {"to-height",
+                                           "the height whose slopes are nearest to a normal map's",
+                                           "the heights; floats keep their unit, others go from black to white",
+                                           {"cotan map to-height rocks.png -o height.png",
+                                            "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"}},
+                                          declareTo, runTo);
 }
 
 } // namespace cotan::app

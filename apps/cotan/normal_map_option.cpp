@@ -26,14 +26,13 @@ bool anyMeshShows(const Scene& scene, int material)
 
 } // namespace
 
-void addNormalMapOption(CLI::App& command, NormalMapOption& o)
+void addNormalMapOption(Arguments& a, NormalMapOption& o)
 {
-    command.add_option("--normal-map", o.file, "image that takes the place of the model's normal maps, such as one that was just baked")
-        ->type_name("FILE");
-    command.add_option("--convention", o.convention, "how that image is stored: " + conventionWords())
-        ->type_name("WORDS")->capture_default_str();
-    command.add_option("--material", o.material, "number of the only material that gets it; -1: all")
-        ->check(CLI::Range(-1, 100000))->type_name("N")->capture_default_str();
+    a.option("--normal-map", o.file,
+             "image that takes the place of the model's normal maps, such as one that was just baked")
+        .in("FILE");
+    a.option("--convention", o.convention, "how that image is stored: " + conventionWords()).in("WORDS");
+    a.option("--material", o.material, "number of the only material that gets it; -1: all").within(-1, 100000).in("N");
 }
 
 Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)
@@ -50,9 +49,11 @@ Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)
     if (convention->kind != MapKind::tangentSpace)
         return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", o.convention));
     if (o.material >= int(scene.materials.size()))
-        return usageError(fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, o.material));
+        return usageError(
+            fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, o.material));
     if (!anyMeshShows(scene, o.material))
-        return inputError(fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, o.file));
+        return inputError(
+            fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, o.file));
     auto image = readImageWithin(memory, o.file);
     if (!image)
         return image.error();

@@ -3,8 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <glm/geometric.hpp>
 
@@ -54,8 +56,8 @@ Result<std::pair<int, int>> parseSize(const std::string& text)
     const std::size_t x = text.find('x');
     int width = 0, height = 0;
     if (x == std::string::npos || !parseWhole(std::string_view(text).substr(0, x), width)
-        || !parseWhole(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1
-        || width > 16384 || height > 16384)
+        || !parseWhole(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
+        || height > 16384)
         return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
     return std::pair(width, height);
 }
@@ -83,10 +85,32 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
 
 std::string frameNames()
 {
-    std::string names;
+    std::vector<std::string_view> names;
     for (const FrameInfo& f : frames())
-        names += (names.empty() ? "" : ", ") + std::string(f.name);
-    return names;
+        names.push_back(f.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text)
+{
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; std::getline(stream, word, ',');)
+        words.push_back(word);
+    return words;
+}
+
+Error unknownWord(const std::string& option, const std::vector<std::string_view>& known, const std::string& word)
+{
+    std::string list;
+    for (std::size_t i = 0; i < known.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + std::string(known[i]);
+    return usageError(fmt::format("{}: expected {}; found '{}'", option, list, word));
+}
+
+Error notOneOf(const std::string& option, const std::vector<std::string_view>& known, const std::string& word)
+{
+    return usageError(fmt::format("{}: expected one of {}; found '{}'", option, fmt::join(known, ", "), word));
 }
 
 } // namespace cotan::app

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cotan/frame.hpp"
 #include "cotan/result.hpp"
@@ -21,5 +23,34 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
 
 // All frame names, separated by commas.
 std::string frameNames();
+
+// The words between commas; none of an empty text.
+std::vector<std::string> splitAtCommas(const std::string& text);
+
+template<class Value> using Words = std::vector<std::pair<std::string_view, Value>>;
+
+// Says that a word is none of these: "--mode: expected a, b or c; found 'x'".
+Error unknownWord(const std::string& option, const std::vector<std::string_view>& known, const std::string& word);
+// The same for longer lists: "--mode: expected one of a, b, c; found 'x'".
+Error notOneOf(const std::string& option, const std::vector<std::string_view>& known, const std::string& word);
+
+// The value of a word; the error lists all words.
+template<class Value>
+Result<Value> valueOf(const std::string& option, const std::string& word, const Words<Value>& words,
+                      decltype(unknownWord) error = unknownWord)
+{
+    std::vector<std::string_view> known;
+    for (const auto& [name, value] : words) {
+        if (name == word)
+            return value;
+        known.push_back(name);
+    }
+    return error(option, known, word);
+}
+
+template<class Value> Result<Value> oneOf(const std::string& option, const std::string& word, const Words<Value>& words)
+{
+    return valueOf(option, word, words, notOneOf);
+}
 
 } // namespace cotan::app

@@ -1,28 +1,16 @@
 #include "picture.hpp"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 
+#include "cotan/report/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
-#include "device.hpp"
 #include "parse.hpp"
-#include "progress.hpp"
 
 namespace cotan::app {
 
 namespace {
-
-// CLI11's own range checks let NaN pass.
-std::string positiveNumber(const std::string& text)
-{
-    char* end = nullptr;
-    const float value = std::strtof(text.c_str(), &end);
-    const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
-    return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
-}
 
 Result<View> makeView(const PictureOptions& options, const Scene& scene)
 {
@@ -55,37 +43,35 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
 
 } // namespace
 
-void addPictureOptions(CLI::App& command, PictureOptions& o)
+void addPictureOptions(Arguments& a, PictureOptions& o)
 {
-    command.add_option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
-    addMemoryOption(command, o.memory);
-    addNormalMapOption(command, o.normalMap);
-    command.add_option("--size", o.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-    command.add_option("--camera", o.camera,
-                       "fit, the number of a camera of the file, or eye and target "
-                       "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
-        ->type_name("CAMERA");
-    command.add_option("--device", o.device, "auto, reference, or a part of a Vulkan device's name")
-        ->type_name("DEVICE")->capture_default_str();
-    command.add_option("--shading", o.shading, "pbr or blinn-phong")
-        ->check(CLI::IsMember({"pbr", "blinn-phong"}))->type_name("NAME")->capture_default_str();
-    command.add_option("--lighting", o.lighting,
-                       "world, or, on the reference device and for comparison, tangent-vertex or tangent-pixel: light "
-                       "and view vectors are taken to tangent space")
-        ->check(CLI::IsMember({"world", "tangent-vertex", "tangent-pixel"}))->type_name("NAME")->capture_default_str();
-    command.add_option("--tangents", o.tangents, "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated")
-        ->check(CLI::IsMember({"stored", "generated"}))->type_name("NAME")->capture_default_str();
-    command.add_option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4")
-        ->check(CLI::IsMember({1, 4}))->type_name("N")->capture_default_str();
-    command.add_option("--exposure", o.exposure, "factor on all light")
-        ->check(positiveNumber)->type_name("X")->capture_default_str();
-    command.add_option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
-        ->check(CLI::IsMember({"down", "up"}))->type_name("NAME")->capture_default_str();
-    command.add_option("--derivatives", o.derivatives, "fine or coarse")
-        ->check(CLI::IsMember({"fine", "coarse"}))->type_name("NAME")->capture_default_str();
-    command.add_flag("--no-shadows", o.noShadows, "no shadows");
-    command.add_flag("--no-normal-maps", o.noNormalMaps, "interpolated normals only");
-    command.add_flag("--point-sampled", o.pointSampled, "nearest texel of the finest level, for comparing devices");
+    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
+    addMemoryOption(a, o.memory);
+    addNormalMapOption(a, o.normalMap);
+    a.option("--size", o.size, "width and height in pixels").in("WxH");
+    a.option("--camera", o.camera,
+             "fit, the number of a camera of the file, or eye and target "
+             "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
+        .in("CAMERA");
+    addDeviceOption(a, o.device);
+    a.option("--shading", o.shading, "pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
+    a.option("--lighting", o.lighting,
+             "world, or, on the reference device and for comparison, tangent-vertex or tangent-pixel: light "
+             "and view vectors are taken to tangent space")
+        .from({"world", "tangent-vertex", "tangent-pixel"})
+        .in("NAME");
+    addTangentsOption(
+        a, o.tangents,
+        "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
+    a.option("--samples", o.samples, "samples a pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
+    a.option("--exposure", o.exposure, "factor on all light").above0().in("X");
+    a.option("--rows", o.rows, "way the target's rows run while drawing: down or up; the picture is upright either way")
+        .from({"down", "up"})
+        .in("NAME");
+    a.option("--derivatives", o.derivatives, "fine or coarse").from({"fine", "coarse"}).in("NAME");
+    a.flag("--no-shadows", o.noShadows, "no shadows");
+    a.flag("--no-normal-maps", o.noNormalMaps, "interpolated normals only");
+    a.flag("--point-sampled", o.pointSampled, "nearest texel of the finest level, for comparing devices");
 }
 
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
@@ -98,8 +84,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {
-        const Progress loading(common, 0, "loading " + options.model);
-        auto scene = loadSceneWithin(options.memory, options.model);
+        auto scene = loadTold(common, options.memory, options.model);
         if (!scene)
             return scene.error();
         picture.scene = std::move(*scene);
@@ -135,26 +120,19 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
 Status checkLighting(const PictureOptions& options, Frame frame)
 {
     if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
-        return usageError(fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
-                                      "mikktspace; found '{}'", name(frame)));
+        return usageError(
+            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                        "mikktspace; found '{}'",
+                        name(frame)));
     return Done{};
 }
 
-nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture)
+Json describeScene(const PictureOptions& options, const Picture& picture)
 {
-    const Scene& scene = picture.scene;
-    std::size_t triangles = 0;
-    for (const Mesh& mesh : scene.meshes)
-        triangles += mesh.triangleCount();
-    return {{"model", options.model.empty() ? "built-in" : options.model},
-            {"size", {picture.view.width, picture.view.height}},
-            {"meshes", scene.meshes.size()},
-            {"instances", scene.instances.size()},
-            {"materials", scene.materials.size()},
-            {"images", scene.images.size()},
-            {"triangles", triangles},
-            {"triangles_drawn", trianglesDrawn(scene)},
-            {"warnings", scene.warnings}};
+    Json report = {{"model", options.model.empty() ? "built-in" : options.model},
+                   {"size", {picture.view.width, picture.view.height}}};
+    report.update(countsOf(picture.scene));
+    return report;
 }
 
 } // namespace cotan::app

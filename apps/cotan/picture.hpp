@@ -7,16 +7,16 @@
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
-#include "memory_limit.hpp"
+#include "loading.hpp"
 #include "normal_map_option.hpp"
 
 namespace cotan::app {
 
 struct PictureOptions {
-    std::string model;            // empty: the built-in scene
+    std::string model; // empty: the built-in scene
     NormalMapOption normalMap;
     std::string size = "1280x720";
-    std::string camera;           // empty: the built-in scene's own, fit for a model
+    std::string camera; // empty: the built-in scene's own, fit for a model
     std::string device = "auto";
     std::string shading = "pbr";
     std::string lighting = "world";
@@ -31,7 +31,7 @@ struct PictureOptions {
     bool pointSampled = false;
 };
 
-void addPictureOptions(CLI::App& command, PictureOptions& options);
+void addPictureOptions(Arguments& a, PictureOptions& options);
 
 // A model that is loaded and a view of it; the frame and the output are for the caller to set.
 struct Picture {
@@ -55,6 +55,6 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
                                                     const Picture& picture);
 
 // Sizes and counts for a report.
-nlohmann::ordered_json describeScene(const PictureOptions& options, const Picture& picture);
+Json describeScene(const PictureOptions& options, const Picture& picture);
 
 } // namespace cotan::app

@@ -2,25 +2,21 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
 #include "cotan/verify/conversion.hpp"
-#include "device.hpp"
-#include "progress.hpp"
+#include "cotan/verify/views.hpp"
+#include "loading.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-std::string pictureName(const char* what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
-
-Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model, const CommonOptions& common,
-                             std::vector<Camera> cameras = {})
+Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model,
+                             const CommonOptions& common, std::vector<Camera> cameras = {})
 {
-    Progress progress(common, kConversionViews, fmt::format("drawing {}", file.string()));
-    painter.progress = progress.within();
-    auto sides = drawSides(painter, std::move(model), std::move(cameras));
-    painter.progress = {};
-    return sides;
+    return withProgress(common, kConversionViews, fmt::format("drawing {}", file.string()), [&](Progress progress) {
+        painter.progress = std::move(progress);
+        return drawSides(painter, std::move(model), std::move(cameras));
+    });
 }
 
 // One model at a time is in memory.
@@ -47,16 +43,7 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
 
 } // namespace
 
-std::vector<std::string> verifyPictures()
-{
-    std::vector<std::string> names;
-    for (std::size_t view = 0; view < kConversionViews; ++view)
-        for (const char* what : {"before", "after", "difference"})
-            names.push_back(pictureName(what, view));
-    return names;
-}
-
-Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
+Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
 {
     if (Status made = makeFolder(o.folder); !made)
         return made.error();
@@ -64,23 +51,42 @@ Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& o, const Co
     const auto compared = drawAndCompare(o, common, device);
     if (!compared)
         return compared.error();
-    nlohmann::ordered_json views = nlohmann::ordered_json::array();
-    for (std::size_t k = 0; k < compared->views.size(); ++k) {
-        const ComparedView& v = compared->views[k];
-        views.push_back(toJson(v.degrees));
-        for (const auto& [what, image] : {std::pair("before", &v.expected), {"after", &v.drawn}, {"difference", &v.difference}})
-            if (Status written = writeImage(o.folder / pictureName(what, k), *image); !written)
-                return written.error();
-    }
+    if (Status written = writeViews(*compared, kConversionNames, o.folder); !written)
+        return written.error();
     const AngleStatistics& s = compared->all;
-    say(common, fmt::format("drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
-                            name(o.to), name(o.from), toText(s)));
+    say(common, "drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
+        name(o.to), name(o.from), toText(s));
     if (s.count == 0)
-        warn(common, compared->mapped ? "--verify compared nothing: no pixel shows the inside of a surface in both"
-                                      : "--verify compared nothing: no normal map is drawn");
-    say(common, fmt::format("pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
-                            "yellow 5, red 15, white 45 degrees)", o.folder.string()));
-    return nlohmann::ordered_json{{"device", device}, {"degrees", toJson(s)}, {"views", views}};
+        warn(common, "--verify compared nothing: {}",
+             compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap);
+    say(common,
+        "pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
+        "yellow 5, red 15, white 45 degrees)",
+        o.folder.string());
+    return Json{{"device", device}, {"degrees", toJson(s)}, {"views", viewsOf(*compared)}};
+}
+
+Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, const std::filesystem::path& folder,
+                        const CommonOptions& common)
+{
+    if (Status made = makeFolder(folder); !made)
+        return made.error();
+    const auto painter = openDevice(device, common);
+    if (!painter)
+        return painter.error();
+    const auto compared = withProgress(common, kBakeViews, "drawing and comparing", [&](Progress progress) {
+        (*painter)->progress = std::move(progress);
+        return cotan::verifyBake(**painter, bake);
+    });
+    if (!compared)
+        return compared.error();
+    for (std::size_t k = 0; k < compared->views.size(); ++k)
+        say(common, "view {}: {}", k, toText(compared->views[k].degrees));
+    if (Status written = writeViews(*compared, kBakeNames, folder); !written)
+        return written.error();
+    say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
+        toText(compared->all));
+    return Json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", viewsOf(*compared)}};
 }
 
 } // namespace cotan::app

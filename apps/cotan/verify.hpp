@@ -1,30 +1,29 @@
-// Whether a converted model looks like the original: both drawn from several sides, normals compared.
+// --verify: what was made is drawn and compared, and the pictures go into a folder.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
-#include "memory_limit.hpp"
+#include "cotan/verify/bake.hpp"
 
 namespace cotan::app {
 
+// A converted model and the original.
 struct VerifyOptions {
     std::filesystem::path before, after; // models
     Frame from = Frame::mikktspace, to = Frame::cotangent;
-    bool fromGenerated = false;          // tangents of the original: generated instead of stored
-    std::filesystem::path folder;        // for before-N.png, after-N.png, difference-N.png
-    std::string device = "auto";
-    int memory = kDefaultMemory;
+    bool fromGenerated = false;   // tangents of the original: generated instead of stored
+    std::filesystem::path folder; // for before-N.png, after-N.png, difference-N.png
+    std::string device;
+    int memory = 0;
 };
 
-// The names of the pictures that verifyConversion writes.
-std::vector<std::string> verifyPictures();
-
-// Draws both from five sides, writes the pictures, says the degrees, and returns them for a report.
+// Draw, write the pictures, say the degrees, and return them for a report.
 // Errors: of loading, drawing and writing.
-Result<nlohmann::ordered_json> verifyConversion(const VerifyOptions& options, const CommonOptions& common);
+Result<Json> verifyConversion(const VerifyOptions& options, const CommonOptions& common);
+Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, const std::filesystem::path& folder,
+                        const CommonOptions& common);
 
 } // namespace cotan::app

@@ -7,13 +7,14 @@
 
 namespace cotan {
 
-// The numbers are the exit codes of the command line.
+// The numbers are the exit codes of the command line, which is never stopped by itself.
 enum class ErrorKind {
     usage = 1,       // the call itself is wrong
     input = 2,       // a file or value given to us is bad
     unavailable = 3, // not here: no device, part not built
     output = 4,      // cannot write
     limit = 5,       // checked, and over the limit that was asked for
+    stopped = 6,     // the caller's Progress said so
 };
 
 struct Error {

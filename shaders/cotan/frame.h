@@ -11,11 +11,11 @@
 //                 be normalised first: that is wrong by 11 degrees at 45 degrees of grazing
 //                 (docs/theory.md). eye - position, which is its negative, reverses t and b.
 //   duvdx, duvdy  differences of texture coordinates along the same two directions.
-// Who supplies the differences does not matter: screen derivatives, the edges of a triangle, the
-// rows and columns of a raster in uv space.
+// The differences may come from anywhere: screen derivatives, the edges of a triangle, the rows and
+// columns of a raster in uv space.
 //
-// t points along increasing u, b along increasing v (not "up": whether green points along +v is
-// the decoder's business, see normal.h).
+// t points along increasing u, b along increasing v (not "up"). Which way green points is settled
+// before, when the texel is decoded: see normal.h.
 //
 // Sources: C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5 (2006), cited as
 // [2006]; its follow-up of 2013, cited as [2013]; M. Mikkelsen, Surface Gradient Based Bump

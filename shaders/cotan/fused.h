@@ -18,7 +18,7 @@
 // - the footprint is no sliver: its area is at least a tenth of its longest difference squared, in
 //   positions and in uv, and n leans by 80 degrees at most. Down to a fiftieth the product must
 //   be 1e-11 at least; thinner ones lose digits as they do in the frames, and more of the range.
-// Outside, bumps fade or leave for small input, sums overflow for large. Non-finite input and n
+// Outside of these limits small input weakens bumps or removes them, and large input overflows. Non-finite input and n
 // shorter than 0.01 have no defined result (it may be NaN).
 // Where a frame has no t and b (constant uv), the result is n. Where uv vary along one line only, or
 // the footprint has no area, each function says what it gives.

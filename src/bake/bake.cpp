@@ -9,14 +9,12 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/low_points.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
@@ -270,7 +268,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
     if (!traced)
         return traced.error();
     const Baker baker(low, high, options);
-    tbb::parallel_for(0, view.height, [&](int y) {
+    parallelFor(0, view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x) {
             const glm::vec3 d = rayThrough(view, view.camera, x, y);
             const Hit seen = traced->trace({view.camera.eye, d, 0, 1e30f});
@@ -297,7 +295,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
 }
 
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const std::function<void()>& progress)
+                   const Progress& progress)
 {
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
@@ -312,23 +310,25 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                           options.height * options.samples, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
+    CountedSteps done(progress, std::size_t(options.height)); // rows
+    withThreads(options.threads, [&] {
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
-        tbb::parallel_for(tbb::blocked_range<int>(0, raster.blocks()), [&](const tbb::blocked_range<int>& range) {
+        parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
             BlockBaker baking(low, baker, raster, options, out);
             Counts counts;
-            for (int block = range.begin(); block != range.end(); ++block) {
+            for (int block = begin; block != end && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
                 baking.bake(block, first, last, counts);
-                for (int y = first; progress && y < last; ++y)
-                    progress();
+                for (int y = first; y < last; ++y)
+                    done.step();
             }
             const std::lock_guard lock(counting);
             out.statistics.rays += counts.rays;
             countTexels(counts.states, out.statistics);
         });
     });
+    if (done.stopped())
+        return stoppedError();
     BakeStatistics& s = out.statistics;
     countTriangles(low, s);
     s.rayDistance = baker.distance();

@@ -1,6 +1,5 @@
 #include "cotan/bake/bake_model.hpp"
 
-#include <atomic>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -22,17 +21,13 @@ glm::ivec2 squareOf(int udim)
 
 } // namespace
 
-Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const std::function<void(double)>& progress)
+Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
         return usageError(fmt::format("options.tiles: expected numbers from {} on; found {}", kFirstUdim, tile));
     BakeOptions options = setup.options.bake;
     options.tile = squareOf(tile);
-    std::atomic<int> rows = 0;
-    std::function<void()> rowDone;
-    if (progress)
-        rowDone = [&] { progress(double(++rows) / options.height); };
-    auto baked = bake(setup.low, setup.high, options, rowDone);
+    auto baked = bake(setup.low, setup.high, options, progress);
     if (!baked)
         return baked.error();
     if (baked->statistics.covered + baked->statistics.touched == 0)
@@ -52,7 +47,7 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const std::function<
 }
 
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
-                             const std::function<void(double)>& progress)
+                             const Progress& progress)
 {
     auto setup = prepareBake(low, std::move(high), options);
     if (!setup)
@@ -60,10 +55,7 @@ Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOp
     BakedModel model;
     model.warnings = std::move(setup->warnings);
     for (const int tile : options.tiles) {
-        std::function<void(double)> within;
-        if (progress)
-            within = [&](double share) { progress((double(model.maps.size()) + share) / double(options.tiles.size())); };
-        auto map = bakeTile(*setup, tile, within);
+        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), options.tiles.size()));
         if (!map)
             return map.error();
         model.maps.push_back(std::move(*map));

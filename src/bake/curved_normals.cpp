@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan {
 
@@ -128,9 +127,8 @@ std::vector<ShapeOperator> shapeOperators(std::span<const glm::vec3> positions, 
             neighbours[next[v]++] = indices[i + (k + 2) % 3];
         }
     std::vector<ShapeOperator> shapes(positions.size());
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t(0), positions.size(), [&](std::size_t v) {
+    withThreads(threads, [&] {
+        parallelFor(std::size_t(0), positions.size(), [&](std::size_t v) {
             shapes[v] = fitted(positions, normals, std::uint32_t(v),
                                {neighbours.data() + first[v], neighbours.data() + first[v + 1]});
         });

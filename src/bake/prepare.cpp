@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cotan/bake/bake_model.hpp"
+#include "cotan/scene/check.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 
 namespace cotan {
@@ -26,6 +27,16 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
         return usageError(fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
                                       high.scenes.size(), high.maps.size()));
     return Done{};
+}
+
+// Whether all of them hold together.
+Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+{
+    constexpr SceneRules rules{.pixels = false};
+    Status sound = checkScene(low, "low", rules);
+    for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
+        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
+    return sound && options.cage ? checkScene(*options.cage, "options.cage", rules) : sound;
 }
 
 // The cage's corner positions, brought to the vertices of the low surface.
@@ -114,6 +125,8 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
 {
     if (Status ok = checkRanges(low, high, options); !ok)
+        return ok.error();
+    if (Status ok = checkScenes(low, high, options); !ok)
         return ok.error();
     auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
     if (!lowSurface)

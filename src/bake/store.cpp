@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/bake.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/scene/normal_format.hpp"
 
 namespace cotan {
@@ -82,8 +80,8 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
             return v == glm::vec3(0) ? empty : f32::cotan_encode_texel(v, portableFormat);
         return v.z != 0 ? glm::vec3((v.x - low) * scale) : empty;
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, baked.values.size(), 1 << 14), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
+    parallelRanges<std::size_t>(0, baked.values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i)
             writer.put(i, stored(baked.values[i]));
     });
     return std::move(writer.image);

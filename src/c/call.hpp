@@ -2,14 +2,24 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cotan.h"
+#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
+
+struct cotan_bytes {
+    std::vector<std::byte> data;
+};
 
 namespace cotan::c {
 
@@ -25,16 +35,36 @@ inline void require(bool holds, const char* expectation)
         fail(ErrorKind::usage, expectation);
 }
 
+// The caller's progress function as the library takes it: empty for null.
+inline Progress progressOf(cotan_progress progress, void* user)
+{
+    if (!progress)
+        return {};
+    struct Guard {
+        std::mutex mutex;
+        bool stopped = false;
+    };
+    return [progress, user, guard = std::make_shared<Guard>()](double done) {
+        const std::lock_guard lock(guard->mutex);
+        guard->stopped = guard->stopped || progress(user, done) != 0;
+        return !guard->stopped;
+    };
+}
+
 // Structs of newer callers are longer; of this version they have to be whole.
 template<class T> const T& checked(const T* argument, const char* name)
 {
     if (!argument)
         fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
     if (argument->size < sizeof(T))
-        fail(ErrorKind::usage, std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
-                                   + std::to_string(argument->size));
+        fail(ErrorKind::usage,
+             std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
+                 + std::to_string(argument->size));
     return *argument;
 }
+
+// Options, or all of them 0 where they are left out.
+template<class T> T optionsOf(const T* given, const char* name) { return given ? checked(given, name) : T{}; }
 
 inline std::string_view word(const char* text, const char* name)
 {
@@ -47,6 +77,14 @@ template<class T> T valueOf(Result<T> result, const char* name)
 {
     if (!result)
         fail(result.error().kind, std::string(name) + ": " + result.error().message);
+    return *std::move(result);
+}
+
+// The same where the message says by itself what it is about.
+template<class T> T valueOf(Result<T> result)
+{
+    if (!result)
+        throw Failure{result.error()};
     return *std::move(result);
 }
 

@@ -9,6 +9,7 @@
 #include "call.hpp"
 #include "cotan/cotangent_frame.hpp"
 #include "cotan/tangents.hpp"
+#include "meshes.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -33,7 +34,8 @@ template<class Work> void forEachPlace(const char* frame, const cotan_places* gi
 {
     const Frame kind = frameFromDifferences(frame);
     const cotan_places& p = checked(given, "places");
-    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy), "places: expected five arrays, found null");
+    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
+            "places: expected five arrays, found null");
     for (std::size_t i = 0; i < p.count; ++i) {
         Differences<float> d;
         d.dpdx = Vector3f(vec3At(p.dpdx, i));
@@ -49,16 +51,43 @@ void store(float* array, std::size_t i, const glm::vec3& v)
     array[3 * i] = v.x, array[3 * i + 1] = v.y, array[3 * i + 2] = v.z;
 }
 
+// A frame of the vertices at a place.
+class VertexFrames {
+public:
+    VertexFrames(const char* frame, const cotan_vertex_places* given) : p_(checked(given, "places"))
+    {
+        const auto kind = frameFromName(word(frame, "frame"));
+        if (!kind || info(*kind).source != FrameSource::vertices)
+            fail(ErrorKind::usage,
+                 "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+        kind_ = *kind;
+        const bool smooth = kind_ == Frame::smooth;
+        require(p_.count == 0 || (p_.normals && (smooth ? p_.cotangents_u && p_.cotangents_v : p_.tangents != nullptr)),
+                smooth ? "places: expected normals and two arrays of cotangents, found null"
+                       : "places: expected normals and tangents, found null");
+    }
+
+    std::size_t count() const { return p_.count; }
+
+    f32::cotan_frame at(std::size_t i) const
+    {
+        const glm::vec3 n = vec3At(p_.normals, i);
+        if (kind_ == Frame::smooth)
+            return f32::cotan_frame_smooth(n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
+        const float* t = p_.tangents + 4 * i;
+        const glm::vec3 tangent(t[0], t[1], t[2]);
+        return kind_ == Frame::vertex ? f32::cotan_frame_vertex(n, tangent, -t[3])
+                                      : f32::cotan_frame_mikktspace(n, tangent, -t[3]);
+    }
+
+private:
+    const cotan_vertex_places& p_;
+    Frame kind_ = Frame::smooth;
+};
+
 MeshView viewOf(const cotan_mesh* given)
 {
-    const cotan_mesh& m = checked(given, "mesh");
-    require(m.vertex_count == 0 || (m.positions && m.normals && m.texcoords), "mesh: expected positions, normals and texcoords, found null");
-    require(m.index_count % 3 == 0, "mesh.index_count: expected a multiple of 3");
-    require(m.index_count == 0 || m.indices, "mesh.indices: expected an array, found null");
-    for (std::size_t i = 0; i < m.index_count; ++i)
-        if (m.indices[i] >= m.vertex_count)
-            fail(ErrorKind::input, "mesh.indices[" + std::to_string(i) + "]: expected less than " + std::to_string(m.vertex_count)
-                                       + ", found " + std::to_string(m.indices[i]));
+    const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
     return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
             {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
             {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
@@ -96,6 +125,28 @@ cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, c
     });
 }
 
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+                                      float* normals, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        const VertexFrames frames(frame, places);
+        for (std::size_t i = 0; i < frames.count(); ++i)
+            store(normals, i, f32::cotan_apply(frames.at(i), vec3At(texels, i)));
+    });
+}
+
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+                                       float* texels, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        const VertexFrames frames(frame, places);
+        for (std::size_t i = 0; i < frames.count(); ++i)
+            store(texels, i, f32::cotan_encode(frames.at(i), vec3At(normals, i)));
+    });
+}
+
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
                             size_t message_size)
 {
@@ -106,7 +157,8 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made = which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
+        const std::vector<glm::vec4> made =
+            which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
         std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
     });
 }

@@ -1,33 +1,9 @@
-// cotan.h: the library itself, and shader text.
+// cotan.h: the library itself.
 #include "call.hpp"
-#include "cotan/convention_words.hpp"
-#include "cotan/shader_text/shader_text.hpp"
 
-using namespace cotan;
-using namespace cotan::c;
+const void* cotan_bytes_data(const cotan_bytes* bytes) { return bytes ? bytes->data.data() : nullptr; }
+size_t cotan_bytes_size(const cotan_bytes* bytes) { return bytes ? bytes->data.size() : 0; }
+void cotan_bytes_free(cotan_bytes* bytes) { delete bytes; }
 
 const char* cotan_version(void) { return COTAN_VERSION; }
 int cotan_api_version(void) { return COTAN_API_VERSION; }
-
-cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text, size_t* text_size,
-                               char* message, size_t message_size)
-{
-    return call(message, message_size, [&] {
-        require(text_size, "text_size: expected a place, found null");
-        shader_text::Choice choice;
-        const auto known = shader_text::languageFromName(word(language, "language"));
-        if (!known)
-            fail(ErrorKind::usage, "language: expected glsl, essl, hlsl, wgsl, msl or cpp, found '" + std::string(language) + "'");
-        const auto which = frameFromName(word(frame, "frame"));
-        if (!which)
-            fail(ErrorKind::usage, "frame: there is none named '" + std::string(frame) + "'");
-        choice.language = *known;
-        choice.frame = *which;
-        choice.convention = valueOf(conventionFromWords(word(convention, "convention")), "convention");
-        const shader_text::ShaderText made = valueOf(shader_text::makeShaderText(choice), "shader");
-        const std::size_t needed = made.text.size() + 1;
-        if (text && *text_size >= needed)
-            std::memcpy(text, made.text.c_str(), needed);
-        *text_size = needed;
-    });
-}

@@ -3,91 +3,33 @@
 #include <cmath>
 
 #include "call.hpp"
-#include "cotan/convention_words.hpp"
 #include "cotan/maps/blend.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/height.hpp"
 #include "cotan/maps/mips.hpp"
+#include "cotan/maps/normal_statistics.hpp"
 #include "cotan/maps/recode.hpp"
+#include "pictures.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
 
 namespace {
 
-constexpr int kMostSide = 65536;
-
-PixelType typeOf(const cotan_picture& p, const char* name)
-{
-    if (p.bits == 8)
-        return PixelType::unorm8;
-    if (p.bits != 16 && p.bits != 32)
-        fail(ErrorKind::usage, std::string(name) + ".bits: expected 8, 16 or 32, found " + std::to_string(p.bits));
-    return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
-}
-
-const cotan_picture& checkedPicture(const cotan_picture* given, const char* name)
-{
-    const cotan_picture& p = checked(given, name);
-    typeOf(p, name);
-    if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
-        fail(ErrorKind::usage, std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width)
-                                   + " x " + std::to_string(p.height));
-    if (!p.pixels)
-        fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
-    return p;
-}
-
-Image imageOf(const cotan_picture* given, const char* name)
-{
-    const cotan_picture& p = checkedPicture(given, name);
-    Image image = makeImage(p.width, p.height, typeOf(p, name));
-    std::memcpy(image.data.data(), p.pixels, image.pixelCount() * image.bytesPerPixel());
-    return image;
-}
-
-// The picture that gets a result of that size.
-const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
-{
-    const cotan_picture& p = checkedPicture(given, name);
-    if (p.width != like.width || p.height != like.height)
-        fail(ErrorKind::usage, std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
-                                   + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
-    return p;
-}
-
-void put(const Image& image, const cotan_picture& p)
-{
-    std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
-}
-
-Convention conventionOf(const char* words, const char* name) { return valueOf(conventionFromWords(word(words, name)), name); }
-
-// Of a result with such components.
-Convention storableAs(const char* words, const char* name, PixelType type)
-{
-    const Convention convention = conventionOf(words, name);
-    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
-        fail(ErrorKind::usage, std::string(name) + ": signed values need a picture of 32 bits");
-    return convention;
-}
-
 maps::BlendMode modeOf(const char* text)
 {
     using M = maps::BlendMode;
-    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {
-        {{"reoriented", M::reoriented}, {"whiteout", M::whiteout}, {"udn", M::udn}, {"slopes", M::slopes}, {"linear", M::linear}}};
+    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {{{"reoriented", M::reoriented},
+                                                                       {"whiteout", M::whiteout},
+                                                                       {"udn", M::udn},
+                                                                       {"slopes", M::slopes},
+                                                                       {"linear", M::linear}}};
     const std::string_view wanted = word(text, "mode");
     for (const auto& [name, mode] : kModes)
         if (name == wanted)
             return mode;
-    fail(ErrorKind::usage, "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
-}
-
-cotan_picture pictureOf(Image& image)
-{
-    const int bits = image.type == PixelType::unorm8 ? 8 : image.type == PixelType::unorm16 ? 16 : 32;
-    return {sizeof(cotan_picture), image.width, image.height, bits, image.data.data()};
+    fail(ErrorKind::usage,
+         "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
 }
 
 } // namespace
@@ -99,14 +41,33 @@ cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char*
         const maps::GreenVerdict v = maps::greenOf(imageOf(map, "map"));
         green->direction = v.green == maps::Green::up ? 1 : v.green == maps::Green::down ? -1 : 0;
         green->swapped = v.swapped == maps::Swapped::yes ? 1 : v.swapped == maps::Swapped::no ? 0 : -1;
-        green->confidence = v.confidence == maps::Confidence::certain ? 2 : v.confidence == maps::Confidence::likely ? 1 : 0;
+        green->confidence = v.confidence == maps::Confidence::certain ? 2
+            : v.confidence == maps::Confidence::likely                ? 1
+                                                                      : 0;
         green->agreement = v.agreement;
         copyText(v.reason, green->reason, sizeof green->reason);
     });
 }
 
-cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map, char* message,
-                               size_t message_size)
+cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        checked(info, "info");
+        const maps::NormalStatistics s = maps::statisticsOfMap(imageOf(map, "map"));
+        copyText(maps::describe(s.content), info->content, sizeof info->content);
+        info->zero = s.centre == maps::Centre::exact ? 128 : s.centre == maps::Centre::biased ? 127 : 0;
+        info->srgb = s.transfer == maps::Transfer::srgb ? 1 : s.transfer == maps::Transfer::linearised ? -1 : 0;
+        info->background = s.background;
+        info->invalid = s.invalid;
+        info->below_horizon = s.belowHorizon;
+        info->mean_length = s.meanLength;
+        info->mean_tilt = s.meanTilt;
+        std::copy(s.mean.begin(), s.mean.end(), info->mean);
+    });
+}
+
+cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map,
+                               char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
@@ -122,8 +83,8 @@ cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const
     });
 }
 
-cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to, cotan_picture* map,
-                                   char* message, size_t message_size)
+cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to,
+                                   cotan_picture* map, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(height, "height");
@@ -139,7 +100,8 @@ cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, 
     });
 }
 
-cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message, size_t message_size)
+cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message,
+                                 size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
@@ -151,8 +113,8 @@ cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, flo
     });
 }
 
-cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention, const char* mode,
-                             double strength, cotan_picture* map, char* message, size_t message_size)
+cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention,
+                             const char* mode, double strength, cotan_picture* map, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
@@ -168,8 +130,8 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
     });
 }
 
-cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take, void* user,
-                            char* message, size_t message_size)
+cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
+                            void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");

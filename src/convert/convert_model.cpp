@@ -1,7 +1,6 @@
 #include "cotan/convert/convert_model.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include <fmt/format.h>
 
@@ -28,14 +27,12 @@ public:
         if (jobs->empty())
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
-            const auto share = [&, k](double ofMap) {
-                if (options_.progress)
-                    options_.progress((double(k) + ofMap) / double(jobs->size()));
-            };
+            const Progress share = partOf(options_.progress, k, jobs->size());
             auto map = convertMap((*jobs)[k], share);
             if (!map)
                 return map.error();
-            share(1);
+            if (share && !share(1))
+                return stoppedError();
             if (options_.mapDone)
                 options_.mapDone(*map);
             report_.maps.push_back(std::move(*map));
@@ -54,7 +51,7 @@ public:
 
 private:
     // Converts one image and puts it back.
-    Result<ConvertedMap> convertMap(const MapJob& job, const std::function<void(double)>& share)
+    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
     {
         const std::filesystem::path& file = gltfPath(document_);
         const std::string field = file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
@@ -75,10 +72,11 @@ private:
         if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
             return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
-        std::atomic<int> rows = 0;
-        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads,
-                                     [&] { share(double(++rows) / double(map->height)); });
-        auto png = encodePng(r.image);
+        CountedSteps rows(share, std::size_t(map->height));
+        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
+        if (rows.stopped())
+            return stoppedError();
+        auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
         done.figures = r;

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "cotan/convert/tangents.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/gltf/lookup.hpp"
 #include "cotan/gltf/tangents.hpp"
+#include "cotan/image/file.hpp"
 
 namespace cotan {
 
@@ -102,6 +104,25 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         notes.push_back(fmt::format("the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
                                     "glTF asks, will show it wrongly", name(options.frame)));
     return Done{};
+}
+
+Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
+                                      const PutMapOptions& options, const std::filesystem::path& output)
+{
+    const std::string extension = lowerExtension(model);
+    auto document = extension == ".gltf" || extension == ".glb" ? openGltfDocument(model) : gltfDocumentOf(scene);
+    if (!document)
+        return document.error();
+    auto png = encodePng(map);
+    if (!png)
+        return png.error();
+    std::vector<std::string> notes;
+    if (Status put = putNormalMap(*document, std::move(*png), options, notes); !put)
+        return put.error();
+    auto written = writeGltf(*document, output);
+    if (written)
+        written->notes.insert(written->notes.begin(), notes.begin(), notes.end());
+    return written;
 }
 
 } // namespace cotan

@@ -5,12 +5,11 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
@@ -51,14 +50,18 @@ public:
         nearest_.resize(std::size_t(map.height));
     }
 
-    Reencoded run(const std::function<void()>& rowDone)
+    Reencoded run(CountedSteps* rows)
     {
-        auto overRows = [&](const auto& work) { oneapi::tbb::parallel_for(0, map_.height, work); };
+        auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
         overRows([&](int y) {
+            if (rows && rows->stopped())
+                return;
             solveRow(y);
-            if (rowDone)
-                rowDone();
+            if (rows)
+                rows->step();
         });
+        if (rows && rows->stopped())
+            return std::move(result_);
         spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
         overRows([&](int y) { findPlaces(y); });
@@ -264,11 +267,10 @@ private:
 } // namespace
 
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   int threads, const std::function<void()>& rowDone)
+                   int threads, CountedSteps* rows)
 {
-    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
     Reencoded result;
-    arena.execute([&] { result = Reencoder(map, uses, frames, bits).run(rowDone); });
+    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });
     return result;
 }
 

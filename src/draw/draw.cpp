@@ -1,6 +1,7 @@
 #include "cotan/draw/draw.hpp"
 
 #include "cotan/draw/painter.hpp"
+#include "cotan/scene/check.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan {
@@ -10,6 +11,8 @@ Result<Image> drawView(Scene scene, const View& view, const std::string& device,
     const auto painter = openPainter(device, threads);
     if (!painter)
         return painter.error();
+    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
+        return sound.error();
     if (view.frame >= 0 && view.frame < kFrameCount) // others are for the painter to refuse
         deriveVertexFrames(scene, Frame(view.frame), /*regenerate*/ false);
     if (const Status loaded = (*painter)->load(scene); !loaded)

@@ -1,6 +1,8 @@
 #include "cotan/draw/painter.hpp"
 
+#include "cotan/not_built.hpp"
 #include "cotan/reference/render.hpp"
+#include "cotan/scene/check.hpp"
 #ifdef COTAN_WITH_VULKAN
 #include "cotan/render/renderer.hpp"
 #endif
@@ -54,7 +56,7 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string& device)
 #else
 Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 {
-    return unavailableError("this cotan was built without Vulkan");
+    return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
 #endif
 
@@ -62,7 +64,9 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
 
 Status Painter::load(const Scene& scene)
 {
-    Status status = loadScene(scene);
+    Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
+    if (status)
+        status = loadScene(scene);
     loaded_ = bool(status);
     return status;
 }
@@ -71,8 +75,8 @@ Result<Image> Painter::draw(const View& view)
 {
     if (!loaded_)
         return usageError("draw: no scene is loaded");
-    if (progress)
-        progress(0);
+    if (progress && !progress(0))
+        return stoppedError();
     return drawLoaded(view);
 }
 

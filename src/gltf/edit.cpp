@@ -64,6 +64,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     GltfModel model;
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings, /*keepOrder*/ true);
+    const std::size_t modelBytes = model.file.size; // buffers are added to it
     refuseMeshopt(model.file.ordered);
     checkGltfShape(model.file.json, limits, model.warnings);
     loadGltfBuffers(model.file, limits);
@@ -72,7 +73,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 
     auto source = std::make_shared<GltfSource>();
     source->path = path;
-    source->bytes = std::filesystem::file_size(path);
+    source->bytes = modelBytes;
     source->root = std::move(model.file.ordered);
     source->file = std::move(model.file);
     source->file.json = nullptr;
@@ -116,7 +117,7 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
             document.source->file, entry["uri"].get_ref<const std::string&>(), field + ".uri");
         if (resource.file.empty())
             return std::move(resource.bytes);
-        return readFileBytes(resource.file, limits.fileBytes);
+        return readGltfResource(document.source->file, resource.file, limits);
     } catch (const GltfProblem& problem) {
         return inputError(document.source->path.string() + ": " + problem.message);
     }

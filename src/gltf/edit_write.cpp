@@ -69,9 +69,9 @@ std::size_t sizeBefore(const GltfSource& source)
     return source.bytes + totalSize(std::move(files));
 }
 
-std::vector<std::byte> readOrFail(const fs::path& file, const LoadLimits& limits)
+std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file, const LoadLimits& limits)
 {
-    Result<std::vector<std::byte>> bytes = readFileBytes(file, limits.fileBytes);
+    Result<std::vector<std::byte>> bytes = readGltfResource(source.file, file, limits);
     if (!bytes)
         throw bytes.error();
     return std::move(*bytes);
@@ -98,7 +98,7 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
     std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
     for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
         if (!embedded.contains(file)) {
-            std::vector<std::byte> bytes = readOrFail(file, limits);
+            std::vector<std::byte> bytes = readOrFail(*document.source, file, limits);
             const std::string type = mimeTypeOf(bytes);
             embedded[file] = nullptr;
             if (!type.empty())
@@ -267,7 +267,7 @@ void copyImages(const GltfSource& source, const OrderedJson& root, const fs::pat
         const auto same = [&](const Output& o) { return o.file == target; };
         if (std::any_of(outputs.begin(), outputs.end(), same))
             continue;
-        std::vector<std::byte> bytes = readOrFail(file, limits);
+        std::vector<std::byte> bytes = readOrFail(source, file, limits);
         if (fs::exists(target, error)) {
             const auto there = readFileBytes(target, limits.fileBytes);
             if (!there || *there != bytes)
@@ -345,7 +345,29 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
     return written;
 }
 
+// What a failure of `write` is to the caller.
+template<class Write> auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write) -> Result<decltype(write())>
+{
+    try {
+        return write();
+    } catch (const Error& failure) {
+        return failure;
+    } catch (const GltfProblem& problem) {
+        return inputError(document.source->path.string() + ": " + oneLine(problem.message));
+    } catch (const std::bad_alloc&) {
+        return unavailableError(name + ": not enough memory to write it");
+    }
+}
+
 } // namespace
+
+Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits)
+{
+    return caughtWriting(document, "the model", [&] {
+        embedImages(document, limits);
+        return makeGlb(layOut(document));
+    });
+}
 
 Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file,
                               const LoadLimits& limits)
@@ -353,15 +375,7 @@ Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file
     if (file.extension() != ".glb" && file.extension() != ".gltf")
         return usageError(
             fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
-    try {
-        return write(document, file, limits);
-    } catch (const Error& failure) {
-        return failure;
-    } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + oneLine(problem.message));
-    } catch (const std::bad_alloc&) {
-        return unavailableError(file.string() + ": not enough memory to write it");
-    }
+    return caughtWriting(document, file.string(), [&] { return write(document, file, limits); });
 }
 
 } // namespace cotan

@@ -189,7 +189,7 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
 {
     auto known = file.bufferFiles.find(path);
     if (known == file.bufferFiles.end()) {
-        Result<std::vector<std::byte>> bytes = readFileBytes(path, limits.fileBytes);
+        Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
         if (!bytes)
             failGltf("{}: {}", field, bytes.error().message);
         file.size += bytes->size();
@@ -200,16 +200,28 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
 
 } // namespace
 
+Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::path& resource, const LoadLimits& limits)
+{
+    if (!file.readFile)
+        return readFileBytes(resource, limits.fileBytes);
+    auto bytes = file.readFile(resource.string());
+    if (bytes && bytes->size() > limits.fileBytes)
+        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", resource.string(), bytes->size(), limits.fileBytes));
+    return bytes;
+}
+
 GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings,
                   bool keepOrder)
 {
     GltfFile file;
-    Result<std::vector<std::byte>> bytes = readFileBytes(path, limits.fileBytes);
+    file.readFile = limits.readFile;
+    Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
     if (!bytes)
         throw GltfProblem{bytes.error().message};
     file.bytes = std::move(*bytes);
     file.size = file.bytes.size();
-    file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    if (!file.readFile)
+        file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
     if (!file.isBinary && path.extension() == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
@@ -236,6 +248,10 @@ GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const 
     }
     if (hasScheme(uri))
         failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
+    if (file.readFile) {
+        resource.file = decodePercent(uri);
+        return resource;
+    }
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)

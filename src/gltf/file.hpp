@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -23,6 +24,7 @@ struct GltfResource {
 };
 
 struct GltfFile {
+    std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
     std::filesystem::path folder;      // canonical; nothing outside is opened
     std::vector<std::byte> bytes;      // the whole file, where it is a GLB
     std::span<const std::byte> text;   // its JSON, until that is parsed
@@ -42,6 +44,10 @@ struct GltfFile {
 inline constexpr int kGltfDepth = 128;
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits,
                   GltfWarnings& warnings, bool keepOrder = false);
+
+// The bytes of a resource that is a file, be it on the disk or not.
+Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,
+                                                const LoadLimits& limits);
 
 // Fills GltfFile::buffers. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);

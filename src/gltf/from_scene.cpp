@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cotan/image/file.hpp"
+#include "cotan/scene/check.hpp"
 #include "edit_state.hpp"
 
 namespace cotan {
@@ -166,6 +167,8 @@ void collectExtensions(const OrderedJson& json, std::vector<std::string>& names)
 
 Result<GltfDocument> gltfDocumentOf(const Scene& scene)
 {
+    if (const Status sound = checkScene(scene, "scene", {.pixels = false}); !sound)
+        return sound.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
     source->root = OrderedJson::object();

@@ -4,10 +4,9 @@
 #include <atomic>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
 #include "cotan/image/file.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "material.hpp"
 
 namespace cotan {
@@ -61,9 +60,9 @@ bool isPng(std::span<const std::byte> bytes)
 
 bool isJpeg(std::span<const std::byte> bytes) { return beginsWith(bytes, {0xff, 0xd8, 0xff}); }
 
-std::vector<std::byte> readImageFile(const fs::path& file, const LoadLimits& limits)
+std::vector<std::byte> readImageFile(const GltfFile& model, const fs::path& file, const LoadLimits& limits)
 {
-    Result<std::vector<std::byte>> bytes = readFileBytes(file, limits.fileBytes);
+    Result<std::vector<std::byte>> bytes = readGltfResource(model, file, limits);
     if (!bytes)
         throw GltfProblem{bytes.error().message};
     return std::move(*bytes);
@@ -71,11 +70,11 @@ std::vector<std::byte> readImageFile(const fs::path& file, const LoadLimits& lim
 
 // glTF allows PNG and JPEG alone; the many other formats that the image library can read are kept
 // away from data that come with a model. foreign: set to the format of an image that stays without pixels.
-Image decode(ImageSource source, const LoadLimits& limits, std::string& foreign)
+Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
     std::vector<std::byte> held;
     if (!source.resource.file.empty()) {
-        held = readImageFile(source.resource.file, limits);
+        held = readImageFile(model, source.resource.file, limits);
         source.bytes = held;
     }
     if (limits.pixels == Pixels::whereReadable)
@@ -132,16 +131,19 @@ void GltfMaterials::decodeImages()
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     std::vector<std::string> problems(jobs.size()), foreign(jobs.size());
     Budget budget(model_.limits);
-    tbb::parallel_for(std::size_t(0), jobs.size(), [&](std::size_t i) {
+    const auto decodeOne = [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {
-            Image decoded = decode(findImage(model_, image), budget.next(), foreign[i]);
+            Image decoded = decode(model_.file, findImage(model_, image), budget.next(), foreign[i]);
             budget.take(decoded.data.size());
             scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
             problems[i] = imageField(image) + ": " + problem.message;
         }
-    });
+    };
+    // What is not ours may not like threads.
+    const bool ours = !model_.limits.decode && !model_.file.readFile;
+    withThreads(ours ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
     for (const std::string& problem : problems) // the first in the file, whichever came first
         if (!problem.empty())
             throw GltfProblem{problem};
@@ -160,11 +162,13 @@ void lookAt(const GltfModel& model, int image, bool used)
     ImageSource source = findImage(model, image, /*mayMiss*/ true);
     std::vector<std::byte> held;
     if (!source.resource.file.empty()) {
+        if (model.file.readFile)
+            return; // nothing is fetched only to be looked at
         std::error_code error;
         const std::uintmax_t size = fs::file_size(source.resource.file, error);
         if (error || size == 0 || size >= kPngHeader)
             return;
-        held = readImageFile(source.resource.file, model.limits);
+        held = readImageFile(model.file, source.resource.file, model.limits);
         source.bytes = held;
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)

@@ -64,8 +64,8 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
                 PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3, !read->geometry.tangents.empty(), false, read->cannot});
             visit(*read, row);
         }
-        if (options.progress)
-            options.progress(double(++done) / double(all));
+        if (options.progress && !options.progress(double(++done) / double(all)))
+            return stoppedError();
         return Done{};
     });
     if (!status)

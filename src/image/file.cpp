@@ -17,6 +17,17 @@
 
 namespace cotan {
 
+bool isPng(std::span<const std::byte> bytes)
+{
+    constexpr std::string_view kStart = "\x89PNG\r\n\x1a\n";
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kStart);
+}
+
+bool isJpeg(std::span<const std::byte> bytes)
+{
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("\xff\xd8\xff");
+}
+
 namespace {
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
@@ -57,7 +68,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
                           const LoadLimits& limits)
 {
     try {
-        return decode(bytes, name, limits);
+        return limits.decode ? limits.decode(bytes, name) : decode(bytes, name, limits);
     } catch (const std::bad_alloc&) {
         return inputError(fmt::format("{}: not enough memory for the image", name));
     }

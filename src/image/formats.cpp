@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cotan/files/extension.hpp"
+#include "cotan/not_built.hpp"
 
 namespace cotan {
 
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+#ifdef COTAN_MODULE_NAME
 // Beside an installed program, where it was installed, where it was built.
 std::vector<fs::path> modulePlaces()
 {
@@ -54,6 +56,12 @@ Result<const ImageFormats*> loadModule()
     return unavailableError(
         fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
 }
+#else
+Result<const ImageFormats*> loadModule()
+{
+    return notBuiltWith("OpenImageIO, which reads and writes this image format", "libopenimageio-dev and openimageio-tools");
+}
+#endif
 
 } // namespace
 

@@ -127,11 +127,6 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
 
 } // namespace
 
-bool isJpeg(std::span<const std::byte> bytes)
-{
-    return bytes.size() >= 3 && std::memcmp(bytes.data(), "\xff\xd8\xff", 3) == 0;
-}
-
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
                                       const LoadLimits& limits)
 {

@@ -32,12 +32,6 @@ Error pngError(const std::string& name, const PngSession& session)
 
 } // namespace
 
-bool isPng(std::span<const std::byte> bytes)
-{
-    return bytes.size() >= 8
-        && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) == 0;
-}
-
 Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
                       const LoadLimits& limits)
 {

@@ -11,6 +11,7 @@
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/check.hpp"
 #include "cotan/scene/placings.hpp"
 #include "parts.hpp"
 
@@ -150,9 +151,15 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
 
 } // namespace
 
-LintReport lintScene(const Scene& scene, const LintOptions& options)
+LintReport lintScene(const Scene& scene, const LintOptions& options) { return *lintScene(scene, options, {}); }
+
+Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
 {
     LintReport report;
+    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound) {
+        report.recommendation = report.defects = "Nothing was looked at: " + sound.error().message + ".";
+        return report;
+    }
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
     const auto placed = placings(scene);
@@ -171,8 +178,8 @@ LintReport lintScene(const Scene& scene, const LintOptions& options)
             report.primitives.push_back(std::move(p));
         }
         done += mesh.triangleCount();
-        if (options.progress)
-            options.progress(double(done) / double(std::max<std::size_t>(all, 1)));
+        if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))
+            return stoppedError();
     }
     addOverlaps(report, uses);
     addMaps(report, scene);

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
+
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::maps {
 
@@ -222,7 +223,7 @@ std::vector<Products> productsOf(const std::vector<Patch>& patches, const Normal
     const Convention convention = reading(statistics);
     const std::string between = colourBetween(patches);
     std::vector<Products> products(patches.size());
-    oneapi::tbb::parallel_for(std::size_t(0), patches.size(), [&](std::size_t i) {
+    parallelFor(std::size_t(0), patches.size(), [&](std::size_t i) {
         products[i] = productsOf(slopesOf(patches[i], convention, statistics.swizzle, between),
                                  std::size_t(patches[i].texels.width), noise);
     });

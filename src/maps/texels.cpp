@@ -6,8 +6,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::maps {
 
@@ -170,11 +170,7 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 void forRowBands(int height, const std::function<void(int first, int last)>& work)
 {
     constexpr int kBand = 16;
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, (height + kBand - 1) / kBand, 1),
-                              [&](const auto& bands) {
-                                  for (int band = bands.begin(); band < bands.end(); ++band)
-                                      work(band * kBand, std::min(height, (band + 1) * kBand));
-                              });
+    parallelFor(0, (height + kBand - 1) / kBand, [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
 }
 
 double quantisationDegrees(const Convention& convention, int bits, double tilt)

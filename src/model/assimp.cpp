@@ -20,9 +20,10 @@
 #include "collada_check.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/scene/check.hpp"
 #include "source_material.hpp"
 #include "ply_check.hpp"
-#include "scene_check.hpp"
+#include "text_lines.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.
@@ -218,12 +219,6 @@ void warnAboutSource(const aiScene& source, Job& job)
                                        source.mNumLights));
 }
 
-std::string oneLine(std::string text)
-{
-    std::ranges::replace(text, '\n', ' ');
-    return text;
-}
-
 Result<Scene> load(Job& job)
 {
     if (Status ok = openModel(job); !ok)
@@ -237,7 +232,7 @@ Result<Scene> load(Job& job)
             fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
-        return inputError(fmt::format("{}: {}", job.name(), oneLine(importer.GetErrorString())));
+        return inputError(fmt::format("{}: {}", job.name(), withoutBreaks(importer.GetErrorString())));
     if (Status ok = checkIndices(*source, job); !ok)
         return ok.error();
     if (job.limits.expect)
@@ -272,7 +267,7 @@ Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
     } catch (const std::bad_alloc&) {
         return inputError(fmt::format("{}: not enough memory for the model", file.string()));
     } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: {}", file.string(), oneLine(e.what())));
+        return inputError(fmt::format("{}: {}", file.string(), withoutBreaks(e.what())));
     } catch (...) {
         return inputError(fmt::format("{}: the reader failed", file.string()));
     }

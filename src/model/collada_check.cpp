@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "text_lines.hpp"
 
 namespace cotan {
 
@@ -111,7 +112,7 @@ Problem checkAccessors(std::string_view text)
         const std::uint64_t needed = numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1)
             + std::max<std::uint64_t>(params, 1);
         if (needed > array->second)
-            problem = fmt::format("accessor of {}: expected an array of {} numbers or more, found {}", oneLine(std::string(source)), needed,
+            problem = fmt::format("accessor of {}: expected an array of {} numbers or more, found {}", withoutBreaks(std::string(source)), needed,
                                   array->second);
     });
     return problem;

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cotan/model/load.hpp"
 #include "cotan/model/reader.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/image/rows.hpp"

@@ -7,7 +7,7 @@
 #include "cotan/files/bytes.hpp"
 #include "cotan/sandbox/process.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
-#include "scene_check.hpp"
+#include "cotan/scene/check.hpp"
 
 namespace cotan {
 

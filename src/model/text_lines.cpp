@@ -99,4 +99,10 @@ std::string quotedWord(std::string_view word)
     return fmt::format("\"{}\"", shown);
 }
 
+std::string withoutBreaks(std::string text)
+{
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
 } // namespace cotan

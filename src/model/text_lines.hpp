@@ -43,6 +43,9 @@ struct Words {
 // is something else or not finite as a float.
 std::optional<float> finiteNumber(std::string_view word);
 
+// Spaces for line breaks: for messages of one line.
+std::string withoutBreaks(std::string text);
+
 // Part of a file in quotes for a message: short, no control characters.
 std::string quotedWord(std::string_view word);
 

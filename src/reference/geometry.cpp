@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "cotan/frame.hpp"
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::reference {
 
@@ -63,12 +63,10 @@ void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>
     if (in.size() < count)
         return; // absent
     out.resize(count);
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, count, 4096),
-        [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i)
-                out[i] = function(in[i]);
-        });
+    parallelRanges<std::size_t>(0, count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            out[i] = function(in[i]);
+    });
 }
 
 Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame frame)

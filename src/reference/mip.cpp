@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "cotan/parallel/loops.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
@@ -108,7 +107,7 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
            Source source, Image& target, std::vector<glm::vec4>& averages)
 {
     averages.resize(target.pixelCount());
-    oneapi::tbb::parallel_for(0, target.height, [&](int y) {
+    parallelFor(0, target.height, [&](int y) {
         Taps rows = tapsOf(y, target.height, height);
         for (int x = 0; x < target.width; ++x) {
             Taps columns = tapsOf(x, target.width, width);

@@ -1,18 +1,14 @@
 #include "cotan/reference/render.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "cotan/frame.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
@@ -113,32 +109,23 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
             storePixel(picture, x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
 }
 
-Image draw(const Scene& scene, const View& view, const std::function<void(double)>& progress)
+Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
 {
     bool bytes = view.output == Output::shaded && !view.linearOutput;
     Image picture = makeImage(view.width, view.height,
                               bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
     Frozen frozen = prepare(scene, view);
     const std::size_t tiles = frozen.tiled.tiles.size();
-    std::atomic<std::size_t> done = 0;
-    oneapi::tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t index) {
+    CountedSteps done(progress, tiles);
+    parallelFor(std::size_t(0), tiles, [&](std::size_t index) {
+        if (done.stopped())
+            return;
         drawTile(scene, view, frozen, index, picture);
-        if (progress)
-            progress(double(++done) / double(tiles));
+        done.step();
     });
+    if (done.stopped())
+        return stoppedError();
     return picture;
-}
-
-// Runs work on that many threads; 0: all cores.
-template<class Work>
-void onThreads(int threads, Work work)
-{
-    if (threads <= 0)
-        return work();
-    oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(threads));
-    oneapi::tbb::task_arena arena(threads);
-    arena.execute(work);
 }
 
 std::optional<Error> checkView(const View& view)
@@ -155,15 +142,15 @@ std::optional<Error> checkView(const View& view)
 
 } // namespace
 
-Result<Image> renderReference(const Scene& scene, const View& view, int threads, const std::function<void(double)>& progress)
+Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
     if (const Status ok = checkTrianglesDrawn(scene); !ok)
         return ok.error();
     try {
-        std::optional<Image> picture;
-        onThreads(threads, [&] { picture = draw(scene, view, progress); });
+        std::optional<Result<Image>> picture;
+        withThreads(threads, [&] { picture = draw(scene, view, progress); });
         return std::move(*picture);
     } catch (const TooManyLayers&) {
         return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "clip.hpp"
+#include "cotan/parallel/loops.hpp"
 
 namespace cotan::reference {
 
@@ -152,7 +152,7 @@ TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws
                               const Projection& projection, Cull cull)
 {
     std::vector<Chunk> chunks = chunksOf(draws);
-    oneapi::tbb::parallel_for(std::size_t(0), chunks.size(), [&](std::size_t i) {
+    parallelFor(std::size_t(0), chunks.size(), [&](std::size_t i) {
         setUp(scene, draws, projection, cull, chunks[i]);
     });
     TiledTriangles tiled;

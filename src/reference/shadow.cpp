@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <oneapi/tbb/parallel_for.h>
 
+#include "cotan/parallel/loops.hpp"
 #include "setup.hpp"
 #include "surface.hpp"
 
@@ -84,8 +84,7 @@ ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<
     map.depthUnit = float(0.5 / (ball.radius * 1.01));
     TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
     ShadowPass pass{scene, view, draws, textures, map};
-    oneapi::tbb::parallel_for(std::size_t(0), tiled.tiles.size(),
-                              [&](std::size_t tile) { pass.drawTile(tiled, tile); });
+    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tiled, tile); });
     return map;
 }
 

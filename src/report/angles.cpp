@@ -147,4 +147,11 @@ Image depthAsColor(const Image& depth)
     return colored(depth, [&](glm::vec3 d) { return glm::vec3(255 - 215 * (d.x - nearest) / span); });
 }
 
+Image asColor(Output output, const Image& image)
+{
+    return output == Output::uv   ? uvAsColor(image)
+        : output == Output::depth ? depthAsColor(image)
+                                  : directionsAsColor(image);
+}
+
 } // namespace cotan

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <tuple>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+
+#include "cotan/files/account.hpp"
 
 namespace cotan {
 
@@ -57,10 +60,7 @@ template<class Number> bool parse(const std::string& field, Number& number)
     return error == std::errc() && stop == end;
 }
 
-auto key(const Measurement& m)
-{
-    return std::tie(m.table, m.scene, m.setting, m.frame, m.truth, m.arithmetic);
-}
+auto key(const Measurement& m) { return std::tie(m.table, m.scene, m.setting, m.frame, m.truth, m.arithmetic); }
 
 std::string cell(const Measurement& m)
 {
@@ -71,7 +71,7 @@ std::string cell(const Measurement& m)
 }
 
 // The distinct values of one member over some rows, in the order of appearance.
-std::vector<std::string> distinct(const std::vector<const Measurement*>& rows, std::string Measurement::* member)
+std::vector<std::string> distinct(const std::vector<const Measurement*>& rows, std::string Measurement::*member)
 {
     std::vector<std::string> values;
     for (const Measurement* m : rows)
@@ -134,23 +134,47 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
         if (f.size() != kFields)
             return inputError(fmt::format("{}: line {}: expected {} fields; found {}", name, line, kFields, f.size()));
         Measurement m{f[0], f[1], f[2], f[3], f[4], f[5]};
-        if (!parse(f[6], m.samples) || !parse(f[7], m.mean) || !parse(f[8], m.percentile95)
-            || !parse(f[9], m.maximum) || !parse(f[10], m.invalid))
+        if (!parse(f[6], m.samples) || !parse(f[7], m.mean) || !parse(f[8], m.percentile95) || !parse(f[9], m.maximum)
+            || !parse(f[10], m.invalid))
             return inputError(fmt::format("{}: line {}: expected numbers in columns 7 to 11", name, line));
         rows.push_back(std::move(m));
     }
     return rows;
 }
 
-nlohmann::ordered_json toJson(const std::vector<Measurement>& rows)
+Result<std::vector<Measurement>> readMeasurements(const std::filesystem::path& file)
 {
-    auto list = nlohmann::ordered_json::array();
+    if (Status free = noteInput(file); !free)
+        return free.error();
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    constexpr std::uintmax_t kLimit = 64u << 20;
+    if (error)
+        return inputError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
+    if (size > kLimit)
+        return inputError(fmt::format("{}: {} bytes; expected at most {}", file.string(), size, kLimit));
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return measurementsFromCsv(text.str(), file.string());
+}
+
+Json toJson(const std::vector<Measurement>& rows)
+{
+    auto list = Json::array();
     for (const Measurement& m : rows) {
         const bool any = m.samples > 0 && m.invalid < 1; // finite results
-        const auto figure = [&](double degrees) { return any ? nlohmann::ordered_json(degrees) : nlohmann::ordered_json(); };
-        list.push_back({{"table", m.table}, {"scene", m.scene}, {"setting", m.setting}, {"frame", m.frame},
-                        {"truth", m.truth}, {"arithmetic", m.arithmetic}, {"samples", m.samples},
-                        {"mean", figure(m.mean)}, {"percentile95", figure(m.percentile95)}, {"maximum", figure(m.maximum)},
+        const auto figure = [&](double degrees) { return any ? Json(degrees) : Json(); };
+        list.push_back({{"table", m.table},
+                        {"scene", m.scene},
+                        {"setting", m.setting},
+                        {"frame", m.frame},
+                        {"truth", m.truth},
+                        {"arithmetic", m.arithmetic},
+                        {"samples", m.samples},
+                        {"mean", figure(m.mean)},
+                        {"percentile95", figure(m.percentile95)},
+                        {"maximum", figure(m.maximum)},
                         {"invalid", m.invalid}});
     }
     return list;

@@ -74,10 +74,11 @@ std::string paragraphs(const std::vector<std::string>& text)
 std::string panelHtml(const PageFigure& figure, std::size_t index)
 {
     const PagePanel& p = figure.panels[index];
-    return fmt::format("<figure><img id=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">\n"
-                       "<figcaption><b>{}</b> {} <code>{}</code></figcaption></figure>\n",
-                       panelId(figure, index), p.width, p.height, escapeHtml(p.label), toBase64(p.png),
-                       escapeHtml(p.label), escapeHtml(p.caption), escapeHtml(p.file));
+    return fmt::format(
+        "<figure><img id=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">\n"
+        "<figcaption><b>{}</b> {} <code>{}</code></figcaption></figure>\n",
+        panelId(figure, index), p.width, p.height, escapeHtml(p.label), toBase64(p.png), escapeHtml(p.label),
+        escapeHtml(p.caption), escapeHtml(p.file));
 }
 
 std::string rowHtml(const std::vector<std::string>& cells, std::string_view tag)
@@ -99,8 +100,8 @@ std::string tableHtml(const PageTable& table)
 
 std::string figureHtml(const PageFigure& figure)
 {
-    std::string html = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", escapeHtml(figure.name),
-                                   escapeHtml(figure.title));
+    std::string html =
+        fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", escapeHtml(figure.name), escapeHtml(figure.title));
     html += paragraphs(figure.text);
     html += "<div class=\"panels\">\n";
     for (const auto& [before, after] : figure.sliders)
@@ -135,8 +136,7 @@ std::string escapeHtml(std::string_view text)
 
 std::string toBase64(std::string_view bytes)
 {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 namespace cotan {
 
 namespace {
 
-template<class T>
-std::vector<T> gathered(std::span<const T> values, const std::vector<std::uint32_t>& sources)
+template<class T> std::vector<T> gathered(std::span<const T> values, const std::vector<std::uint32_t>& sources)
 {
     std::vector<T> out;
     out.reserve(sources.size());
@@ -46,6 +46,26 @@ SmoothStatistics smoothStatistics(const MeshView& mesh)
     s.stretchMedian = ratios.median;
     s.stretchMaximum = ratios.maximum;
     return s;
+}
+
+std::string toText(const SmoothStatistics& s)
+{
+    const std::string figures = s.shear.count == 0 ? "no shear or stretch to measure"
+                                                   : fmt::format("shear {}; stretch median {:.3g}, max {:.3g}",
+                                                                 toText(s.shear), s.stretchMedian, s.stretchMaximum);
+    return fmt::format("{} vertices ({} added where mirrored charts meet), {} without a frame; {}", s.vertices, s.added,
+                       s.without, figures);
+}
+
+Json toJson(const SmoothStatistics& s)
+{
+    Json shear = toJson(s.shear);
+    shear.erase("pixels"); // vertices here
+    return {{"vertices", s.vertices},
+            {"vertices_added", s.added},
+            {"without_frame", s.without},
+            {"shear", shear},
+            {"stretch", {{"median", s.stretchMedian}, {"max", s.stretchMaximum}}}};
 }
 
 } // namespace cotan

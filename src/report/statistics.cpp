@@ -6,8 +6,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace cotan {
 
 namespace {
@@ -90,11 +88,10 @@ std::string toText(const AngleStatistics& s)
         return "nothing was compared";
     return fmt::format("mean {:.3f}, median {:.3f}, 95 % {:.3f}, 99 % {:.3f}, max {:.2f} degrees; "
                        "over 1: {:.1f} %, over 5: {:.1f} %",
-                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100,
-                       s.over5 * 100);
+                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100, s.over5 * 100);
 }
 
-nlohmann::ordered_json toJson(const AngleStatistics& s)
+Json toJson(const AngleStatistics& s)
 {
     return {{"pixels", s.count},
             {"mean_degrees", s.mean},

@@ -2,10 +2,8 @@
 
 #include <array>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include "cotan/report/statistics.hpp"
+#include <fmt/format.h>
 
 namespace cotan {
 
@@ -20,17 +18,14 @@ const char* name(TangentVerdict verdict)
 }
 
 // Smaller ones are rounding.
-std::string degreesText(double degrees)
-{
-    return degrees < 0.001 ? "under 0.001" : fmt::format("{:.3g}", degrees);
-}
+std::string degreesText(double degrees) { return degrees < 0.001 ? "under 0.001" : fmt::format("{:.3g}", degrees); }
 
 std::string directions(const AngleStatistics& s)
 {
     if (s.maximum <= kEqualTangents)
         return fmt::format("equal (max {} degrees)", degreesText(s.maximum));
-    return fmt::format("mean {:.3g}, median {:.3g}, 95 % {:.3g}, 99 % {:.3g}, max {:.3g} degrees",
-                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum);
+    return fmt::format("mean {:.3g}, median {:.3g}, 95 % {:.3g}, 99 % {:.3g}, max {:.3g} degrees", s.mean, s.median,
+                       s.percentile95, s.percentile99, s.maximum);
 }
 
 } // namespace
@@ -51,34 +46,26 @@ std::string toText(const TangentDifference& d, const std::string& reference)
     case TangentVerdict::turned:
         line = fmt::format("half of them turned against {}: {} point the other way; w different "
                            "on {} of the corners; directions {}",
-                           reference, percent(turnedShare(d)), percent(invertedShare(d)),
-                           directions(s));
+                           reference, percent(turnedShare(d)), percent(invertedShare(d)), directions(s));
         break;
     case TangentVerdict::off:
-        line = s.maximum <= kEqualTangents
-            ? fmt::format("directions equal to {}", reference)
-            : fmt::format("off {} by {}", reference, directions(s));
-        line += d.handedness == 0
-            ? "; w equal"
-            : fmt::format("; w different on {} of {} corners", d.handedness, d.degrees.size());
+        line = s.maximum <= kEqualTangents ? fmt::format("directions equal to {}", reference)
+                                           : fmt::format("off {} by {}", reference, directions(s));
+        line += d.handedness == 0 ? "; w equal"
+                                  : fmt::format("; w different on {} of {} corners", d.handedness, d.degrees.size());
         break;
     }
     if (d.degenerate > 0)
-        line += fmt::format("; {} of {} corners are degenerate and not compared", d.degenerate,
-                            d.corners);
+        line += fmt::format("; {} of {} corners are degenerate and not compared", d.degenerate, d.corners);
     return line;
 }
 
-nlohmann::ordered_json toJson(const TangentDifference& d)
+Json toJson(const TangentDifference& d)
 {
-    nlohmann::ordered_json directions = toJson(statisticsOf(d.degrees));
+    Json directions = toJson(statisticsOf(d.degrees));
     directions.erase("pixels"); // corners here
-    return {{"verdict", name(verdictOf(d))},
-            {"corners", d.corners},
-            {"degenerate", d.degenerate},
-            {"w_different", invertedShare(d)},
-            {"turned", turnedShare(d)},
-            {"directions", directions}};
+    return {{"verdict", name(verdictOf(d))},   {"corners", d.corners},     {"degenerate", d.degenerate},
+            {"w_different", invertedShare(d)}, {"turned", turnedShare(d)}, {"directions", directions}};
 }
 
 } // namespace cotan

@@ -1,6 +1,6 @@
 #include "entry.hpp"
 
-#include <fmt/format.h>
+#include "fill.hpp"
 
 namespace cotan::shader_text {
 
@@ -22,7 +22,7 @@ std::string fromVertices(Frame frame)
         ? "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n"
         : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
           "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
-    return fmt::format("// The perturbed normal, unit.\n"
+    return fill("// The perturbed normal, unit.\n"
                        "// normal: interpolated.\n{}"
                        "// texel: the normal map as sampled.\n"
                        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
@@ -43,7 +43,7 @@ std::string fromDifferences(Frame frame, Form form)
         : "// normal: interpolated.\n"
           "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
           "// duvdx, duvdy: differences of uv along the same two.\n";
-    const std::string head = fmt::format(
+    const std::string head = fill(
         "// The perturbed normal, unit.\n{}"
         "// texel: the normal map as sampled.\n"
         "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
@@ -51,25 +51,25 @@ std::string fromDifferences(Frame frame, Form form)
         "    cotan_vec3 m = cotan_decode(texel);\n",
         what, entryOf(frame));
     if (form == Form::fused)
-        return fmt::format("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
+        return fill("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
                            functionWord(frame));
-    return fmt::format("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
+    return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
                        "    return cotan_apply(frame, m);\n}}\n",
                        head, functionWord(frame), normalFor(frame));
 }
 
-// What follows for every uv set, {} being its number.
-std::string perSet(int sets, fmt::string_view pattern)
+// What follows for every uv set, {0} being its number.
+std::string perSet(int sets, std::string_view pattern)
 {
     std::string text;
     for (int k = 0; k < sets; ++k)
-        text += fmt::format(fmt::runtime(pattern), fmt::arg("k", k));
+        text += fill(pattern, k);
     return text;
 }
 
 std::string fromSeveralSets(Frame frame, int sets)
 {
-    std::string text = fmt::format(
+    std::string text = fill(
         "// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
         "// added as surface gradients.\n"
         "// normal: interpolated.\n"
@@ -78,33 +78,33 @@ std::string fromSeveralSets(Frame frame, int sets)
         "// texelK: its normal map as sampled.\n"
         "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
         "    cotan_vec3 n = {};\n",
-        sets, kEntry, perSet(sets, ", cotan_vec2 duv{k}dx, cotan_vec2 duv{k}dy, cotan_vec3 texel{k}"),
+        sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
         normalFor(frame));
     for (int k = 0; k < sets; ++k)
-        text += fmt::format(
+        text += fill(
             "    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
             "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
             "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
             k, functionWord(frame));
     std::string sum = "gradient0";
     for (int k = 1; k < sets; ++k)
-        sum += fmt::format(" + gradient{}", k);
-    return text + fmt::format("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sum);
+        sum += fill(" + gradient{}", k);
+    return text + fill("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sum);
 }
 
 std::string fromScreen(int sets)
 {
     const bool one = sets == 1;
-    return fmt::format(
+    return fill(
         "\n// The same, taking the screen derivatives itself: call it in uniform control flow, before any\n"
         "// branch or discard that differs within a 2x2 quad.\n"
         "// position: camera-relative, interpolated, not normalised.\n"
         "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{})\n{{\n"
         "    return {}(normal, cotan_ddx(position), cotan_ddy(position){});\n}}\n",
-        kScreenEntry, one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{k}, cotan_vec3 texel{k}"),
+        kScreenEntry, one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"),
         kEntry,
         one ? ", cotan_ddx(uv), cotan_ddy(uv), texel"
-            : perSet(sets, ", cotan_ddx(uv{k}), cotan_ddy(uv{k}), texel{k}"));
+            : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
 }
 
 } // namespace

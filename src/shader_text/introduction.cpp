@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include "entry.hpp"
+#include "fill.hpp"
 #include "print.hpp"
 
 namespace cotan::shader_text {
@@ -97,7 +96,7 @@ std::string needs(const Choice& choice)
             "//   uv         as the normal map is sampled with\n";
     if (hasScreenEntry(choice))
         return text
-            + fmt::format("//   derivatives of position and uv: taken here by {} and {}\n",
+            + fill("//   derivatives of position and uv: taken here by {} and {}\n",
                           namesOf(choice.language).ddx, namesOf(choice.language).ddy);
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
@@ -165,7 +164,7 @@ std::string credits(const Choice& choice)
 std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
-    return fmt::format(
+    return fill(
         "// Normal mapping, frame `{}` ({}), for {}.\n"
         "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
         "//\n"

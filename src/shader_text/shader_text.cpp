@@ -1,8 +1,7 @@
 #include "cotan/shader_text/shader_text.hpp"
 
-#include <fmt/format.h>
-
 #include "entry.hpp"
+#include "fill.hpp"
 #include "parse.hpp"
 #include "portable_parts.hpp"
 #include "print.hpp"
@@ -60,13 +59,13 @@ Result<Form> formOf(const Choice& choice)
 {
     const bool several = choice.uvSets > 1;
     if (choice.uvSets < 1 || choice.uvSets > 4)
-        return usageError(fmt::format("uv sets: expected 1 to 4; found {}", choice.uvSets));
+        return usageError(fill("uv sets: expected 1 to 4; found {}", choice.uvSets));
     if (several && info(choice.frame).source != FrameSource::differences)
-        return usageError(fmt::format("several uv sets: expected a frame made from differences; found '{}'",
+        return usageError(fill("several uv sets: expected a frame made from differences; found '{}'",
                                       name(choice.frame)));
     if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
         return usageError(several ? std::string("the fused form has one uv set; for several, the form is total")
-                                  : fmt::format("the fused form: expected cotangent, gradient or orthonormal; found '{}'",
+                                  : fill("the fused form: expected cotangent, gradient or orthonormal; found '{}'",
                                                 name(choice.frame)));
     return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
 }

@@ -1,5 +1,10 @@
 #include "tables.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+#include <thread>
+
 namespace cotan {
 
 const std::vector<AccuracyTable>& accuracyTables()
@@ -18,6 +23,35 @@ const std::vector<AccuracyTable>& accuracyTables()
         {"procedural", "uv computed in the shader", measureProcedural},
     };
     return tables;
+}
+
+Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables,
+                                               const AccuracySelection& selection, int threads,
+                                               const Progress& progress)
+{
+    std::vector<std::vector<Measurement>> results(tables.size());
+    std::atomic<std::size_t> next = 0;
+    CountedSteps steps(progress, tables.size());
+    const auto work = [&] {
+        for (std::size_t i; !steps.stopped() && (i = next++) < tables.size();) {
+            results[i] = tables[i]->measure(selection);
+            steps.step();
+        }
+    };
+    const std::size_t wanted =
+        threads > 0 ? std::size_t(threads) : std::size_t(std::max(1u, std::thread::hardware_concurrency()));
+    std::vector<std::thread> others;
+    for (std::size_t i = 1; i < std::min(wanted, tables.size()); ++i)
+        others.emplace_back(work);
+    work();
+    for (std::thread& t : others)
+        t.join();
+    if (steps.stopped())
+        return stoppedError();
+    std::vector<Measurement> rows;
+    for (auto& part : results)
+        rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+    return rows;
 }
 
 } // namespace cotan

@@ -14,11 +14,16 @@ View normalView(const Camera& camera, Frame frame, int side)
     return view;
 }
 
+std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped)
+{
+    if (!mapped)
+        degrees.assign(degrees.size(), -1.0f);
+    return degrees;
+}
+
 void ViewComparison::add(const Image& expected, const Image& drawn)
 {
-    std::vector<float> degrees = interiorAngles(expected, drawn);
-    if (!result_.mapped)
-        degrees.assign(degrees.size(), -1.0f); // no frame has a part in these normals
+    const std::vector<float> degrees = mappedAngles(interiorAngles(expected, drawn), result_.mapped);
     result_.views.push_back({angleStatistics(degrees), directionsAsColor(expected), directionsAsColor(drawn),
                              heatMap(degrees, drawn.width, drawn.height)});
     for (const float d : degrees)

@@ -25,6 +25,9 @@ private:
 // A square picture of normals.
 View normalView(const Camera& camera, Frame frame, int side);
 
+// The angles as they are where a normal map is drawn; otherwise none, as no frame has a part in the normals.
+std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped);
+
 // Collects views and, in the end, the statistics of all. mapped: see ComparedViews.
 class ViewComparison {
 public:

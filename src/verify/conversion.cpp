@@ -49,14 +49,14 @@ Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<C
 Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& after)
 {
     if (before.normals.size() != after.normals.size())
-        return usageError(fmt::format("verify: expected as many pictures after as before, {}; found {}", before.normals.size(),
-                                      after.normals.size()));
+        return usageError(fmt::format("verify: expected as many pictures after as before, {}; found {}",
+                                      before.normals.size(), after.normals.size()));
     ViewComparison comparison(before.mapped || after.mapped);
     for (std::size_t k = 0; k < before.normals.size(); ++k) {
         const Image &a = before.normals[k], &b = after.normals[k];
         if (a.width != b.width || a.height != b.height)
-            return usageError(fmt::format("verify: expected pictures of one size, {} x {}; found {} x {}", a.width, a.height,
-                                          b.width, b.height));
+            return usageError(fmt::format("verify: expected pictures of one size, {} x {}; found {} x {}", a.width,
+                                          a.height, b.width, b.height));
         comparison.add(a, b);
     }
     return comparison.finish();

@@ -121,6 +121,10 @@ private:
     by_threads::Limited limited_;
 };
 
+namespace this_task_arena {
+inline int max_concurrency() { return int(std::min(by_threads::limit.load(), by_threads::kThreads)); }
+} // namespace this_task_arena
+
 namespace info {
 inline int default_concurrency() { return int(by_threads::kThreads); }
 } // namespace info

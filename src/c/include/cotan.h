@@ -3,9 +3,10 @@
  * Every function that can fail returns a cotan_status. Where that is not COTAN_OK, one line is in `message`, cut to
  * `message_size` bytes with its zero; a null pointer and 0 are fine. Nothing is written to outputs then, unless said.
  *
- * Structs begin with their size in bytes, which the caller sets (COTAN_INIT): a newer library goes on to understand older
- * callers. Arrays of vectors are packed floats, three or two to a vector. Pictures are packed red, green, blue, alpha,
- * rows from the top. Names are those of the command line; conventions are its words, such as "gltf" or "unity,xyz". */
+ * Structs begin with their size in bytes, which the caller sets (COTAN_INIT): a newer library goes on to understand
+ * older callers. Arrays of vectors are packed floats, three or two to a vector. Pictures are packed red, green, blue,
+ * alpha, rows from the top. Names are those of the command line; conventions are its words, such as "gltf" or
+ * "unity,xyz". */
 #ifndef COTAN_H
 #define COTAN_H
 
@@ -17,20 +18,37 @@ extern "C" {
 #endif
 
 #define COTAN_API_VERSION 1
+/* clang-format off */
+#ifdef __cplusplus
 #define COTAN_INIT(type) { sizeof(type) }
+#else
+#define COTAN_INIT(type) { .size = sizeof(type) }
+#endif
+/* clang-format on */
 
 typedef enum cotan_status {
     COTAN_OK = 0,
     COTAN_USAGE = 1,       /* the call itself is wrong */
     COTAN_INPUT = 2,       /* an array or value given is bad */
-    COTAN_UNAVAILABLE = 3, /* not in this build, or no memory */
+    COTAN_UNAVAILABLE = 3, /* not built with what it needs, or no memory */
     COTAN_OUTPUT = 4,
-    COTAN_LIMIT = 5
+    COTAN_LIMIT = 5,
+    COTAN_STOPPED = 6 /* by the caller's progress function */
 } cotan_status;
 
 /* "0.1.0", and the version of this header that the library was built with: it grows where functions are added. */
 const char* cotan_version(void);
 int cotan_api_version(void);
+
+/* Bytes that the library has made. They are the caller's, who frees them; null is fine. */
+typedef struct cotan_bytes cotan_bytes;
+const void* cotan_bytes_data(const cotan_bytes* bytes);
+size_t cotan_bytes_size(const cotan_bytes* bytes);
+void cotan_bytes_free(cotan_bytes* bytes);
+
+/* Told by long work how much of it is done, 0 to 1: one call at a time, not always in order nor on the caller's thread.
+ * Another result than 0 stops the work soon, which then returns COTAN_STOPPED. */
+typedef int (*cotan_progress)(void* user, double done);
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
@@ -40,22 +58,38 @@ const char* cotan_frame_name(int frame);
 
 /* Places on a surface: unit normals, and differences of position and uv along any two directions, pixels or edges. */
 typedef struct cotan_places {
-    size_t size;           /* of this struct */
-    size_t count;          /* of places */
-    const float* normals;  /* 3 each */
-    const float* dpdx;     /* 3 each */
-    const float* dpdy;     /* 3 each */
-    const float* duvdx;    /* 2 each */
-    const float* duvdy;    /* 2 each */
+    size_t size;          /* of this struct */
+    size_t count;         /* of places */
+    const float* normals; /* 3 each */
+    const float* dpdx;    /* 3 each */
+    const float* dpdy;    /* 3 each */
+    const float* duvdx;   /* 2 each */
+    const float* duvdy;   /* 2 each */
 } cotan_places;
 
 /* Perturbed unit normals from decoded texels (x along +u, y along +v, z outwards), and the other way: the unit texels
- * that a frame turns into these normals. `frame` is one that is made from differences ("cotangent", "orthonormal", ...).
- * Degenerate differences give the normal as it is, or the texel (0, 0, 1). */
+ * that a frame turns into these normals. `frame` is one that is made from differences ("cotangent", "orthonormal",
+ * ...). Degenerate differences give the normal as it is, or the texel (0, 0, 1). */
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
                                char* message, size_t message_size);
 cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
                                 char* message, size_t message_size);
+
+/* The same for the frames that are made at the vertices, interpolated to the places: "mikktspace" and "vertex" from
+ * tangents as cotan_tangents makes them, "smooth" from cotangents as cotan_smooth_cotangents makes them. Normals are
+ * interpolated, of any length. */
+typedef struct cotan_vertex_places {
+    size_t size;
+    size_t count;
+    const float* normals;      /* 3 each */
+    const float* tangents;     /* 4 each, w as glTF's TANGENT; null for "smooth" */
+    const float* cotangents_u; /* 3 each; null for the others */
+    const float* cotangents_v; /* 3 each; null for the others */
+} cotan_vertex_places;
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+                                      float* normals, char* message, size_t message_size);
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+                                       float* texels, char* message, size_t message_size);
 
 /* ---- tangents ---------------------------------------------------------------------------------------------------- */
 
@@ -72,8 +106,8 @@ typedef struct cotan_mesh {
 
 /* One tangent for each index: x, y, z along increasing u, w as glTF's TANGENT. `kind`: "mikktspace" or "vertex".
  * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */
-cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents,
-                            char* message, size_t message_size);
+cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
+                            size_t message_size);
 
 /* The cotangents of the frame "smooth", one pair for each vertex: u and v, 3 * vertex_count floats each. */
 cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v, char* message, size_t message_size);
@@ -100,6 +134,21 @@ typedef struct cotan_green {
 /* Which way green of a map of tangent space points, from the map alone. */
 cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char* message, size_t message_size);
 
+/* What the numbers of a picture say about it as a normal map. Shares are 0 to 1. */
+typedef struct cotan_map_info {
+    size_t size;
+    char content[64]; /* a few words, such as "tangent space" or "one value everywhere" */
+    int zero;         /* the code of 255 that stands for zero: 128; 127 for 127.5; 0: cannot be told */
+    int srgb; /* 1: stored as if it were a colour; -1: as if it had been taken for one when it was read; 0: neither */
+    double background;    /* share outside the charts, which the rest leaves out */
+    double invalid;       /* share that is no direction */
+    double below_horizon; /* share with z below 0 */
+    double mean_length;
+    double mean_tilt; /* degrees from flat */
+    double mean[3];   /* x, y, z, green up */
+} cotan_map_info;
+cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, char* message, size_t message_size);
+
 /* The map stored another way. `to_map` has the size of `map` and the bits that are wanted. */
 cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map,
                                char* message, size_t message_size);
@@ -110,28 +159,131 @@ cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, 
                                    cotan_picture* map, char* message, size_t message_size);
 
 /* The height whose slopes are nearest to the map's, in widths of a texel, mean 0: width * height floats. */
-cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights,
-                                 char* message, size_t message_size);
+cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message,
+                                 size_t message_size);
 
-/* A base map with a detail map over it, of the base's size; both and the result are stored as `convention` says. `mode`:
- * "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes. */
+/* A base map with a detail map over it, of the base's size; both and the result are stored as `convention` says.
+ * `mode`: "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes. */
 cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention,
                              const char* mode, double strength, cotan_picture* map, char* message, size_t message_size);
 
-/* Levels of half the size each, down to 1 x 1, filtered as vectors. `take` gets each, largest first, with the map and with
- * the roughness (grey) that makes up for what averaging took; both are gone when it returns, and another result than 0
- * stops (COTAN_USAGE). roughness: of the material, 0 to 1. */
+/* Levels of half the size each, down to 1 x 1, filtered as vectors. `take` gets each, largest first, with the map and
+ * with the roughness (grey) that makes up for what averaging took; both are gone when it returns, and another result
+ * than 0 stops (COTAN_USAGE). roughness: of the material, 0 to 1. */
 typedef int (*cotan_take_level)(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
 cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
                             void* user, char* message, size_t message_size);
 
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
-/* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: "glsl", "essl",
- * "hlsl", "wgsl", "msl" or "cpp". text_size: of the buffer; afterwards what the text takes. A buffer that is too small,
- * or null, is left alone and is no error. */
+/* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: "glsl",
+ * "essl", "hlsl", "wgsl", "msl" or "cpp". text_size: of the buffer; afterwards what the text takes. A buffer that is
+ * too small, or null, is left alone and is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
+
+/* ---- baking --------------------------------------------------------------------------------------------------------
+ */
+
+typedef struct cotan_bake_options {
+    size_t size;
+    const char* frame;       /* that will read the map; null: "cotangent" */
+    const char* kind;        /* "normal", "object-normal", "height" or "occlusion"; null: "normal" */
+    const char* convention;  /* of the map; null: "gltf" */
+    int samples;             /* a texel and axis: 1, 2 or 4; 0: 1 */
+    int padding;             /* texels around charts that are filled; 0: all, -1: none */
+    int dither;              /* not 0: maps of 8 bits do not band */
+    int occlusion_rays;      /* 0: 64 */
+    float max_distance;      /* of the detailed surface, units of the positions; 0: 5 % of its box */
+    int threads;             /* 0: all cores; the result does not depend on it */
+    cotan_progress progress; /* may be null */
+    void* user;
+} cotan_bake_options;
+
+typedef struct cotan_bake_result {
+    size_t size;
+    size_t texels, covered;
+    size_t missed;   /* whose ray found nothing */
+    size_t negative; /* whose normal lies below the frame's horizon */
+    size_t twice;    /* that several triangles cover */
+    size_t rays;
+    double ray_distance; /* the search distance used */
+} cotan_bake_result;
+
+/* The map of the detailed mesh `high`, whose texcoords may be null, for the simple one `low`. `map` has the size and
+ * bits that are wanted. options and result may be null. COTAN_UNAVAILABLE: not built with Embree. */
+cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
+                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size);
+
+/* ---- glTF in memory ---------------------------------------------------------------------------------------------- */
+
+/* How the files and pictures of a model are reached: on the caller's thread, one call at a time. Each function gives a
+ * pointer to what it has, and 0, or another result where there is nothing; what it points to is copied, and then `done`
+ * is called. A null pointer for the struct, or for a function, is fine. */
+typedef struct cotan_model_files {
+    size_t size;
+    void* user;
+    /* A file beside the model by its URI. Without it models that name files are refused. */
+    int (*read)(void* user, const char* uri, const void** bytes, size_t* byte_count);
+    /* The picture in a PNG or JPEG file: sets all but `size`. Without it: the library's own readers. */
+    int (*decode)(void* user, const char* name, const void* bytes, size_t byte_count, cotan_picture* picture);
+    /* The PNG file of a picture of 8 or 16 bits. Without it: the library's own writer. */
+    int (*encode)(void* user, const cotan_picture* picture, const void** bytes, size_t* byte_count);
+    void (*done)(void* user);
+} cotan_model_files;
+
+typedef struct cotan_lint_options {
+    size_t size;
+    double distance;         /* from eye to surface, units of the model; 0: where the whole model fills the picture */
+    cotan_progress progress; /* may be null */
+    void* user;
+} cotan_lint_options;
+
+/* The main figures of a report. Degrees are means over the surface, of the worst of the maps; -1: nothing was judged.
+ */
+typedef struct cotan_lint_result {
+    size_t size;
+    size_t primitives, maps;
+    char advice[16];        /* the frame to read or make the maps for; empty: nothing has to be changed */
+    size_t maps_to_convert; /* that `advice` asks for */
+    int distrust_stored;    /* 1: stored tangents contradict the uv */
+    size_t green_against;   /* maps whose green points the other way than the model says */
+    double orthonormal_degrees, cotangent_degrees, smooth_degrees; /* off, maps for MikkTSpace read as they are */
+    char recommendation[1024];                                     /* in sentences, cut where it is longer */
+} cotan_lint_result;
+
+/* What to expect of a model (.glb or .gltf as bytes) whose normal maps are read without stored tangents. options,
+ * result and json may be null; json: all of the report, as text. */
+cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_model_files* files,
+                             const cotan_lint_options* options, cotan_lint_result* result, cotan_bytes** json,
+                             char* message, size_t message_size);
+
+typedef struct cotan_convert_options {
+    size_t size;
+    const char* from; /* frame that the maps were made for; null: "mikktspace" */
+    const char* to;   /* that they shall be for; null: "cotangent" */
+    int bits; /* of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit */
+    int keep_tangents;       /* not 0: TANGENT stays where the new frame does not read it */
+    int generate_tangents;   /* not 0: for `from`, tangents are generated even where the model has some */
+    int threads;             /* 0: all cores; the result does not depend on it */
+    cotan_progress progress; /* may be null */
+    void* user;
+} cotan_convert_options;
+
+typedef struct cotan_convert_result {
+    size_t size;
+    size_t maps_converted, maps_kept;
+    size_t primitives_given; /* that have new tangents */
+    size_t tangent_bytes_dropped;
+    double worst_degrees_before,
+        worst_degrees_after; /* off with the new frame: means over a map's surface; 0: no map */
+} cotan_convert_result;
+
+/* A model's normal maps made for another frame. glb: the new model, with all files of the old one inside. options,
+ * result and json may be null. */
+cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
+                                const cotan_convert_options* options, cotan_convert_result* result, cotan_bytes** glb,
+                                cotan_bytes** json, char* message, size_t message_size);
 
 #ifdef __cplusplus
 }

@@ -1,13 +1,13 @@
 // From a detailed surface to a map on a simple one.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "cotan/bake/high_normal_maps.hpp"
 #include "cotan/bake/high_surface.hpp"
 #include "cotan/bake/low_surface.hpp"
+#include "cotan/progress.hpp"
 #include "cotan/scene/view.hpp"
 
 namespace cotan {
@@ -68,11 +68,11 @@ struct Baked {
     BakeStatistics statistics;
 };
 
-// Bakes. `progress` (may be empty) is called from several threads after each row. The result does not
+// Bakes. `progress` is called from several threads after each row. The result does not
 // depend on the number of threads.
 // Errors: ErrorKind::input for a cage of another number of vertices.
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const std::function<void()>& progress = {});
+                   const Progress& progress = {});
 
 // The normals of the high surface as a picture of the low one should show them: through each pixel's
 // centre to the low surface, from there as bake() does. float32, alpha 1 where both were found.

@@ -12,7 +12,6 @@
 // and indices are valid. Nothing is read from files, written or printed.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,7 +57,7 @@ struct BakeSetup {
 
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
 // vertices and the matches.
-// Errors: those of makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins with its name,
+// Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins with its name,
 // "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of range;
 // ErrorKind::input: a cage of another number of triangles, a mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
@@ -71,11 +70,10 @@ struct BakedMap {
     BakeStatistics statistics;
 };
 
-// Bakes one tile, fills around its charts and stores it. `progress` (may be empty) is called from several threads with
-// the share that is done, above 0 up to 1, not always in order.
+// Bakes one tile, fills around its charts and stores it. `progress` is called from several threads, not always in order.
 // Errors: ErrorKind::input where no triangle lies on the tile, ErrorKind::usage for a number below 1001; both begin with
-// "options.tiles: ".
-Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const std::function<void(double)>& progress = {});
+// "options.tiles: "; ErrorKind::stopped.
+Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
 
 struct BakedModel {
     std::vector<BakedMap> maps;        // one for each of options.tiles
@@ -84,6 +82,6 @@ struct BakedModel {
 
 // All of it: prepares, and bakes every tile. Errors: those of prepareBake and bakeTile.
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options = {},
-                             const std::function<void(double)>& progress = {});
+                             const Progress& progress = {});
 
 } // namespace cotan

@@ -14,6 +14,7 @@
 #include "cotan/convert/tangents.hpp"
 #include "cotan/files/limits.hpp"
 #include "cotan/gltf/edit.hpp"
+#include "cotan/progress.hpp"
 
 namespace cotan {
 
@@ -39,8 +40,9 @@ struct ConvertModelOptions {
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     LoadLimits limits{};       // of reading the pictures
-    // Gets the share that is done, up to 1; from any thread, also from several at once.
-    std::function<void(double)> progress{};
+    // The PNG file of a new map, in place of Cotan's own writer; on the thread of the caller. May be empty.
+    std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
+    Progress progress{};       // from any thread, also from several at once
     // Gets each map when it is done, in the order of the report, on the thread of the caller.
     std::function<void(const ConvertedMap&)> mapDone{};
 };
@@ -60,7 +62,7 @@ struct ConvertModelReport {
 // or drops it where nothing else does. Maps in other formats than PNG and JPEG stay as they are, and a note says so.
 // Errors: ErrorKind::usage for a frame that depends on the view and other bits; ErrorKind::input for a picture that cannot
 // be read or is over the limits, uv that repeat a map millions of times, and compressed geometry; ErrorKind::output
-// where there is no memory for a PNG. On error the document is unchanged.
+// where there is no memory for a PNG; ErrorKind::stopped. On error the document is unchanged.
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options);
 
 } // namespace cotan

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cotan/frame.hpp"
 #include "cotan/gltf/edit.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan {
 
@@ -23,5 +25,11 @@ struct PutMapOptions {
 // Errors (ErrorKind::input): "document: ..." where not exactly one material has that name; compressed geometry.
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
                     std::vector<std::string>& notes);
+
+// A model with a new map in it: one named as glTF keeps all else as it was, another, which `scene` is from, becomes
+// glTF. GltfWritten::notes begin with what putNormalMap has to say. Errors: as putNormalMap, openGltfDocument, encodePng
+// and writeGltf.
+Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
+                                      const PutMapOptions& options, const std::filesystem::path& output);
 
 } // namespace cotan

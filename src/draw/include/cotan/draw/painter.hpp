@@ -1,10 +1,10 @@
 // Something that draws: a Vulkan device or the reference renderer.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
+#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/view.hpp"
 
@@ -19,8 +19,9 @@ public:
     // Takes a scene in the place of the one before. It must live until the next load, forget or the
     // painter's end. Frames from vertices read what deriveVertexFrames (cotan/surface/vertex_frames.hpp)
     // has put into it; without that the picture shows the interpolated normals.
-    // Errors: ErrorKind::unavailable when the device has not enough memory; ErrorKind::input over
-    // kMostTrianglesDrawn (cotan/scene/bounds.hpp), of a Vulkan device; the reference renderer says so in draw.
+    // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over kMostTrianglesDrawn
+    // (cotan/scene/bounds.hpp) of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable when
+    // the device has not enough memory.
     Status load(const Scene& scene);
 
     // The painter has no scene from here on.
@@ -37,8 +38,8 @@ public:
     virtual double uploadSeconds() const { return 0; }
 
     // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
-    // 1 and from several threads. May be empty.
-    std::function<void(double)> progress;
+    // 1 and from several threads. Where it says to stop, draw returns ErrorKind::stopped.
+    Progress progress;
     // Why the reference renderer draws although "auto" was asked for, one line; empty otherwise.
     std::string note;
 

@@ -1,12 +1,20 @@
-// How much a file may ask for.
+// How much a file may ask for, and where it is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "cotan/files/sandbox.hpp"
+#include "cotan/result.hpp"
 
 namespace cotan {
+
+struct Image;
 
 // Which images of a model are decoded. Images without pixels have a name and no size.
 enum class Pixels {
@@ -28,12 +36,18 @@ struct LoadLimits {
     std::size_t geometryBytes = std::size_t(64) << 20;
     int imageSide = 16384;                          // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
-    std::size_t allImageBytes = std::size_t(8) << 30; // decoded, of all images of one model
+    std::size_t allImageBytes = std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
     Pixels pixels = Pixels::all;                    // of a glTF model
     Sandbox sandbox = defaultSandbox();             // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
     // a process of its own is given room for them. May be empty.
     std::function<void(std::size_t)> expect;
+
+    // A glTF model that is not in files. Both may be empty, and are called on the thread of the caller.
+    // The bytes of the model, by the name that it is opened by, and of what its URIs name, decoded: in place of the disk.
+    std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile;
+    // A picture from the bytes of its file, in place of Cotan's own readers; name: for messages.
+    std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode;
 };
 
 } // namespace cotan

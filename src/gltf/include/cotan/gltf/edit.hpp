@@ -139,4 +139,8 @@ struct GltfWritten {
 Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesystem::path& file,
                               const LoadLimits& limits = {});
 
+// The same as the bytes of a .glb, nothing written: what is beside the model is put inside. limits.readFile is not asked;
+// the document remembers where it came from.
+Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits = {});
+
 } // namespace cotan

@@ -6,13 +6,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cotan/frame.hpp"
 #include "cotan/gltf/edit.hpp"
+#include "cotan/progress.hpp"
 #include "cotan/tangent_difference.hpp"
 #include "cotan/tangents.hpp"
 
@@ -36,7 +36,7 @@ struct TangentsOptions {
     bool replace = false;            // giveTangents: also where there is TANGENT; else only where it is missing
     bool mappedOnly = false;         // only primitives that some material shows with a normal map
     int threads = 0;                 // 0: all cores; the result does not depend on it
-    std::function<void(double)> progress{}; // gets the share that is done, up to 1, on the thread of the caller
+    Progress progress{};             // on the thread of the caller
 };
 
 // What became of one primitive.
@@ -57,8 +57,8 @@ struct TangentsGiven {
 };
 
 // Generates tangents and puts them into the file as TANGENT (see setGltfTangents).
-// Errors: ErrorKind::usage for another frame than mikktspace and vertex; ErrorKind::input for compressed geometry. On
-// error the document is unchanged.
+// Errors: ErrorKind::usage for another frame than mikktspace and vertex; ErrorKind::input for compressed geometry;
+// ErrorKind::stopped. On error the document is unchanged.
 Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions& options);
 
 struct TangentsCompared {

@@ -2,7 +2,6 @@
 // drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "cotan/lint/spread.hpp"
 #include "cotan/lint/surface.hpp"
 #include "cotan/maps/green.hpp"
+#include "cotan/progress.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -120,12 +120,13 @@ Frame frameOf(Advice advice);
 
 struct LintOptions {
     double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
-    std::function<void(double)> progress{}; // gets the share that is done
 };
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
 // mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed
-// with what is known.
+// with what is known; of a scene that does not hold together (checkScene) only `defects` says so.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
+// The same with progress, on the thread of the caller. Errors: ErrorKind::stopped, and no other.
+Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress);
 
 } // namespace cotan

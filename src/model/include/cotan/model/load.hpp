@@ -14,7 +14,8 @@ namespace cotan {
 // through Assimp; all but glTF in a process of its own where limits.sandbox says so. What was odd but usable is said
 // in Scene::warnings. Missing normals are generated. Only files inside the model's own folder are opened.
 // Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed,
-// or was stopped at a limit, is one, too. ErrorKind::unavailable: it could not be started. Never throws
+// or was stopped at a limit, is one, too. ErrorKind::unavailable: it could not be started; not built with Assimp.
+// Never throws
 // for bad input.
 Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
 

@@ -1,8 +1,7 @@
 // The reference renderer: on the CPU, in 2x2 quads, slow, obvious, the judge.
 #pragma once
 
-#include <functional>
-
+#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/view.hpp"
 
@@ -11,13 +10,13 @@ namespace cotan {
 // Draws the scene as a GPU would: pixels in 2x2 quads whose helper lanes extrapolate the triangle,
 // derivatives as differences inside the quad, clipping against the near plane, the portable text
 // in float. The picture is the same, byte for byte, for any number of threads.
-// threads: 0 means all cores. progress (may be empty) is called from several threads with the share that is drawn.
+// threads: 0 means all cores. progress is called from several threads.
 // Translucent materials are composed per sample in the order of their distance, whatever their number
 // of layers; of equally far ones the one drawn later is in front.
 // Errors: ErrorKind::usage for a size that is not 1..16384 a side; ErrorKind::input over
 // kMostTrianglesDrawn (cotan/scene/bounds.hpp); ErrorKind::unavailable without the memory, or where more
 // than 1024 translucent layers a pixel meet in a tile of 32 x 32 pixels.
 Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0,
-                              const std::function<void(double)>& progress = {});
+                              const Progress& progress = {});
 
 } // namespace cotan

@@ -5,6 +5,7 @@
 
 #include "cotan/report/statistics.hpp"
 #include "cotan/scene/image.hpp"
+#include "cotan/scene/view.hpp"
 
 namespace cotan {
 
@@ -38,5 +39,8 @@ Image uvAsColor(const Image& uv);
 
 // Depth as a picture: near is white, far is dark, over the range that occurs. unorm8.
 Image depthAsColor(const Image& depth);
+
+// A float picture of that kind by the fitting one of the three.
+Image asColor(Output output, const Image& image);
 
 } // namespace cotan

@@ -1,12 +1,12 @@
 // The figures of `cotan accuracy` as text, CSV and JSON, and what has become worse between two lists.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
 #include "cotan/truth/measurement.hpp"
 
@@ -20,8 +20,11 @@ std::string toCsv(const std::vector<Measurement>& rows);
 // not a number where one is expected.
 Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, const std::string& name);
 
+// The same from a file of up to 64 MiB. Errors (ErrorKind::input): also one that cannot be read.
+Result<std::vector<Measurement>> readMeasurements(const std::filesystem::path& file);
+
 // Figures of rows without a finite result are null.
-nlohmann::ordered_json toJson(const std::vector<Measurement>& rows);
+Json toJson(const std::vector<Measurement>& rows);
 
 // Markdown tables, one for each table, scene, truth and arithmetic; frames downwards, settings
 // across, in each cell "mean / 95 % / max" in degrees and the share that was not finite.

@@ -25,7 +25,7 @@ struct PageTable {
 };
 
 struct PageFigure {
-    std::string name;              // unique in the page
+    std::string name; // unique in the page
     std::string title;
     std::vector<std::string> text; // paragraphs
     std::string command;           // the command line that makes it

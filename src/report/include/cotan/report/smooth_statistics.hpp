@@ -19,4 +19,8 @@ struct SmoothStatistics {
 // Derives the cotangents of a mesh with normals and texture coordinates, as a renderer does when it loads the mesh.
 SmoothStatistics smoothStatistics(const MeshView& mesh);
 
+// One line, and the same for reports.
+std::string toText(const SmoothStatistics& statistics);
+Json toJson(const SmoothStatistics& statistics);
+
 } // namespace cotan

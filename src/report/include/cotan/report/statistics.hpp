@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include "cotan/report/json.hpp"
 
 namespace cotan {
 
@@ -48,6 +48,6 @@ private:
 // "nothing was compared" for an empty set.
 std::string toText(const AngleStatistics& s);
 // "pixels" is the count; the figures of an empty set are null when it is written.
-nlohmann::ordered_json toJson(const AngleStatistics& s);
+Json toJson(const AngleStatistics& s);
 
 } // namespace cotan

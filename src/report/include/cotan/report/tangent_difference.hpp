@@ -3,14 +3,13 @@
 
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "cotan/report/json.hpp"
 #include "cotan/tangent_difference.hpp"
 
 namespace cotan {
 
 // One line for users. reference: what the stored tangents were compared with, "MikkTSpace".
 std::string toText(const TangentDifference& difference, const std::string& reference);
-nlohmann::ordered_json toJson(const TangentDifference& difference);
+Json toJson(const TangentDifference& difference);
 
 } // namespace cotan

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
+#include "cotan/progress.hpp"
 
 namespace cotan {
 
@@ -55,5 +56,10 @@ struct AccuracyTable {
 
 // All tables that need no device, in the order of the documentation.
 const std::vector<AccuracyTable>& accuracyTables();
+
+// Measures tables side by side on some threads (0: all cores); the rows are in the order of the tables.
+// Errors: ErrorKind::stopped, between two tables.
+Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables, const AccuracySelection& selection,
+                                               int threads = 0, const Progress& progress = {});
 
 } // namespace cotan

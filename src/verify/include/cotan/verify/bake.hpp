@@ -13,14 +13,14 @@ inline constexpr int kBakeSide = 640; // pixels
 
 // A map and what it was baked from. All of it is the caller's, and must live until verifyBake returns.
 struct BakeToVerify {
-    const Scene& scene;         // of the low surface
+    const Scene& scene; // of the low surface
     const LowSurface& low;
     const HighSurface& high;
     const BakeOptions& options; // that the map was baked with; its frame draws
     const Image& map;
-    NormalMapFormat format;     // of the map
-    int material = -1;          // index of the scene's material that reads the map; -1: all do
-    bool regenerate = false;    // the tangents that the scene has are not used, but made again
+    NormalMapFormat format;  // of the map
+    int material = -1;       // index of the scene's material that reads the map; -1: all do
+    bool regenerate = false; // the tangents that the scene has are not used, but made again
 };
 
 // Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map,

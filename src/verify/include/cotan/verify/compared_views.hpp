@@ -12,15 +12,18 @@ namespace cotan {
 // inside of a surface in both: those whose eight neighbours show one, too. The pictures are square, unorm8.
 struct ComparedView {
     AngleStatistics degrees;
-    Image expected;   // normals n as n * 0.5 + 0.5, transparent where nothing is
+    Image expected; // normals n as n * 0.5 + 0.5, transparent where nothing is
     Image drawn;
     Image difference; // a heat map: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees; grey: not compared
 };
 
 struct ComparedViews {
     std::vector<ComparedView> views;
-    AngleStatistics all;  // over the pixels of all views
-    bool mapped = false;  // a normal map was drawn; if not, nothing is compared, as no frame has a part in the normals
+    AngleStatistics all; // over the pixels of all views
+    bool mapped = false; // a normal map was drawn; if not, nothing is compared, as no frame has a part in the normals
 };
+
+// Why a comparison with mapped == false has nothing in it.
+inline constexpr const char* kNoNormalMap = "no normal map is drawn";
 
 } // namespace cotan

@@ -11,8 +11,8 @@
 
 namespace cotan {
 
-inline constexpr int kConversionViews = 5;   // from the front, turned by quarters, and from above
-inline constexpr int kConversionSide = 768;  // pixels
+inline constexpr int kConversionViews = 5;  // from the front, turned by quarters, and from above
+inline constexpr int kConversionSide = 768; // pixels
 
 // A model and the frame that its maps are for.
 struct ModelInFrame {
@@ -32,12 +32,14 @@ struct DrawnSides {
 // The painter has no scene afterwards. It reports each picture to painter.progress: kConversionViews of the
 // one model, then as many of the other.
 // Errors: those of Painter::load and Painter::draw.
-Result<ComparedViews> verifyConversion(Painter& painter, ModelInFrame before, ModelInFrame after, int side = kConversionSide);
+Result<ComparedViews> verifyConversion(Painter& painter, ModelInFrame before, ModelInFrame after,
+                                       int side = kConversionSide);
 
 // The two steps of it, for callers who do not want to hold both models at once.
 //
 // Draws a model's normals. cameras: empty for kConversionViews around the model. Errors: as above.
-Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<Camera> cameras = {}, int side = kConversionSide);
+Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<Camera> cameras = {},
+                             int side = kConversionSide);
 // Compares what drawSides has drawn with the same cameras; `after` counts as drawn, `before` as expected.
 // Errors: ErrorKind::usage for pictures of another number or size.
 Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& after);

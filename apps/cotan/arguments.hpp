@@ -1,0 +1,82 @@
+// Commands and what they take on the command line: each option is declared once, with its name, help, unit, range and
+// default. CLI11 reads them; only arguments.cpp sees it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cotan/result.hpp"
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace cotan::app {
+
+// One option, flag or positional argument. Its default is what its variable holds when it is declared; the help shows
+// it unless it is an empty text.
+class Argument {
+public:
+    explicit Argument(CLI::Option& option) : option_(&option) {}
+
+    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"
+    Argument& from(std::initializer_list<std::string> words);
+    Argument& from(std::initializer_list<int> numbers);
+    Argument& within(int least, int most);
+    Argument& within(double least, double most);
+    Argument& above0(); // and at most 1e6
+    Argument& required();
+    Argument& separatedByCommas();
+    Argument& withoutDefault(); // what the variable holds means that nothing was given
+    Argument& unlisted();       // works, but the help leaves it out
+    // With this option given the command line is wrong where `why` returns a message.
+    Argument& refused(std::function<std::string()> why);
+    int count() const; // how often it was given
+
+private:
+    CLI::Option* option_;
+};
+
+// A command, or the tool as a whole.
+class Arguments {
+public:
+    // The tool; --version prints `version`.
+    Arguments(const std::string& name, const std::string& summary, const std::string& version);
+
+    // A command of this one, which then needs one of its commands.
+    Arguments command(const std::string& name, const std::string& summary);
+
+    // "-o,--output" are names of one option; "MODEL" is a positional argument. A value is a std::string, a
+    // std::filesystem::path, an int, float or double, or several strings in a vector.
+    template<class Value> Argument option(const std::string& names, Value& value, const std::string& help);
+    void flag(const std::string& name, bool& value, const std::string& help);
+    Argument find(const std::string& name);
+
+    // Words that nobody declared are no error.
+    void takesAnything();
+
+    // Ends the help.
+    void footer(const std::string& text);
+    // What the command does; called by run.
+    void does(std::function<Status()> work);
+
+    std::string name() const;
+
+    // Reads the words (without the program's name) and does what they ask for: runs a command, or hands the text of
+    // --help and --version to `print`. Errors: ErrorKind::usage, those of the command.
+    Status run(std::vector<std::string> words, const std::function<void(const std::string&)>& print);
+
+private:
+    struct Tool;
+    Arguments(std::shared_ptr<Tool> tool, CLI::App& app) : tool_(std::move(tool)), app_(&app) {}
+
+    std::shared_ptr<Tool> tool_;
+    CLI::App* app_;
+};
+
+} // namespace cotan::app

@@ -1,0 +1,92 @@
+#include "loading.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
+
+namespace cotan::app {
+
+void addMemoryOption(Arguments& command, int& memory)
+{
+    command.option("--memory", memory, "MiB that one picture may take where it has to be held whole")
+        .within(1, 1 << 16)
+        .in("MIB");
+}
+
+void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help)
+{
+    command.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME");
+}
+
+void addDeviceOption(Arguments& command, std::string& device, const std::string& use)
+{
+    command.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
+}
+
+LoadLimits limitsFor(int memory, Pixels pixels)
+{
+    LoadLimits limits;
+    limits.imageBytes = std::size_t(memory) << 20;
+    limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
+    limits.imageSide = 1 << 20; // the memory limit decides
+    limits.pixels = pixels;
+    return limits;
+}
+
+Error inWords(const Error& error)
+{
+    std::string text = error.message;
+    constexpr std::string_view kField = "options.";
+    if (text.starts_with(kField)) {
+        std::string option = "--";
+        const std::size_t end = text.find(':');
+        for (const char c : text.substr(kField.size(), end - kField.size()))
+            option += std::isupper(static_cast<unsigned char>(c)) ? std::string("-") + char(std::tolower(c))
+                                                                  : std::string(1, c);
+        text = option + text.substr(end);
+    }
+    const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
+    const bool memory = (says("the limit is") && says("pixels")) || (says(" MiB") && says(", the limit is"))
+        || says("images together take more than the limit");
+    return {error.kind, text + (memory ? " (--memory raises it)" : "")};
+}
+
+Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels)
+{
+    auto scene = loadScene(file, limitsFor(memory, pixels));
+    return scene ? std::move(scene) : Result<Scene>(inWords(scene.error()));
+}
+
+Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
+{
+    auto image = readImage(file, limitsFor(memory));
+    return image ? std::move(image) : Result<Image>(inWords(image.error()));
+}
+
+Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels)
+{
+    const ProgressLine loading(common.quiet, 0, "loading " + file);
+    return loadSceneWithin(memory, file, pixels);
+}
+
+NormalMapFormat formatInScene(const Convention& convention)
+{
+    NormalMapFormat format;
+    format.expansion = int(convention.expansion);
+    format.channels = int(convention.channels);
+    format.greenAlongV = !convention.greenUp;
+    return format;
+}
+
+Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)
+{
+    auto painter = openPainter(device, common.threads);
+    if (painter && !(*painter)->note.empty())
+        warn(common, (*painter)->note);
+    return painter;
+}
+
+} // namespace cotan::app

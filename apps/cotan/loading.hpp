@@ -1,0 +1,48 @@
+// What is read within --memory, and drawn by --device.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/draw/painter.hpp"
+#include "cotan/files/limits.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan::app {
+
+inline constexpr int kDefaultMemory = 640; // MiB, of one picture
+
+// Adds --memory MIB.
+void addMemoryOption(Arguments& command, int& memory);
+
+// Adds --tangents, stored or generated.
+void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help);
+
+// Adds --device.
+void addDeviceOption(Arguments& command, std::string& device, const std::string& use = "");
+
+// The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
+// than is usual.
+LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
+
+// An error of a part in words of the command line: "options.maxDistance: ..." is "--max-distance: ...", and --memory is
+// named where a limit of memory was met.
+Error inWords(const Error& error);
+
+// A model and a picture read within so many MiB a picture. Errors: as loadScene and readImage, in words.
+Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels = Pixels::all);
+Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
+
+// loadSceneWithin under a line of progress.
+Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels = Pixels::all);
+
+// The same as a material has it: v runs down in everything that was loaded.
+NormalMapFormat formatInScene(const Convention& convention);
+
+// Opens the device of that name, as openPainter does; where "auto" falls back to the reference renderer, a warning
+// says why. Errors: those of openPainter.
+Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common);
+
+} // namespace cotan::app

@@ -1,0 +1,14 @@
+// `cotan cost` where there is no Vulkan to ask: it takes any words and says what is missing.
+#include "commands.hpp"
+#include "cotan/not_built.hpp"
+
+namespace cotan::app {
+
+void addCostCommand(Arguments& tool)
+{
+    Arguments command = tool.command("cost", "what each frame costs; not in this build: needs Vulkan");
+    command.takesAnything();
+    command.does([]() -> Status { return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools"); });
+}
+
+} // namespace cotan::app

@@ -1,0 +1,86 @@
+// Pictures and conventions of cotan.h as the library has them.
+#pragma once
+
+#include <cstdint>
+
+#include "call.hpp"
+#include "cotan/convention_words.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan::c {
+
+inline constexpr int kMostSide = 65536;
+// Work on a pixel takes up to 64 bytes; their number must fit where addresses have 32 bits.
+inline constexpr std::uint64_t kMostPixels = SIZE_MAX / 64;
+
+inline PixelType typeOf(const cotan_picture& p, const char* name)
+{
+    if (p.bits == 8)
+        return PixelType::unorm8;
+    if (p.bits != 16 && p.bits != 32)
+        fail(ErrorKind::usage, std::string(name) + ".bits: expected 8, 16 or 32, found " + std::to_string(p.bits));
+    return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
+}
+
+inline const cotan_picture& checkedPicture(const cotan_picture* given, const char* name)
+{
+    const cotan_picture& p = checked(given, name);
+    typeOf(p, name);
+    if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
+        fail(ErrorKind::usage,
+             std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width) + " x "
+                 + std::to_string(p.height));
+    if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMostPixels)
+        fail(ErrorKind::unavailable,
+             std::string(name) + ": expected at most " + std::to_string(kMostPixels) + " pixels in all, found "
+                 + std::to_string(p.width) + " x " + std::to_string(p.height));
+    if (!p.pixels)
+        fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
+    return p;
+}
+
+inline Image imageOf(const cotan_picture* given, const char* name)
+{
+    const cotan_picture& p = checkedPicture(given, name);
+    Image image = makeImage(p.width, p.height, typeOf(p, name));
+    std::memcpy(image.data.data(), p.pixels, image.pixelCount() * image.bytesPerPixel());
+    return image;
+}
+
+// The picture that gets a result of that size.
+inline const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
+{
+    const cotan_picture& p = checkedPicture(given, name);
+    if (p.width != like.width || p.height != like.height)
+        fail(ErrorKind::usage,
+             std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
+                 + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
+    return p;
+}
+
+inline void put(const Image& image, const cotan_picture& p)
+{
+    std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
+}
+
+inline Convention conventionOf(const char* words, const char* name)
+{
+    return valueOf(conventionFromWords(word(words, name)), name);
+}
+
+// Of a result with such components.
+inline Convention storableAs(const char* words, const char* name, PixelType type)
+{
+    const Convention convention = conventionOf(words, name);
+    if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
+        fail(ErrorKind::usage, std::string(name) + ": signed values need a picture of 32 bits");
+    return convention;
+}
+
+inline cotan_picture pictureOf(const Image& image)
+{
+    const int bits = image.type == PixelType::unorm8 ? 8 : image.type == PixelType::unorm16 ? 16 : 32;
+    return {sizeof(cotan_picture), image.width, image.height, bits, const_cast<std::byte*>(image.data.data())};
+}
+
+} // namespace cotan::c

@@ -1,0 +1,31 @@
+// cotan.h: shader text.
+#include "cotan/shader_text/shader_text.hpp"
+#include "call.hpp"
+#include "cotan/convention_words.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
+                               size_t* text_size, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(text_size, "text_size: expected a place, found null");
+        shader_text::Choice choice;
+        const auto known = shader_text::languageFromName(word(language, "language"));
+        if (!known)
+            fail(ErrorKind::usage,
+                 "language: expected glsl, essl, hlsl, wgsl, msl or cpp, found '" + std::string(language) + "'");
+        const auto which = frameFromName(word(frame, "frame"));
+        if (!which)
+            fail(ErrorKind::usage, "frame: there is none named '" + std::string(frame) + "'");
+        choice.language = *known;
+        choice.frame = *which;
+        choice.convention = valueOf(conventionFromWords(word(convention, "convention")), "convention");
+        const shader_text::ShaderText made = valueOf(shader_text::makeShaderText(choice), "shader");
+        const std::size_t needed = made.text.size() + 1;
+        if (text && *text_size >= needed)
+            std::memcpy(text, made.text.c_str(), needed);
+        *text_size = needed;
+    });
+}

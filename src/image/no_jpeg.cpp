@@ -1,0 +1,11 @@
+// JPEG where there is no libjpeg: what reads all other formats may read it, too.
+#include "jpeg.hpp"
+
+namespace cotan {
+
+std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::string&, const LoadLimits&)
+{
+    return std::nullopt;
+}
+
+} // namespace cotan

@@ -1,0 +1,96 @@
+#include "cotan/map_files/convert.hpp"
+
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "by_mesh.hpp"
+#include "stream.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+Status checkOptions(const ConvertFileOptions& o)
+{
+    const bool turns = o.from.kind != o.to.kind;
+    if (turns != o.mesh.has_value())
+        return usageError(turns ? "options.mesh: between tangent and object space the mesh is needed; found none"
+                                : "options.mesh: is for maps between tangent and object space; found both in one");
+    if (turns && o.strength != 1)
+        return usageError(
+            "options.strength: expected 1 between tangent and object space; convert within tangent space for it");
+    if (o.strength == 0)
+        return usageError("options.strength: expected a factor other than 0; found 0");
+    return Done{};
+}
+
+// Reads, turns and writes a whole picture.
+Status byMesh(const std::filesystem::path& file, const std::filesystem::path& out, const MeshOfMap& mesh,
+              const RecodeSettings& settings, const FileOptions& files, ConvertedFile& done)
+{
+    const auto map = readMap(file, settings.from, files.limits);
+    if (!map)
+        return map.error();
+    const auto turned = throughMesh(*map, settings, mesh, files.progress, done.counts, done.shown);
+    if (!turned)
+        return turned.error();
+    if (done.shown == 0)
+        return inputError(
+            fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
+    return writeMap(out, *turned, done.bits);
+}
+
+// Streams a picture through.
+Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, const RecodeSettings& settings,
+              const FileOptions& files, ConvertedFile& done)
+{
+    const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
+    std::atomic<std::size_t> invalid = 0, clamped = 0;
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half},
+                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
+                                             unswizzle(strip, swizzle);
+                                             RecodeSettings here = settings;
+                                             here.firstRow = firstRow;
+                                             RecodeCounts found;
+                                             Image rows = recode(strip, here, found);
+                                             invalid += found.invalid;
+                                             clamped += found.clamped;
+                                             return rows;
+                                         });
+    done.counts = {invalid, clamped};
+    return streamed;
+}
+
+} // namespace
+
+Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
+                                  const ConvertFileOptions& o, const FileOptions& files)
+{
+    if (Status fits = checkOptions(o); !fits)
+        return fits.error();
+    const auto swizzle = swizzleOfFile(map, o.from, files.limits);
+    if (!swizzle)
+        return swizzle.error();
+    const auto reader = openRows(map, files.limits);
+    if (!reader)
+        return reader.error();
+    RowReader& in = **reader;
+    const auto bits = bitsFor(o.bits, in.type, out);
+    if (!bits)
+        return bits.error();
+    if (Status fits = checkSigned(o.to, *bits, out); !fits)
+        return fits.error();
+    const RecodeSettings settings{.from = o.from,
+                                  .to = o.to,
+                                  .type = bits->type,
+                                  .strength = o.strength,
+                                  .normalise = o.normalise,
+                                  .dither = o.dither};
+    ConvertedFile done{in.width, in.height, *bits, {}, 0};
+    const Status converted =
+        o.mesh ? byMesh(map, out, *o.mesh, settings, files, done) : byRows(in, out, *swizzle, settings, files, done);
+    return converted ? Result<ConvertedFile>(done) : converted.error();
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,31 @@
+// A base and a detail map as one.
+#pragma once
+
+#include "cotan/map_files/map_file.hpp"
+#include "cotan/maps/blend.hpp"
+
+namespace cotan::maps {
+
+struct BlendFileOptions {
+    Convention base{}, detail{}, to{};
+    BlendMode mode = BlendMode::reoriented;
+    float strength = 1;         // factor on the detail's slopes
+    int tilesX = 1, tilesY = 1; // how often the detail repeats over the base; at least 1
+    std::filesystem::path mask{}; // picture whose red multiplies the strength; empty: everywhere
+    std::string bits = "auto";  // as bitsFor
+    bool dither = false;
+};
+
+struct BlendedFile {
+    int width = 0, height = 0; // the base's
+    Bits bits;
+    std::size_t invalid = 0; // texels that are no direction in one of the maps; the other counts alone there
+};
+
+// Blends two files; the detail and the mask are held whole. Errors: as openRows, readImage and createRows;
+// ErrorKind::usage: "options.bits: ", "options.to: "; ErrorKind::stopped.
+Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
+                               const std::filesystem::path& out, const BlendFileOptions& options,
+                               const FileOptions& files = {});
+
+} // namespace cotan::maps

@@ -1,0 +1,43 @@
+// The same directions, stored another way.
+#pragma once
+
+#include <optional>
+
+#include "cotan/bake/low_surface.hpp"
+#include "cotan/frame.hpp"
+#include "cotan/map_files/map_file.hpp"
+#include "cotan/maps/recode.hpp"
+
+namespace cotan::maps {
+
+// The mesh that a map belongs to.
+struct MeshOfMap {
+    std::filesystem::path file;
+    Frame frame = Frame::smooth; // that reads the map in tangent space
+    TangentSource tangents = TangentSource::stored;
+    int material = -1; // -1: all
+};
+
+struct ConvertFileOptions {
+    Convention from{}, to{};
+    std::string bits = "auto";     // as bitsFor
+    float strength = 1;            // factor on the slopes; negative turns bumps into dents; not 0
+    bool normalise = false;        // three channels to three: otherwise lengths are kept
+    bool dither = false;           // half a step of noise before rounding
+    std::optional<MeshOfMap> mesh{}; // between tangent and object space, and only there; strength is 1 then
+};
+
+struct ConvertedFile {
+    int width = 0, height = 0;
+    Bits bits;
+    RecodeCounts counts;
+    std::size_t shown = 0; // texels that the mesh shows, where there is one; the rest is padding
+};
+
+// Converts a file. With a mesh the map is held whole. Errors: ErrorKind::usage: options that do not go together, begun
+// with "options.mesh: ", "options.strength: ", "options.bits: " or "options.to: "; as openRows, createRows and
+// loadScene; ErrorKind::input: no texel is shown by the mesh; ErrorKind::stopped.
+Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
+                                  const ConvertFileOptions& options, const FileOptions& files = {});
+
+} // namespace cotan::maps

@@ -1,0 +1,51 @@
+// What files of maps are, and how far two are apart. Nothing is changed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/map_files/map_file.hpp"
+#include "cotan/maps/green.hpp"
+#include "cotan/maps/normal_statistics.hpp"
+#include "cotan/report/json.hpp"
+#include "cotan/report/statistics.hpp"
+
+namespace cotan::maps {
+
+struct SurveyedFile {
+    int width = 0, height = 0;
+    PixelType type = PixelType::unorm8;
+    NormalStatistics statistics;
+};
+
+// Reads a file through, once or twice. Errors: as openRows; ErrorKind::stopped.
+Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files = {});
+
+// The same in sentences and for a report; file: its name.
+std::vector<std::string> linesOf(const SurveyedFile& survey, const std::string& file);
+Json toJson(const SurveyedFile& survey);
+
+struct GreenOfFile {
+    GreenVerdict verdict;
+    std::size_t patches = 0; // that were judged
+};
+
+// Which way green points. Errors: as openRows; ErrorKind::stopped.
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {});
+
+// The same in sentences and for a report.
+std::vector<std::string> linesOf(const GreenOfFile& found);
+Json toJson(const GreenOfFile& found);
+
+struct ComparedFiles {
+    AngleStatistics angles;  // degrees between the two, over the texels that are directions in both
+    std::size_t skipped = 0; // other texels
+};
+
+// Compares two maps of one size, each read with its own convention. heat: a picture of the angles as heatMap gives it;
+// empty: none. Errors: as openRows and createRows; ErrorKind::input: two sizes; ErrorKind::stopped.
+Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const Convention& conventionA,
+                                   const std::filesystem::path& b, const Convention& conventionB,
+                                   const std::filesystem::path& heat = {}, const FileOptions& files = {});
+
+} // namespace cotan::maps

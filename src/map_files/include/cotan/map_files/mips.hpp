@@ -1,0 +1,38 @@
+// A normal map's chain of smaller levels, as files.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cotan/map_files/map_file.hpp"
+#include "cotan/maps/mips.hpp"
+
+namespace cotan::maps {
+
+struct MipFileOptions {
+    Convention from{}, to{};
+    SpreadModel model = SpreadModel::lean;
+    double roughness = 0.3;    // of the material, perceptual, 0 to 1
+    bool keepLengths = false;  // three channels: store the shortened mean vectors
+    std::string bits = "auto"; // as bitsFor; .dds has 8
+    // Asked about each file before the first is written; an error ends the call. May be empty.
+    std::function<Status(const std::filesystem::path&)> mayWrite{};
+};
+
+// What is said of a level.
+struct MipLevelFigures {
+    int width = 0, height = 0;
+    double meanLength = 1, meanRoughness = 0;
+};
+
+// Writes all levels and the roughness that they need: a .dds has both, the roughness in alpha; OUT.png and others
+// become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so on. The map and its levels are held whole. Errors: as
+// readImage and writeImage; ErrorKind::input: the levels take more than four times files.limits.imageBytes;
+// ErrorKind::usage: "options.bits: ", "options.to: "; ErrorKind::stopped, before anything is written.
+Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
+                                               const MipFileOptions& options, const FileOptions& files = {});
+
+// The first file that writeMips writes.
+std::filesystem::path firstMipFile(const std::filesystem::path& out);
+
+} // namespace cotan::maps

@@ -1,0 +1,92 @@
+#include "cotan/map_files/inspect.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/maps/compare.hpp"
+#include "cotan/report/angles.hpp"
+#include "stream.hpp"
+
+namespace cotan::maps {
+
+Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files)
+{
+    MapSurvey survey;
+    SurveyedFile found;
+    for (const auto pass : {&MapSurvey::first, &MapSurvey::second}) {
+        const auto reader = openRows(map, files.limits);
+        if (!reader)
+            return reader.error();
+        RowReader& in = **reader;
+        found.width = in.width, found.height = in.height, found.type = in.type;
+        const bool second = pass == &MapSurvey::second;
+        const Status read =
+            inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
+        if (!read)
+            return read.error();
+        if (survey.oneColour())
+            break;
+    }
+    found.statistics = survey.finish();
+    return found;
+}
+
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files)
+{
+    const auto reader = openRows(map, files.limits);
+    if (!reader)
+        return reader.error();
+    RowReader& in = **reader;
+    PatchSampler sampler(in.width, in.height, in.type);
+    const Status read = inOrder(in, files.progress, [&](const Image& strip, int row) { sampler.add(strip, row); });
+    if (!read)
+        return read.error();
+    return GreenOfFile{greenOf(sampler), sampler.patches().size()};
+}
+
+Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Convention& conventionA,
+                                   const std::filesystem::path& fileB, const Convention& conventionB,
+                                   const std::filesystem::path& heat, const FileOptions& files)
+{
+    const auto swizzleA = swizzleOfFile(fileA, conventionA, files.limits),
+               swizzleB = swizzleOfFile(fileB, conventionB, files.limits);
+    if (!swizzleA || !swizzleB)
+        return swizzleA ? swizzleB.error() : swizzleA.error();
+    const auto a = openRows(fileA, files.limits), b = openRows(fileB, files.limits);
+    if (!a || !b)
+        return a ? b.error() : a.error();
+    RowReader* const readers[] = {a->get(), b->get()};
+    const int width = readers[0]->width, height = readers[0]->height;
+    if (width != readers[1]->width || height != readers[1]->height)
+        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height,
+                                      fileA.string(), readers[1]->width, readers[1]->height));
+    std::unique_ptr<RowWriter> picture;
+    if (!heat.empty()) {
+        auto writer = createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads);
+        if (!writer)
+            return writer.error();
+        picture = *std::move(writer);
+    }
+    AngleHistogram angles;
+    const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
+        unswizzle(strips[0], *swizzleA);
+        unswizzle(strips[1], *swizzleB);
+        auto degrees = anglesBetween(strips[0], conventionA, strips[1], conventionB);
+        Image rows = picture ? heatMap(degrees, width, strips[0].height) : Image{};
+        return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {
+            for (float d : degrees)
+                angles.add(d);
+            return picture ? picture->write(rows) : Status(Done{});
+        };
+    };
+    if (Status done = streamStrips(readers, {}, files.progress, work); !done)
+        return done.error();
+    if (picture)
+        if (Status written = picture->finish(); !written)
+            return written.error();
+    const AngleStatistics s = angles.statistics();
+    return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count};
+}
+
+} // namespace cotan::maps

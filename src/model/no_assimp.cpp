@@ -1,0 +1,14 @@
+// What is read by Assimp, where there is none.
+#include "cotan/model/load.hpp"
+#include "cotan/not_built.hpp"
+
+namespace cotan {
+
+Result<Scene> loadWithAssimp(const std::filesystem::path& file, const LoadLimits&)
+{
+    Error error = notBuiltWith("Assimp", "libassimp-dev");
+    error.message = file.string() + ": " + error.message + "; or convert the file to glTF or OBJ";
+    return error;
+}
+
+} // namespace cotan

@@ -1,0 +1,315 @@
+#include "cotan/report/cost_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "cotan/cost/break_even.hpp"
+#include "cotan/cost/scalar_count.hpp"
+#include "cotan/cost/spirv_count.hpp"
+#include "cotan/files/output.hpp"
+
+namespace cotan {
+
+namespace {
+
+using namespace cost;
+using Table = std::vector<std::vector<std::string>>; // the first row is the header
+
+std::string aligned(const Table& table)
+{
+    std::vector<std::size_t> widths(table.front().size(), 3);
+    for (const auto& line : table)
+        for (std::size_t i = 0; i < line.size(); ++i)
+            widths[i] = std::max(widths[i], line[i].size());
+    std::string text;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        for (std::size_t i = 0; i < widths.size(); ++i)
+            text += i == 0 ? fmt::format("| {:<{}} |", table[n][i], widths[i])
+                           : fmt::format(" {:>{}} |", table[n][i], widths[i]);
+        text += '\n';
+        for (std::size_t i = 0; n == 0 && i < widths.size(); ++i)
+            text += i == 0 ? "| " + std::string(widths[i], '-') + " |" : " " + std::string(widths[i] - 1, '-') + ": |";
+        if (n == 0)
+            text += '\n';
+    }
+    return text + '\n';
+}
+
+std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
+
+// The floor as it is; other rows as what they add to it.
+std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
+{
+    if (!value || !floor)
+        return "-";
+    return isFloor ? plain(value) : fmt::format("{:+.0f}", *value - *floor);
+}
+
+std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
+
+std::string overview(const CostReport& report)
+{
+    Table table = {{"over the floor", "scalar", "with fma", "SPIR-V"}};
+    for (const DeviceCode& d : report.code)
+        if (d.silence.empty())
+            table[0].push_back(title(d));
+    table[0].push_back("2006");
+    const Row& floor = *report.rows.front();
+    const Operations floorOps = operationsOfRow(floor.name);
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        const Row& row = *report.rows[i];
+        const Operations ops = operationsOfRow(row.name);
+        std::vector<std::string> line = {
+            std::string(row.name), over(ops.total(), floorOps.total(), i == 0),
+            over(ops.totalFused(), floorOps.totalFused(), i == 0),
+            over(spirvInstructions(row.fragment), spirvInstructions(floor.fragment), i == 0)};
+        for (const DeviceCode& d : report.code)
+            if (d.silence.empty())
+                line.push_back(over(d.rows[i].fragment.instructions, d.rows[0].fragment.instructions, i == 0));
+        line.push_back(row.instructionsOf2006 ? std::to_string(row.instructionsOf2006) : "");
+        table.push_back(std::move(line));
+    }
+    return "### What perturbing the normal adds, in instructions\n\n" + aligned(table);
+}
+
+std::string details(const DeviceCode& d)
+{
+    Table table = {{"fragment shader", "instructions", "registers", "code bytes", "inverse throughput", "latency"}};
+    for (const RowCode& r : d.rows)
+        table.push_back({std::string(r.row), plain(r.fragment.instructions), plain(r.fragment.registers),
+                         plain(r.fragment.bytes), plain(r.fragment.inverseThroughput), plain(r.fragment.latency)});
+    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver) + aligned(table);
+}
+
+std::string ratio(double pixels)
+{
+    return std::isinf(pixels) ? "always" : pixels <= 0 ? "never" : fmt::format("{:.2f}", pixels);
+}
+
+const RowCode* find(const DeviceCode& d, std::string_view row)
+{
+    for (const RowCode& r : d.rows)
+        if (r.row == row)
+            return &r;
+    return nullptr;
+}
+
+// Extra instructions of the vertex stage with a stored tangent.
+std::optional<double> tangentAtVertex(const DeviceCode& d)
+{
+    const auto with = d.vertices[std::size_t(Stored::tangent)].vertex.instructions;
+    const auto without = d.vertices[std::size_t(Stored::nothing)].vertex.instructions;
+    return with && without ? std::optional(*with - *without) : std::nullopt;
+}
+
+std::string vertexStages(const CostReport& report)
+{
+    Table table = {{"vertex stage", "bytes a vertex"}};
+    for (const DeviceCode& d : report.code)
+        if (d.silence.empty())
+            table[0].push_back(title(d));
+    for (const VertexStage& v : cost::vertexStages()) {
+        std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
+        for (const DeviceCode& d : report.code)
+            if (d.silence.empty())
+                line.push_back(over(d.vertices[std::size_t(v.stored)].vertex.instructions,
+                                    d.vertices[0].vertex.instructions, v.stored == Stored::nothing));
+        table.push_back(std::move(line));
+    }
+    return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
+}
+
+std::string breakEven(const CostReport& report)
+{
+    Table table = {{"wins below ... pixels a vertex", "in bytes"}};
+    for (const DeviceCode& d : report.code)
+        if (d.silence.empty())
+            table[0].push_back(title(d));
+    const int tangentBytes = vertexStage(Stored::tangent).bytes;
+    for (const Row* row : report.rows) {
+        if (row->stored != Stored::nothing || row->group == Group::floor || row->group == Group::papers)
+            continue;
+        std::vector<std::string> line = {std::string(row->name),
+                                         ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};
+        for (const DeviceCode& d : report.code) {
+            if (!d.silence.empty())
+                continue;
+            const RowCode* mine = find(d, row->name);
+            const RowCode* mikktspace = find(d, "mikktspace");
+            const auto vertex = tangentAtVertex(d);
+            const bool known =
+                mine && mikktspace && vertex && mine->fragment.instructions && mikktspace->fragment.instructions;
+            line.push_back(known ? ratio(pixelsPerVertex(
+                               *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
+                                 : "-");
+        }
+        table.push_back(std::move(line));
+    }
+    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
+}
+
+std::string frameOperations()
+{
+    Table table = {
+        {"frame alone, n unit", "mul", "add", "div", "sqrt", "rsqrt", "max", "compare", "bits", "total", "with fma"}};
+    const auto line = [&](std::string_view name, const Operations& o) {
+        table.push_back({std::string(name), std::to_string(o.multiply), std::to_string(o.add), std::to_string(o.divide),
+                         std::to_string(o.root), std::to_string(o.inverseRoot), std::to_string(o.maximum),
+                         std::to_string(o.compare), std::to_string(o.bits), std::to_string(o.total()),
+                         std::to_string(o.totalFused())});
+    };
+    for (const std::string_view frame :
+         {"cotangent-2013", "nonperspective", "unit", "paper-full", "paper-nodet", "paper-transpose",
+          "paper-orthogonal", "cotangent", "gradient", "orthonormal", "exact"})
+        line(frame, operationsOfFrame(frame));
+    line("(their safe normal)", operationsOfSafeNormal());
+    return "### Scalar operations of building a frame\n\n" + aligned(table);
+}
+
+std::string timings(const DeviceTiming& d)
+{
+    std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n", d.name,
+                                   d.cpu ? " (draws on the processor)" : "", d.driver);
+    Table table = {{"legs of the triangles"}};
+    for (const int leg : triangleLegs()) {
+        table[0].push_back(fmt::format("{} px", leg));
+        table[0].push_back("ratio");
+    }
+    const auto base =
+        std::find_if(d.rows.begin(), d.rows.end(), [](const TimedRow& r) { return r.row == "mikktspace"; });
+    for (const TimedRow& r : d.rows) {
+        std::vector<std::string> line = {std::string(r.row)};
+        for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
+            const double t = r.nanosecondsPerMillionPixels[i];
+            line.push_back(fmt::format("{:.0f}", t));
+            line.push_back(base == d.rows.end() ? "-"
+                                                : fmt::format("{:.2f}", t / base->nanosecondsPerMillionPixels[i]));
+        }
+        table.push_back(std::move(line));
+    }
+    return text + "Ratio: to `mikktspace` in the same run.\n\n" + aligned(table);
+}
+
+Json stageJson(const StageCode& code)
+{
+    Json all = Json::object();
+    for (const auto& [name, value] : code.all)
+        all[name] = value;
+    return all;
+}
+
+Json operationsJson(const Operations& o)
+{
+    return {{"mul", o.multiply}, {"add", o.add},           {"merged", o.merged},         {"div", o.divide},
+            {"sqrt", o.root},    {"rsqrt", o.inverseRoot}, {"max", o.maximum},           {"compare", o.compare},
+            {"bits", o.bits},    {"total", o.total()},     {"total_fma", o.totalFused()}};
+}
+
+} // namespace
+
+std::string toMarkdown(const CostReport& report)
+{
+    std::string text = fmt::format("Machine: {}. SPIR-V: {}.\n", report.machine, spirvCompiler());
+    bool silent = true;
+    for (const DeviceCode& d : report.code) {
+        silent = silent && !d.silence.empty();
+        text += d.silence.empty() ? fmt::format("{}: {}, {}.\n", title(d), d.name, d.driver)
+                                  : fmt::format("{}: no machine code: {}.\n", title(d), d.silence);
+    }
+    text += '\n' + overview(report);
+    if (!silent)
+        text += vertexStages(report) + breakEven(report);
+    for (const DeviceCode& d : report.code)
+        if (d.silence.empty())
+            text += details(d);
+    text += frameOperations();
+    if (!report.timingSilence.empty())
+        text += "No timing: " + report.timingSilence + ".\n\n";
+    for (const DeviceTiming& d : report.timing)
+        text += d.silence.empty() ? timings(d) : fmt::format("No timing on {}: {}.\n\n", d.name, d.silence);
+    text.pop_back();
+    return text;
+}
+
+Json toJson(const CostReport& report)
+{
+    Json json = {{"command", "cost"}, {"machine", report.machine}, {"spirv_compiler", spirvCompiler()}};
+    for (const Row* row : report.rows) {
+        Json r = {{"name", row->name},
+                  {"what", row->what},
+                  {"scalar", operationsJson(operationsOfRow(row->name))},
+                  {"spirv", spirvInstructions(row->fragment)}};
+        if (row->instructionsOf2006)
+            r["instructions_2006"] = row->instructionsOf2006;
+        json["rows"].push_back(std::move(r));
+    }
+    json["devices"] = Json::array();
+    for (const DeviceCode& d : report.code) {
+        Json device = {{"name", d.name}, {"driver", d.driver}, {"family", d.family}, {"silence", d.silence}};
+        for (const RowCode& r : d.rows)
+            device["fragment"][std::string(r.row)] = stageJson(r.fragment);
+        for (const VertexCode& v : d.vertices)
+            device["vertex"][std::string(vertexStage(v.stored).name)] = stageJson(v.vertex);
+        json["devices"].push_back(std::move(device));
+    }
+    json["timing"] = Json::array();
+    for (const DeviceTiming& d : report.timing) {
+        Json device = {
+            {"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}, {"legs", triangleLegs()}};
+        for (const TimedRow& r : d.rows)
+            device["nanoseconds_per_million_pixels"][std::string(r.row)] = r.nanosecondsPerMillionPixels;
+        json["timing"].push_back(std::move(device));
+    }
+    return json;
+}
+
+std::string toCsv(const CostReport& report)
+{
+    const auto quoted = [](std::string_view s) { return '"' + std::string(s) + '"'; };
+    std::string text = "row,source,device,driver,measure,value\n";
+    for (const Row* row : report.rows) {
+        const Operations o = operationsOfRow(row->name);
+        text += fmt::format("{},scalar,,,total,{}\n{},scalar,,,total with fma,{}\n", row->name, o.total(), row->name,
+                            o.totalFused());
+        text += fmt::format("{},SPIR-V,,{},instructions,{}\n", row->name, quoted(spirvCompiler()),
+                            spirvInstructions(row->fragment));
+    }
+    for (const DeviceCode& d : report.code) {
+        for (const RowCode& r : d.rows)
+            for (const auto& [measure, value] : r.fragment.all)
+                text += fmt::format("{},fragment,{},{},{},{:.0f}\n", r.row, quoted(title(d)), quoted(d.driver),
+                                    quoted(measure), value);
+        for (const VertexCode& v : d.vertices)
+            for (const auto& [measure, value] : v.vertex.all)
+                text += fmt::format("{},vertex,{},{},{},{:.0f}\n", vertexStage(v.stored).name, quoted(title(d)),
+                                    quoted(d.driver), quoted(measure), value);
+    }
+    for (const DeviceTiming& d : report.timing)
+        for (const TimedRow& r : d.rows)
+            for (std::size_t i = 0; i < r.nanosecondsPerMillionPixels.size(); ++i)
+                text +=
+                    fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
+                                quoted(d.name), quoted(d.driver), triangleLegs()[i], r.nanosecondsPerMillionPixels[i]);
+    return text;
+}
+
+Status writeTables(const std::filesystem::path& file, const std::string& tables)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream old;
+    if (stream)
+        old << stream.rdbuf();
+    const std::string text = old.str();
+    const std::string first = "<!-- cotan cost: from here to the end mark written by the tool -->\n",
+                      last = "<!-- cotan cost: end -->\n";
+    const std::size_t begin = text.find(first), end = text.find(last);
+    if (begin == std::string::npos || end == std::string::npos || end < begin)
+        return writeFileWhole(file, tables);
+    return writeFileWhole(file, text.substr(0, begin) + first + '\n' + tables + '\n' + text.substr(end));
+}
+
+} // namespace cotan

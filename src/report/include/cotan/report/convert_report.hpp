@@ -1,0 +1,20 @@
+// What a conversion did, in texts and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/convert/convert_model.hpp"
+#include "cotan/report/json.hpp"
+
+namespace cotan {
+
+// What became of a map; `to`: the new frame's name.
+std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to);
+Json toJson(const ConvertedMap& map);
+
+// What became of the tangents; empty where nothing did.
+std::string tangentsLine(const ConvertModelReport& report, const std::string& to);
+Json tangentsJson(const ConvertModelReport& report);
+
+} // namespace cotan

@@ -1,0 +1,77 @@
+#include "cotan/terminal/command_words.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace cotan {
+
+namespace {
+
+Error unknown(const std::string& before, const std::string& word, const std::vector<CommandNames>& commands)
+{
+    // The beginning of a name counts as one letter left out.
+    const auto distance = [&](const CommandNames& command) {
+        return word.size() > 1 && command.name.starts_with(word) ? 1 : editDistance(word, command.name);
+    };
+    const auto nearest = std::ranges::min_element(commands, {}, distance);
+    const bool near = distance(*nearest) <= std::max<std::size_t>(1, nearest->name.size() / 3);
+    std::vector<std::string_view> names;
+    for (const CommandNames& command : commands)
+        names.push_back(command.name);
+    return usageError(fmt::format("{}there is no command '{}'; {}", before, word,
+                                  near ? fmt::format("did you mean {}?", nearest->name)
+                                       : fmt::format("expected one of {}", fmt::join(names, ", "))));
+}
+
+} // namespace
+
+std::size_t editDistance(std::string_view a, std::string_view b)
+{
+    // Rows of the table of distances between beginnings (Damerau, Levenshtein; neighbours exchanged once).
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                d[i][j] = i + j;
+                continue;
+            }
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
+Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words)
+{
+    const CommandNames* at = &tool;
+    std::string before;
+    for (const std::string& word : words) {
+        if (at->commands.empty() || word.starts_with('-'))
+            break;
+        const auto found = std::ranges::find(at->commands, word, &CommandNames::name);
+        if (found == at->commands.end()) {
+            if (word.size() > 100)
+                return usageError(before + "there is no command of such a length");
+            return unknown(before, word, at->commands);
+        }
+        before = word + ": ";
+        at = &*found;
+    }
+    return Done{};
+}
+
+std::string quoted(const std::string& path)
+{
+    const bool plain = path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./")
+        == std::string::npos;
+    std::string text = "'";
+    for (char c : path)
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return plain && !path.empty() ? path : text + "'";
+}
+
+} // namespace cotan

@@ -1,0 +1,135 @@
+#include "cotan/terminal/progress_line.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace cotan {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostColumns = 79; // a full line of 80 would wrap on some terminals
+constexpr auto kBetween = std::chrono::milliseconds(100);
+constexpr double kSettle = 2;         // seconds, and
+constexpr double kSettleShare = 0.03; // of the work, before a time is told
+constexpr double kFollow = 0.1;       // of a new estimate goes into what is shown
+
+std::atomic<bool> shown = false;
+
+double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+std::size_t columns()
+{
+    winsize size{};
+    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    return known ? std::min<std::size_t>(size.ws_col - 1u, kMostColumns) : kMostColumns;
+}
+
+// Names may hold anything: no control characters, and no more than `room` characters of UTF-8, the end left out.
+std::string fitted(const std::string& text, std::size_t room)
+{
+    std::string clean;
+    std::size_t count = 0;
+    for (const char c : text) {
+        const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+        if (starts && ++count > room)
+            break;
+        clean += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    }
+    if (count > room && room >= 3) {
+        for (int dropped = 0; dropped < 3; ++dropped) {
+            while (!clean.empty() && (static_cast<unsigned char>(clean.back()) & 0xc0) == 0x80)
+                clean.pop_back();
+            clean.pop_back();
+        }
+        clean += "...";
+    }
+    return clean;
+}
+
+std::string timeText(double s)
+{
+    if (s < 90)
+        return fmt::format("about {:.0f} s left", s < 10 ? std::ceil(s) : std::round(s / 5) * 5);
+    return s < 5400 ? fmt::format("about {:.0f} min left", s / 60) : fmt::format("about {:.1f} h left", s / 3600);
+}
+
+} // namespace
+
+ProgressLine::ProgressLine(bool quiet, std::size_t total, std::string what)
+    : visible_(!quiet && ::isatty(STDERR_FILENO) == 1), total_(double(total)), what_(std::move(what)),
+      start_(Clock::now()), drawn_(start_)
+{
+    const std::lock_guard lock(mutex_);
+    if (visible_)
+        draw(start_);
+}
+
+ProgressLine::~ProgressLine() { wipeProgress(); }
+
+Progress ProgressLine::within()
+{
+    return [this](double share) {
+        const std::lock_guard lock(mutex_);
+        if (share <= 0 && begun_)
+            base_ += 1;
+        begun_ = true;
+        at(base_ + std::clamp(share, 0.0, 1.0));
+        return true;
+    };
+}
+
+void ProgressLine::add(double steps)
+{
+    const std::lock_guard lock(mutex_);
+    base_ += steps;
+    at(base_);
+}
+
+// With the lock held.
+void ProgressLine::at(double done)
+{
+    if (!visible_)
+        return;
+    done_ = std::max(done_, std::min(done, total_));
+    const auto now = Clock::now();
+    if (now - drawn_ >= kBetween)
+        draw(now);
+}
+
+void ProgressLine::draw(Clock::time_point now)
+{
+    const double spent = seconds(now - start_), share = total_ > 0 ? done_ / total_ : 0;
+    std::string tail;
+    if (total_ > 0)
+        tail = fmt::format(": {:.0f} %", std::min(99.0, std::floor(share * 100)));
+    if (spent >= kSettle && share >= kSettleShare) {
+        const double estimate = spent * (1 - share) / share;
+        left_ = left_ < 0 ? estimate : left_ - seconds(now - drawn_) + kFollow * (estimate - left_);
+        left_ = std::max(left_, 0.0);
+        tail += ", " + timeText(left_);
+    } else if (total_ == 0) {
+        tail = " ...";
+    }
+    drawn_ = now;
+    const std::size_t room = columns();
+    const std::string line = tail.size() < room ? fitted(what_, room - tail.size()) + tail : fitted(what_ + tail, room);
+    shown = true;
+    std::fputs(("\r\033[K" + line).c_str(), stderr);
+}
+
+void wipeProgress()
+{
+    if (shown.exchange(false))
+        std::fputs("\r\033[K", stderr);
+}
+
+} // namespace cotan

@@ -1,0 +1,128 @@
+// Files of maps by the calls that `cotan map` makes: what they say, and that a stopped one leaves nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cotan/convention_words.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/map_files/blend.hpp"
+#include "cotan/map_files/convert.hpp"
+#include "cotan/map_files/height.hpp"
+#include "cotan/map_files/inspect.hpp"
+#include "cotan/map_files/mips.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+Convention asGltf() { return *conventionFromWords("gltf"); }
+Convention asDirectx() { return *conventionFromWords("directx"); }
+
+std::vector<fs::path> filesIn(const fs::path& folder)
+{
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        files.push_back(entry.path().filename());
+    std::ranges::sort(files);
+    return files;
+}
+
+class MapFiles : public ::testing::Test {
+protected:
+    void SetUp() override { ASSERT_TRUE(writeImage(map, makeReliefMap(Relief::domes, 64))); }
+
+    // Every call that takes long, with these options; writes OUT where it writes.
+    std::vector<Status> allCalls(const maps::FileOptions& files) const
+    {
+        const auto status = [](const auto& result) { return result ? Status(Done{}) : Status(result.error()); };
+        const maps::MeshOfMap mesh{folder / "quad.obj"};
+        const Convention object = *conventionFromWords("object");
+        return {
+            status(maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files)),
+            status(maps::convertFile(map, out, {.from = asGltf(), .to = object, .mesh = mesh}, files)),
+            status(maps::blendFiles(map, map, out, {.base = asGltf(), .detail = asGltf(), .to = asGltf()}, files)),
+            status(maps::normalsFromHeightFile(map, out, {.to = asGltf()}, files)),
+            status(maps::heightFromNormalsFile(map, out, {.from = asGltf()}, files)),
+            status(maps::writeMips(map, out, {.from = asGltf(), .to = asGltf()}, files)),
+            status(maps::compareFiles(map, asGltf(), map, asDirectx(), out, files)),
+            status(maps::surveyFile(map, files)),
+            status(maps::greenOfFile(map, files)),
+        };
+    }
+
+    TemporaryFolder folder;
+    const fs::path map = folder / "map.png", out = folder / "out.png";
+};
+
+TEST_F(MapFiles, aCallThatIsStoppedSaysSoAndLeavesNoFile)
+{
+    std::ofstream(folder / "quad.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                                          "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    const auto before = filesIn(folder.path());
+    std::size_t number = 0;
+    for (const Status& done : allCalls({.limits = {}, .threads = 1, .progress = [](double) { return false; }})) {
+        ASSERT_FALSE(done) << "call " << number;
+        EXPECT_EQ(done.error().kind, ErrorKind::stopped) << "call " << number << ": " << done.error().message;
+        ++number;
+    }
+    EXPECT_EQ(filesIn(folder.path()), before);
+    // The same calls are not refused for another reason.
+    for (const Status& done : allCalls({}))
+        EXPECT_TRUE(done) << done.error().message;
+    EXPECT_GT(filesIn(folder.path()).size(), before.size() + 2);
+}
+
+TEST_F(MapFiles, progressRunsToOneWhereNothingStopsIt)
+{
+    double last = 0;
+    const maps::FileOptions files{.limits = {}, .threads = 1, .progress = [&](double share) {
+                                      EXPECT_GE(share, last);
+                                      last = share;
+                                      return true;
+                                  }};
+    ASSERT_TRUE(maps::surveyFile(map, files)); // in two passes
+    EXPECT_EQ(last, 1);
+    last = 0;
+    ASSERT_TRUE(maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files));
+    EXPECT_EQ(last, 1);
+}
+
+TEST_F(MapFiles, aConvertedFileIsWhatItsPixelsConvertTo)
+{
+    const auto done = maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()});
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(done->width, 64);
+    EXPECT_EQ(done->bits.type, PixelType::unorm8);
+    const auto before = readImage(map), after = readImage(out);
+    ASSERT_TRUE(before && after);
+    for (std::size_t i = 0; i < before->data.size(); ++i) { // 128 is zero: c and 256 - c are opposite
+        const int was = before->bytes8()[i];
+        ASSERT_EQ(int(after->bytes8()[i]), i % 4 == 1 ? std::min(256 - was, 255) : was) << i;
+    }
+}
+
+TEST_F(MapFiles, wrongOptionsAreNamed)
+{
+    const auto refused = [&](const maps::ConvertFileOptions& options, const char* words) {
+        const auto done = maps::convertFile(map, out, options);
+        ASSERT_FALSE(done) << words;
+        EXPECT_EQ(done.error().kind, ErrorKind::usage);
+        EXPECT_TRUE(done.error().message.starts_with(words)) << done.error().message;
+    };
+    Convention stored = asGltf();
+    stored.expansion = Expansion::signedValues;
+    refused({.from = asGltf(), .to = asGltf(), .bits = "7"}, "options.bits: ");
+    refused({.from = asGltf(), .to = asGltf(), .bits = "half"}, "options.bits: ");
+    refused({.from = asGltf(), .to = asGltf(), .strength = 0}, "options.strength: ");
+    refused({.from = asGltf(), .to = stored}, "options.to: ");
+    refused({.from = asGltf(), .to = *conventionFromWords("object")}, "options.mesh: ");
+    EXPECT_FALSE(fs::exists(out));
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,144 @@
+// Scenes that were filled by hand, and wrongly: what takes a scene says so and does not follow an index out of it.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "cotan/bake/bake_model.hpp"
+#include "cotan/draw/draw.hpp"
+#include "cotan/gltf/edit.hpp"
+#include "cotan/lint/lint.hpp"
+#include "cotan/scene/check.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+// A mapped plane with everything that a mesh may have.
+Scene soundScene()
+{
+    Scene scene;
+    scene.images.push_back(makeReliefMap(Relief::waves, 16));
+    scene.materials.resize(1);
+    scene.materials[0].normalMap.image = 0;
+    Mesh mesh = makePlane(2, 2, 3);
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1));
+    mesh.texcoords[1] = mesh.texcoords[0];
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back({"plane", 0, glm::mat4(1)});
+    return scene;
+}
+
+View smallView(const Scene& scene)
+{
+    View view;
+    view.width = view.height = 16;
+    view.camera = fitCamera(bounds(scene), view.width, view.height);
+    view.frame = int(Frame::mikktspace);
+    view.output = Output::normal;
+    return view;
+}
+
+BakeModelOptions smallBake()
+{
+    BakeModelOptions options;
+    options.bake.width = options.bake.height = 8;
+    options.bake.frame = Frame::mikktspace;
+    options.ownMaps = true;
+    return options;
+}
+
+struct Fault {
+    void (*make)(Scene&);
+    std::string where; // what is said of it
+};
+
+const Fault kBroken[] = {
+    {[](Scene& s) { s.images[0].data.resize(7); }, "image 0: expected the bytes of 16 x 16 pixels, found 7"},
+    {[](Scene& s) { s.images[0].width = 1 << 30; }, "image 0: expected the bytes"},
+    {[](Scene& s) { s.materials[0].normalMap.image = 1; },
+     "material 0: normal map: expected an image below 1, found 1"},
+    {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; },
+     "material 0: normal map: expected uv set 0 or 1, found 2"},
+    {[](Scene& s) { s.materials[0].normalFormat.channels = 77; }, "material 0: expected a way to store normals"},
+    {[](Scene& s) { s.materials.clear(); }, "mesh 0: expected a material below 0, found 0"},
+    {[](Scene& s) { s.meshes[0].material = -1; }, "mesh 0: expected a material below 1, found -1"},
+    {[](Scene& s) { s.meshes[0].indices[4] = 1u << 31; },
+     "mesh 0: triangle 1: expected an index below 9, found 2147483648"},
+    {[](Scene& s) { s.meshes[0].indices.pop_back(); }, "mesh 0: expected three indices a triangle"},
+    {[](Scene& s) { s.meshes[0].positions.resize(2); }, "mesh 0: normals: expected 2 entries, one a vertex, found 9"},
+    {[](Scene& s) { s.meshes[0].normals.clear(); }, "mesh 0: normals: expected 9 entries, one a vertex, found 0"},
+    {[](Scene& s) { s.meshes[0].texcoords[0].resize(1); }, "mesh 0: uv set 0: expected 9 entries"},
+    {[](Scene& s) { s.meshes[0].tangents.resize(1); }, "mesh 0: tangent: expected 9 entries"},
+    {[](Scene& s) { s.instances[0].mesh = 1; }, "instance 0: expected a mesh below 1, found 1"},
+    {[](Scene& s) { s.instances[0].mesh = -1; }, "instance 0: expected a mesh below 1, found -1"},
+};
+
+template<class T> void expectRefused(const Result<T>& result, const std::string& line)
+{
+    ASSERT_FALSE(result) << line;
+    EXPECT_EQ(result.error().kind, ErrorKind::input);
+    EXPECT_TRUE(result.error().message.starts_with(line)) << result.error().message;
+}
+
+TEST(SceneCheck, aSoundSceneIsTakenByEverybody)
+{
+    const Scene scene = soundScene();
+    EXPECT_TRUE(checkScene(scene));
+    EXPECT_TRUE(drawView(scene, smallView(scene), "reference"));
+    EXPECT_EQ(lintScene(scene).primitives.size(), 1u);
+    EXPECT_TRUE(gltfDocumentOf(scene));
+    const auto baked = bakeModel(scene, {.scenes = {scene}, .maps = {}}, smallBake());
+    EXPECT_TRUE(baked) << baked.error().message;
+}
+
+TEST(SceneCheck, everybodyRefusesIndicesAndSizesThatLeadOutOfTheScene)
+{
+    const Scene sound = soundScene();
+    const View view = smallView(sound);
+    for (const auto& [make, where] : kBroken) {
+        Scene scene = soundScene();
+        make(scene);
+        expectRefused(checkScene(scene), "scene: " + where);
+        expectRefused(drawView(scene, view, "reference"), "scene: " + where);
+        const auto painter = openPainter("reference", 1);
+        ASSERT_TRUE(painter);
+        expectRefused((*painter)->load(scene), "scene: " + where);
+        expectRefused(gltfDocumentOf(scene), "scene: " + where);
+        expectRefused(bakeModel(scene, {.scenes = {sound}, .maps = {}}, smallBake()), "low: " + where);
+        expectRefused(bakeModel(sound, {.scenes = {sound, scene}, .maps = {}}, smallBake()),
+                      "high.scenes[1]: " + where);
+        BakeModelOptions caged = smallBake();
+        caged.cage = &scene;
+        expectRefused(bakeModel(sound, {.scenes = {sound}, .maps = {}}, caged), "options.cage: " + where);
+        const LintReport report = lintScene(scene);
+        EXPECT_TRUE(report.primitives.empty());
+        EXPECT_TRUE(report.defects.starts_with("Nothing was looked at: scene: " + where)) << report.defects;
+        EXPECT_EQ(report.recommendation, report.defects);
+    }
+}
+
+TEST(SceneCheck, numbersThatAreNotFiniteAreDrawnAndLintedButNotBaked)
+{
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        Scene scene = soundScene();
+        scene.meshes[0].positions[4].x = bad;
+        EXPECT_TRUE(drawView(scene, smallView(soundScene()), "reference"));
+        EXPECT_EQ(lintScene(scene).primitives.size(), 1u);
+        expectRefused(checkScene(scene, "mine"), "mine: mesh 0: position 4: expected finite numbers");
+        expectRefused(bakeModel(scene, {.scenes = {soundScene()}, .maps = {}}, smallBake()), "low: mesh 0: position 4");
+    }
+}
+
+TEST(SceneCheck, picturesMayBeLeftOutWhereTheRulesSaySo)
+{
+    Scene scene = soundScene();
+    scene.images[0] = {};
+    EXPECT_FALSE(checkScene(scene));
+    EXPECT_TRUE(checkScene(scene, "scene", {.pixels = false}));
+}
+
+} // namespace
+} // namespace cotan
