@@ -14,6 +14,7 @@ namespace {
 using namespace cotan::test;
 using cotan::Adjacency;
 using cotan::makeAdjacency;
+using cotan::makeNormalAdjacency;
 
 // Gathered in double, with the angle as the library's arc cosine gives it.
 cotan::Cotangents gathered(const Arrays& a, const Adjacency& adjacency)
@@ -165,6 +166,35 @@ TEST(Adjacency, isEmptyForArraysThatDoNotFit)
     a.normals.pop_back();
     EXPECT_TRUE(makeAdjacency(a.view()).vertexBegin.empty());
     EXPECT_EQ(makeAdjacency(Arrays().view()).groups(), 0u);
+}
+
+TEST(NormalAdjacency, goesAcrossSeamsOfTexcoordsAndStopsAtEdgesOfNormals)
+{
+    // The line of the seam is there twice for its mirrored texcoords and once for its normals.
+    const Arrays a = mirroredSeam(8);
+    const Adjacency adjacency = makeNormalAdjacency(a.view());
+    expectSound(a, adjacency);
+    EXPECT_EQ(a.positions.size(), 90u);
+    EXPECT_EQ(adjacency.groups(), 81u);
+    EXPECT_EQ(adjacency.firstMirrored, 81u);
+    EXPECT_EQ(adjacency.corners.size(), a.indices.size());
+    Arrays roof = a; // two sides of a ridge
+    for (std::size_t i = 0; i < roof.positions.size(); ++i)
+        if (i >= 81 || roof.positions[i].x < 0.5f)
+            roof.normals[i] = {0.6f, 0, 0.8f};
+    EXPECT_EQ(makeNormalAdjacency(roof.view()).groups(), 90u);
+}
+
+TEST(NormalAdjacency, putsTrianglesWoundAgainstTheirNormalsLast)
+{
+    Arrays a = sphereGrid(4);
+    EXPECT_EQ(makeNormalAdjacency(a.view()).firstMirrored, 25u);
+    std::reverse(a.indices.begin(), a.indices.end());
+    const Adjacency adjacency = makeNormalAdjacency(a.view());
+    EXPECT_EQ(adjacency.firstMirrored, 0u);
+    EXPECT_EQ(adjacency.corners.size(), a.indices.size());
+    a.indices.resize(4);
+    EXPECT_EQ(makeNormalAdjacency(a.view()).groups(), 0u);
 }
 
 TEST(Adjacency, isLinearInASoupAndAtAPole)

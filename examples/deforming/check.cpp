@@ -118,9 +118,9 @@ void check(const Gpu& gpu, const Mesh& rest)
     std::printf("%zu vertices in %u groups, %zu triangles, adjacency made in %.0f ms\n", rest.positions.size(), adjacency.groups(),
                 rest.indices.size() / 3, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     std::printf("degrees from the C++, at most: smooth (and vertices not compared), tangents (and corners "
-                "further apart than 1), triangles; ms of each pass\n");
-    Passes passes(gpu, rest, adjacency);
-    for (const Pass pass : {Pass::smooth, Pass::tangents, Pass::triangles})
+                "further apart than 1), triangles; ms of each pass and of normals\n");
+    Passes passes(gpu, rest, adjacency, cotan::makeNormalAdjacency(rest.view()));
+    for (const Pass pass : {Pass::normals, Pass::smooth, Pass::tangents, Pass::triangles})
         passes.run(pass); // the first run of a pipeline is slower
     for (const Motion& motion : kMotions) {
         const Mesh pose = posed(rest, motion, 1, Normals::exact);
@@ -130,8 +130,9 @@ void check(const Gpu& gpu, const Mesh& rest)
         const double tangentsTime = passes.run(Pass::tangents);
         const TangentsOff tangents = tangentsOff(pose, passes.frames(), compared);
         const double trianglesTime = passes.run(Pass::triangles), triangles = trianglesOff(pose, passes.triangles());
-        std::printf("%s %.4f %td %.4f %zu %.4f %.2f %.2f %.2f\n", motion.name, smooth,
+        const double normalsTime = passes.run(Pass::normals);
+        std::printf("%s %.4f %td %.4f %zu %.4f %.2f %.2f %.2f %.2f\n", motion.name, smooth,
                     std::count(compared.begin(), compared.end(), false), tangents.within, tangents.further, triangles,
-                    smoothTime, tangentsTime, trianglesTime);
+                    smoothTime, tangentsTime, trianglesTime, normalsTime);
     }
 }

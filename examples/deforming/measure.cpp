@@ -63,17 +63,21 @@ glm::vec3 byTangent(glm::vec3 n, glm::vec4 t, glm::vec3 m)
 } // namespace
 
 Measured::Measured(const Gpu& gpu, std::uint32_t around, std::uint32_t along)
-    : rest_(tube(around, along)), tangents_(rest_.positions.size()), passes_(gpu, rest_, cotan::makeAdjacency(rest_.view()))
+    : rest_(tube(around, along)), tangents_(rest_.positions.size()), passes_(gpu, rest_, cotan::makeAdjacency(rest_.view()), cotan::makeNormalAdjacency(rest_.view()))
 {
     const std::vector<glm::vec4> corners = cotan::mikktspaceTangents(rest_.view());
     for (std::size_t c = 0; c < corners.size(); ++c)
         tangents_[rest_.indices[c]] = corners[c]; // nothing is mirrored: all corners of a vertex agree
 }
 
-Errors Measured::at(const Motion& motion, double s, Normals normals)
+Errors Measured::at(const Motion& motion, double s, bool deriveNormals)
 {
-    const Mesh pose = posed(rest_, motion, s, normals);
+    Mesh pose = posed(rest_, motion, s, Normals::carried);
     passes_.pose(pose.positions, pose.normals);
+    if (deriveNormals) {
+        passes_.run(Pass::normals);
+        pose.normals = passes_.normals();
+    }
     passes_.run(Pass::tangents);
     const std::vector<glm::vec4> derived = passes_.frames();
     passes_.run(Pass::triangles);

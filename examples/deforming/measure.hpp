@@ -13,12 +13,12 @@ struct Way {
 };
 // In the order of the numbers below.
 constexpr std::array<Way, 6> kWays = {{
-    {"normal alone", "the interpolated normal against the exact one, without a map"},
-    {"mikktspace, stored", "rest tangents, carried along like the normals"},
-    {"mikktspace, derived", "orthonormal tangents of the pose (tangents.comp)"},
-    {"cotangent", "from screen derivatives of the pose"},
-    {"triangle", "U and V of the pose as halfs (triangles.comp)"},
-    {"smooth", "averaged cotangents of the pose in 8 bytes (smooth.comp)"},
+    {"normal alone", "The interpolated normal against the exact one, without a map."},
+    {"mikktspace, stored", "Tangents of the rest pose, carried along by the engine."},
+    {"mikktspace, derived", "Orthonormal tangents of the pose (tangents.comp)."},
+    {"cotangent", "From screen derivatives."},
+    {"triangle", "U and V of each triangle as halfs (triangles.comp)."},
+    {"smooth", "Averaged cotangents in 8 bytes a vertex (smooth.comp)."},
 }};
 
 struct Errors {
@@ -30,7 +30,8 @@ struct Errors {
 class Measured {
 public:
     Measured(const Gpu& gpu, std::uint32_t around, std::uint32_t along);
-    Errors at(const Motion& motion, double s, Normals normals);
+    // With normals as the engine carries them along, or derived from the pose (normals.comp).
+    Errors at(const Motion& motion, double s, bool deriveNormals);
     const Mesh& rest() const { return rest_; }
 
 private:

@@ -28,6 +28,7 @@ struct Motion {
 // Bend and twist by two bones, shear by a morph target.
 extern const std::array<Motion, 3> kMotions;
 
+// carried: as an engine has them, to be replaced where they are derived.
 enum class Normals { carried, exact };
 
 // The mesh at time s.

@@ -6,6 +6,7 @@
 
 #include <glm/packing.hpp>
 
+#include "normals.comp.h"
 #include "smooth.comp.h"
 #include "tangents.comp.h"
 #include "triangles.comp.h"
@@ -23,19 +24,23 @@ constexpr std::uint32_t kMostInARow = 65535; // what every device can
 
 } // namespace
 
-Passes::Passes(const Gpu& gpu, const Mesh& rest, const cotan::Adjacency& adjacency)
-    : gpu_(gpu), vertexCount_(rest.positions.size()), triangleCount_(rest.indices.size() / 3), groups_(adjacency.groups()),
-      firstMirrored_(adjacency.firstMirrored), positions_(makeBuffer(gpu, rest.positions)),
+Passes::Groups Passes::upload(const Gpu& gpu, const cotan::Adjacency& a)
+{
+    return {a.groups(), a.firstMirrored, makeBuffer(gpu, a.vertexBegin), makeBuffer(gpu, a.vertices), makeBuffer(gpu, a.cornerBegin),
+            makeBuffer(gpu, a.corners)};
+}
+
+Passes::Passes(const Gpu& gpu, const Mesh& rest, const cotan::Adjacency& adjacency, const cotan::Adjacency& normalAdjacency)
+    : gpu_(gpu), vertexCount_(rest.positions.size()), triangleCount_(rest.indices.size() / 3), frameGroups_(upload(gpu, adjacency)),
+      normalGroups_(upload(gpu, normalAdjacency)), positions_(makeBuffer(gpu, rest.positions)),
       normals_(makeBuffer(gpu, rest.normals)), texcoords_(makeBuffer(gpu, rest.texcoords)),
-      indices_(makeBuffer(gpu, rest.indices)), vertexBegin_(makeBuffer(gpu, adjacency.vertexBegin)),
-      vertices_(makeBuffer(gpu, adjacency.vertices)), cornerBegin_(makeBuffer(gpu, adjacency.cornerBegin)),
-      corners_(makeBuffer(gpu, adjacency.corners)), frames_(makeBuffer(gpu, nullptr, 8 * vertexCount_)),
+      indices_(makeBuffer(gpu, rest.indices)), frames_(makeBuffer(gpu, nullptr, 8 * vertexCount_)),
       triangles_(makeBuffer(gpu, nullptr, 12 * triangleCount_))
 {
     const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Derive));
     layout_ = vk::raii::PipelineLayout(gpu.device, vk::PipelineLayoutCreateInfo({}, {}, range));
     using Code = std::span<const std::uint32_t>;
-    for (const Code code : {Code(smooth_comp), Code(tangents_comp), Code(triangles_comp)})
+    for (const Code code : {Code(normals_comp), Code(smooth_comp), Code(tangents_comp), Code(triangles_comp)})
         pipelines_.push_back(makePipeline(gpu, *layout_, std::array{Stage{vk::ShaderStageFlagBits::eCompute, code}}, {}, {}));
 }
 
@@ -47,10 +52,11 @@ void Passes::pose(const std::vector<glm::vec3>& positions, const std::vector<glm
 
 double Passes::run(Pass pass)
 {
-    const auto count = pass == Pass::triangles ? static_cast<std::uint32_t>(triangleCount_) : groups_;
-    const Derive constants{positions_.address, normals_.address, texcoords_.address, indices_.address, vertexBegin_.address,
-                           vertices_.address, cornerBegin_.address, corners_.address, frames_.address, triangles_.address,
-                           count, firstMirrored_};
+    const Groups& groups = pass == Pass::normals ? normalGroups_ : frameGroups_;
+    const auto count = pass == Pass::triangles ? static_cast<std::uint32_t>(triangleCount_) : groups.count;
+    const Derive constants{positions_.address, normals_.address, texcoords_.address, indices_.address, groups.vertexBegin.address,
+                           groups.vertices.address, groups.cornerBegin.address, groups.corners.address, frames_.address,
+                           triangles_.address, count, groups.firstMirrored};
     const vk::raii::CommandBuffers list(gpu_.device, {*gpu_.pool, vk::CommandBufferLevel::ePrimary, 1});
     const vk::raii::CommandBuffer& commands = list.front();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -67,6 +73,13 @@ double Passes::run(Pass pass)
     gpu_.queue.submit(vk::SubmitInfo({}, {}, *commands));
     gpu_.queue.waitIdle();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<glm::vec3> Passes::normals() const
+{
+    std::vector<glm::vec3> out(vertexCount_);
+    std::memcpy(out.data(), normals_.data, out.size() * sizeof(out[0]));
+    return out;
 }
 
 std::vector<glm::vec4> Passes::frames() const

@@ -24,7 +24,7 @@ struct Adjacency {
     // vertices that only these or none use has no corners, and its frame is zero.
     std::vector<std::uint32_t> cornerBegin;
     std::vector<std::uint32_t> corners;
-    // Groups from this one on are mirrored: the sign w of a glTF TANGENT is -1 there.
+    // Groups from this one on are mirrored: the sign w of glTF's TANGENT is -1 there.
     std::uint32_t firstMirrored = 0;
 
     std::uint32_t groups() const { return vertexBegin.empty() ? 0 : static_cast<std::uint32_t>(vertexBegin.size() - 1); }
@@ -39,5 +39,10 @@ struct Adjacency {
 // (splitMirrored), and make the adjacency of the result.
 // Arrays of other sizes, or an index out of range, give an empty result.
 Adjacency makeAdjacency(const MeshView& mesh);
+
+// The same for normals, which do not stop at the seams of texcoords: groups of equal position and normal, with
+// the corners of all their triangles that have area at rest; texcoords play no part. Groups from
+// firstMirrored on have triangles wound against their normals: turn the sum of the face normals there.
+Adjacency makeNormalAdjacency(const MeshView& mesh);
 
 } // namespace cotan
