@@ -26,12 +26,13 @@ cotan::Cotangents gathered(const Arrays& a, const Adjacency& adjacency)
         double weight = 0;
         for (std::uint32_t i = adjacency.cornerBegin[g]; i < adjacency.cornerBegin[g + 1]; ++i) {
             const std::uint32_t c = adjacency.corners[i], f = c / 3 * 3;
-            const std::uint32_t v0 = a.indices[c], v1 = a.indices[f + (c + 1 - f) % 3], v2 = a.indices[f + (c + 2 - f) % 3];
+            const std::uint32_t v0 = a.indices[c], v1 = a.indices[f + (c + 1 - f) % 3],
+                                v2 = a.indices[f + (c + 2 - f) % 3];
             const glm::dvec3 e1 = glm::dvec3(a.positions[v1]) - glm::dvec3(a.positions[v0]),
                              e2 = glm::dvec3(a.positions[v2]) - glm::dvec3(a.positions[v0]);
-            const auto frame = cotan::f64::cotan_frame_gradient(
-                n, e1, e2, glm::dvec2(a.texcoords[v1]) - glm::dvec2(a.texcoords[v0]),
-                glm::dvec2(a.texcoords[v2]) - glm::dvec2(a.texcoords[v0]));
+            const auto frame =
+                cotan::f64::cotan_frame_gradient(n, e1, e2, glm::dvec2(a.texcoords[v1]) - glm::dvec2(a.texcoords[v0]),
+                                                 glm::dvec2(a.texcoords[v2]) - glm::dvec2(a.texcoords[v0]));
             const double angle = degreesBetween(e1 - n * glm::dot(n, e1), e2 - n * glm::dot(n, e2));
             u += frame.t * angle;
             v += frame.b * angle;
@@ -143,7 +144,7 @@ TEST(Adjacency, leavesTrianglesWithoutAreaOutAndKeepsTheirVertices)
     const std::size_t sound = a.indices.size();
     const std::uint32_t lone = a.add({5, 5, 5}, {0, 0, 1}, {0, 0});
     const std::uint32_t p = a.add({6, 5, 5}, {0, 0, 1}, {1, 0}), q = a.add({7, 5, 5}, {0, 0, 1}, {0, 1}); // on a line
-    const std::uint32_t s = a.add({6, 6, 5}, {0, 0, 1}, {1, 0});                                         // no uv
+    const std::uint32_t s = a.add({6, 6, 5}, {0, 0, 1}, {1, 0});                                          // no uv
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::uint32_t none = a.add({nan, 6, 5}, {0, 0, 1}, {0, 1}), unused = a.add({9, 9, 9}, {0, 0, 0}, {0, 0});
     for (const std::uint32_t i : {lone, p, q, lone, p, s, lone, lone, p, lone, s, none, 0u, 0u, 1u})

@@ -7,7 +7,7 @@ target_compile_definitions(examples_test PRIVATE
 add_dependencies(examples_test cotan)
 
 # As their own CMakeLists.txt build them, but within this build.
-target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp)
+target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp examples_deforming_test.cpp)
 find_package(embree 3 CONFIG QUIET)
 if(embree_FOUND)
   add_executable(example_raytracing ${PROJECT_SOURCE_DIR}/examples/raytracing/main.cpp)

@@ -30,7 +30,8 @@ std::vector<std::vector<std::uint32_t>> cornersOf(const cotan::Adjacency& a)
     std::vector<std::vector<std::uint32_t>> corners(a.vertices.size());
     for (std::uint32_t g = 0; g < a.groups(); ++g)
         for (std::uint32_t i = a.vertexBegin[g]; i < a.vertexBegin[g + 1]; ++i)
-            corners[a.vertices[i]].assign(a.corners.begin() + a.cornerBegin[g], a.corners.begin() + a.cornerBegin[g + 1]);
+            corners[a.vertices[i]].assign(a.corners.begin() + a.cornerBegin[g],
+                                          a.corners.begin() + a.cornerBegin[g + 1]);
     return corners;
 }
 
@@ -41,7 +42,8 @@ bool cancel(const Mesh& mesh, const std::vector<std::uint32_t>& corners)
     glm::dvec3 u(0), v(0);
     double longest = 0;
     for (const std::uint32_t c : corners) {
-        const std::uint32_t f = c / 3 * 3, v0 = mesh.indices[c], v1 = mesh.indices[f + (c + 1) % 3], v2 = mesh.indices[f + (c + 2) % 3];
+        const std::uint32_t f = c / 3 * 3, v0 = mesh.indices[c], v1 = mesh.indices[f + (c + 1) % 3],
+                            v2 = mesh.indices[f + (c + 2) % 3];
         const glm::dvec3 p(mesh.positions[v0]);
         const glm::dvec2 uv(mesh.texcoords[v0]);
         const cotan::f64::cotan_frame g = cotan::f64::cotan_frame_gradient(
@@ -57,7 +59,7 @@ bool cancel(const Mesh& mesh, const std::vector<std::uint32_t>& corners)
 // Vertices that have the same triangles in the pose as at load, a normal, and a direction.
 std::vector<bool> comparable(const cotan::Adjacency& rest, const Mesh& pose)
 {
-    const auto before = cornersOf(rest), now = cornersOf(cotan::makeAdjacency(pose.view()));
+    const auto before = cornersOf(rest), now = cornersOf(cotan::makeAdjacency(viewOf(pose)));
     std::vector<bool> out;
     for (std::size_t v = 0; v < before.size(); ++v)
         out.push_back(before[v] == now[v] && std::isfinite(glm::dot(pose.normals[v], pose.normals[v]))
@@ -67,7 +69,7 @@ std::vector<bool> comparable(const cotan::Adjacency& rest, const Mesh& pose)
 
 double smoothOff(const Mesh& pose, const std::vector<glm::vec4>& packed, const std::vector<bool>& compared)
 {
-    const cotan::Cotangents expected = cotan::unitCotangents(cotan::smoothCotangents(pose.view()));
+    const cotan::Cotangents expected = cotan::unitCotangents(cotan::smoothCotangents(viewOf(pose)));
     double most = 0;
     for (std::size_t v = 0; v < packed.size(); ++v) {
         if (!compared[v])
@@ -80,11 +82,12 @@ double smoothOff(const Mesh& pose, const std::vector<glm::vec4>& packed, const s
 
 double trianglesOff(const Mesh& pose, const std::vector<std::array<std::uint32_t, 3>>& packed)
 {
-    const std::vector<cotan::TriangleVectors> expected = cotan::triangleVectors(pose.view());
+    const std::vector<cotan::TriangleVectors> expected = cotan::triangleVectors(viewOf(pose));
     double most = 0;
     for (std::size_t f = 0; f < packed.size(); ++f) {
         const f32::cotan_packed_triangle p{packed[f][0], packed[f][1], packed[f][2]};
-        most = std::max({most, apart(f32::cotan_unpack_triangle_u(p), expected[f].u), apart(f32::cotan_unpack_triangle_v(p), expected[f].v)});
+        most = std::max({most, apart(f32::cotan_unpack_triangle_u(p), expected[f].u),
+                         apart(f32::cotan_unpack_triangle_v(p), expected[f].v)});
     }
     return most;
 }
@@ -96,7 +99,7 @@ struct TangentsOff {
 };
 TangentsOff tangentsOff(const Mesh& pose, const std::vector<glm::vec4>& frames, const std::vector<bool>& compared)
 {
-    const std::vector<glm::vec4> expected = cotan::mikktspaceTangents(pose.view());
+    const std::vector<glm::vec4> expected = cotan::mikktspaceTangents(viewOf(pose));
     TangentsOff off;
     for (std::size_t c = 0; c < expected.size(); ++c) {
         if (!compared[pose.indices[c]])
@@ -114,12 +117,13 @@ TangentsOff tangentsOff(const Mesh& pose, const std::vector<glm::vec4>& frames, 
 void check(const Gpu& gpu, const Mesh& rest)
 {
     const auto start = std::chrono::steady_clock::now();
-    const cotan::Adjacency adjacency = cotan::makeAdjacency(rest.view());
-    std::printf("%zu vertices in %u groups, %zu triangles, adjacency made in %.0f ms\n", rest.positions.size(), adjacency.groups(),
-                rest.indices.size() / 3, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    const cotan::Adjacency adjacency = cotan::makeAdjacency(viewOf(rest));
+    std::printf("%zu vertices in %u groups, %zu triangles, adjacency made in %.0f ms\n", rest.positions.size(),
+                adjacency.groups(), rest.indices.size() / 3,
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     std::printf("degrees from the C++, at most: smooth (and vertices not compared), tangents (and corners "
                 "further apart than 1), triangles; ms of each pass and of normals\n");
-    Passes passes(gpu, rest, adjacency, cotan::makeNormalAdjacency(rest.view()));
+    Passes passes(gpu, rest, adjacency, cotan::makeNormalAdjacency(viewOf(rest)));
     for (const Pass pass : {Pass::normals, Pass::smooth, Pass::tangents, Pass::triangles})
         passes.run(pass); // the first run of a pipeline is slower
     for (const Motion& motion : kMotions) {

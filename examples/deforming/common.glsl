@@ -27,12 +27,16 @@ layout(push_constant, std430) uniform Derive {
 }
 derive;
 
-vec3 positionOf(uint v) { return vec3(derive.positions.at[3u * v], derive.positions.at[3u * v + 1u], derive.positions.at[3u * v + 2u]); }
-vec3 normalOf(uint v) { return vec3(derive.normals.at[3u * v], derive.normals.at[3u * v + 1u], derive.normals.at[3u * v + 2u]); }
+vec3 vectorAt(Floats list, uint v) { return vec3(list.at[3u * v], list.at[3u * v + 1u], list.at[3u * v + 2u]); }
+vec3 positionOf(uint v) { return vectorAt(derive.positions, v); }
+vec3 normalOf(uint v) { return vectorAt(derive.normals, v); }
 vec2 texcoordOf(uint v) { return vec2(derive.texcoords.at[2u * v], derive.texcoords.at[2u * v + 1u]); }
 
 // A dispatch may be wider than one row of work groups can be.
-uint invocation() { return gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x; }
+uint invocation()
+{
+    return gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x;
+}
 
 // The edges from a corner to the next and to the previous one.
 struct Corner {

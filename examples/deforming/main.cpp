@@ -8,8 +8,9 @@
 
 static int usage()
 {
-    std::fprintf(stderr, "usage: deforming_example check teapot|tube|seam|strange|large|MODEL\n"
-                         "       deforming_example figure FILE.html\n");
+    std::fprintf(stderr,
+                 "usage: deforming_example check teapot|tube|seam|strange|large|MODEL\n"
+                 "       deforming_example figure FILE.html\n");
     return 1;
 }
 

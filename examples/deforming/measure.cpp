@@ -34,11 +34,13 @@ struct Truth {
 Truth truthAt(const Motion& motion, double s, glm::dvec2 uv, glm::dvec3 m)
 {
     const double turn = uv.x / kTubeRadius;
-    const glm::dvec3 out(std::sin(turn), 0, std::cos(turn)), p = out * kTubeRadius + glm::dvec3(0, kTubeHeight / 2 - uv.y, 0);
+    const glm::dvec3 out(std::sin(turn), 0, std::cos(turn)),
+        p = out * kTubeRadius + glm::dvec3(0, kTubeHeight / 2 - uv.y, 0);
     const glm::dmat3 d = motion.derivative(p, s);
     const glm::dvec3 pu = d * glm::dvec3(out.z, 0, -out.x), pv = d * glm::dvec3(0, -1, 0); // dP/du, dP/dv
     const glm::dvec3 n = motion.exactNormal(p, out, s);
-    const glm::dvec3 u = glm::cross(pv, n) / glm::dot(pu, glm::cross(pv, n)), v = glm::cross(n, pu) / glm::dot(pv, glm::cross(n, pu));
+    const glm::dvec3 u = glm::cross(pv, n) / glm::dot(pu, glm::cross(pv, n)),
+                     v = glm::cross(n, pu) / glm::dot(pv, glm::cross(n, pu));
     const double scale = 1 / std::max(glm::length(u), glm::length(v));
     return {n, glm::normalize(n * m.z + (u * m.x + v * m.y) * scale)};
 }
@@ -63,9 +65,10 @@ glm::vec3 byTangent(glm::vec3 n, glm::vec4 t, glm::vec3 m)
 } // namespace
 
 Measured::Measured(const Gpu& gpu, std::uint32_t around, std::uint32_t along)
-    : rest_(tube(around, along)), tangents_(rest_.positions.size()), passes_(gpu, rest_, cotan::makeAdjacency(rest_.view()), cotan::makeNormalAdjacency(rest_.view()))
+    : rest_(tube(around, along)), tangents_(rest_.positions.size()),
+      passes_(gpu, rest_, cotan::makeAdjacency(viewOf(rest_)), cotan::makeNormalAdjacency(viewOf(rest_)))
 {
-    const std::vector<glm::vec4> corners = cotan::mikktspaceTangents(rest_.view());
+    const std::vector<glm::vec4> corners = cotan::mikktspaceTangents(viewOf(rest_));
     for (std::size_t c = 0; c < corners.size(); ++c)
         tangents_[rest_.indices[c]] = corners[c]; // nothing is mirrored: all corners of a vertex agree
 }
@@ -90,7 +93,8 @@ Errors Measured::at(const Motion& motion, double s, bool deriveNormals)
         const f32::cotan_covectors c = f32::cotan_unpack_smooth8(pose.normals[v], packed[v]);
         t.push_back(c.t);
         b.push_back(c.b);
-        stored.emplace_back(glm::vec3(motion.carriedTangent(rest_.positions[v], glm::vec3(tangents_[v]), s)), tangents_[v].w);
+        stored.emplace_back(glm::vec3(motion.carriedTangent(rest_.positions[v], glm::vec3(tangents_[v]), s)),
+                            tangents_[v].w);
     }
 
     Errors errors;
@@ -101,18 +105,22 @@ Errors Measured::at(const Motion& motion, double s, bool deriveNormals)
         const glm::vec3 u = f32::cotan_unpack_triangle_u(halfs), v = f32::cotan_unpack_triangle_v(halfs);
         const auto edge = [&](const auto& values, int k) { return values[at.v[std::size_t(k)]] - values[at.v[0]]; };
         std::array<double, kWays.size()> sum{};
-        for (const glm::dvec3 weights : {glm::dvec3(1, 1, 1) / 3.0, glm::dvec3(4, 1, 1) / 6.0, glm::dvec3(1, 4, 1) / 6.0,
-                                         glm::dvec3(1, 1, 4) / 6.0}) {
+        for (const glm::dvec3 weights : {glm::dvec3(1, 1, 1) / 3.0, glm::dvec3(4, 1, 1) / 6.0,
+                                         glm::dvec3(1, 4, 1) / 6.0, glm::dvec3(1, 1, 4) / 6.0}) {
             at.weights = weights;
             const glm::vec2 uv = at(rest_.texcoords);
             const glm::dvec3 texelThere = texel(uv);
             const glm::vec3 m(texelThere), n = at(pose.normals);
             const Truth truth = truthAt(motion, s, uv, texelThere);
-            const f32::cotan_frame cotangent = f32::cotan_frame_cotangent(n, edge(pose.positions, 1), edge(pose.positions, 2),
-                                                                          edge(rest_.texcoords, 1), edge(rest_.texcoords, 2));
-            const std::array<glm::vec3, kWays.size()> found = {
-                n, byTangent(n, at(stored), m), byTangent(n, at(derived), m), f32::cotan_apply(cotangent, m),
-                f32::cotan_perturb_triangle(n, u, v, m), f32::cotan_perturb_smooth(n, at(t), at(b), m)};
+            const f32::cotan_frame cotangent =
+                f32::cotan_frame_cotangent(n, edge(pose.positions, 1), edge(pose.positions, 2),
+                                           edge(rest_.texcoords, 1), edge(rest_.texcoords, 2));
+            const std::array<glm::vec3, kWays.size()> found = {n,
+                                                               byTangent(n, at(stored), m),
+                                                               byTangent(n, at(derived), m),
+                                                               f32::cotan_apply(cotangent, m),
+                                                               f32::cotan_perturb_triangle(n, u, v, m),
+                                                               f32::cotan_perturb_smooth(n, at(t), at(b), m)};
             for (std::size_t way = 0; way < found.size(); ++way) {
                 const double degrees = degreesBetween(found[way], way == 0 ? truth.normal : truth.perturbed);
                 all[way].push_back(degrees);

@@ -22,7 +22,7 @@ constexpr std::array<Way, 6> kWays = {{
 }};
 
 struct Errors {
-    std::array<double, kWays.size()> mean{}, most95{}; // degrees
+    std::array<double, kWays.size()> mean{}, most95{};      // degrees
     std::array<std::vector<float>, kWays.size()> triangles; // the mean of each triangle
 };
 

@@ -63,7 +63,8 @@ struct Shear {
 
 const std::array<Motion, 3> kMotions = {{
     {"bend", "two bones, the upper one turned by 100 degrees about z", Bend::position, Bend::derivative, Bend::blend},
-    {"twist", "two bones, the upper one turned by 100 degrees about the tube", Twist::position, Twist::derivative, Twist::blend},
+    {"twist", "two bones, the upper one turned by 100 degrees about the tube", Twist::position, Twist::derivative,
+     Twist::blend},
     {"shear", "a morph target that leans the tube by 45 degrees; it holds positions and normals", Shear::position,
      Shear::derivative, nullptr},
 }};

@@ -5,7 +5,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "mesh.hpp"
+#include "meshes.hpp"
 
 struct Motion {
     const char* name;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "page_text.hpp"
+#include "page.html.h"
 
 namespace {
 
-constexpr std::uint32_t kAround = 48, kAlong = 64;            // of the mesh that is measured
-constexpr std::uint32_t kCellsAround = 16, kCellsAlong = 32;  // of the drawing, each of several triangles
+constexpr std::uint32_t kAround = 48, kAlong = 64;           // of the mesh that is measured
+constexpr std::uint32_t kCellsAround = 16, kCellsAlong = 32; // of the drawing, each of several triangles
 constexpr std::uint32_t kSteps = 20;
 
 // Items in brackets, as JSON.
@@ -35,7 +35,8 @@ std::string drawing(const Mesh& pose)
 {
     const double c = std::cos(0.4), s = std::sin(0.4), d = std::cos(0.3), t = std::sin(0.3);
     return list((kCellsAround + 1) * (kCellsAlong + 1), [&](std::size_t i) {
-        const std::size_t column = i % (kCellsAround + 1) * (kAround / kCellsAround), row = i / (kCellsAround + 1) * (kAlong / kCellsAlong);
+        const std::size_t column = i % (kCellsAround + 1) * (kAround / kCellsAround),
+                          row = i / (kCellsAround + 1) * (kAlong / kCellsAlong);
         const glm::dvec3 p(pose.positions[row * (kAround + 1) + column]);
         const double x = c * p.x + s * p.z, z = c * p.z - s * p.x, y = d * p.y - t * z, near = t * p.y + d * z;
         const auto whole = [](double pixels) { return std::to_string(std::lround(pixels)); };
@@ -82,10 +83,13 @@ std::string measured(Measured& tube, const Motion& motion)
         });
     };
     return "{\"name\":" + quoted(motion.name) + ",\"text\":" + quoted(motion.text)
-        + ",\"means\":" + over(0, [](const Errors& e, std::size_t way) { return number(e.mean[way]); })
-        + ",\"most95\":" + over(0, [](const Errors& e, std::size_t way) { return number(e.most95[way]); })
-        + ",\"cells\":" + over(1, [](const Errors& e, std::size_t way) { return cells(e.triangles[way]); }) + ",\"points\":"
-        + list(kSteps + 1, [&](std::size_t step) { return drawing(posed(tube.rest(), motion, double(step) / kSteps, Normals::exact)); })
+        + ",\"means\":" + over(0, [](const Errors& e, std::size_t way) { return number(e.mean[way]); }) + ",\"most95\":"
+        + over(0, [](const Errors& e, std::size_t way) { return number(e.most95[way]); }) + ",\"cells\":"
+        + over(1, [](const Errors& e, std::size_t way) { return cells(e.triangles[way]); }) + ",\"points\":"
+        + list(kSteps + 1,
+               [&](std::size_t step) {
+                   return drawing(posed(tube.rest(), motion, double(step) / kSteps, Normals::exact));
+               })
         + "}\n";
 }
 
@@ -100,8 +104,11 @@ std::string figure(const Gpu& gpu)
     std::printf("\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
     const std::string data = "{\"around\":" + std::to_string(kCellsAround) + ",\"along\":" + std::to_string(kCellsAlong)
         + ",\"steps\":" + std::to_string(kSteps) + ",\"ways\":"
-        + list(kWays.size(), [](std::size_t i) { return "{\"name\":" + quoted(kWays[i].name) + ",\"text\":" + quoted(kWays[i].text) + "}"; })
+        + list(kWays.size(),
+               [](std::size_t i) {
+                   return "{\"name\":" + quoted(kWays[i].name) + ",\"text\":" + quoted(kWays[i].text) + "}";
+               })
         + ",\"motions\":" + list(kMotions.size(), [&](std::size_t i) { return measured(tube, kMotions[i]); }) + "}";
-    std::string page = kPageText;
+    std::string page = kPage;
     return page.replace(page.find("DATA"), 4, data);
 }

@@ -10,14 +10,15 @@
 #include <cotan/adjacency.hpp>
 
 #include "../triangle/gpu.hpp"
-#include "mesh.hpp"
+#include "meshes.hpp"
 
 enum class Pass { normals, smooth, tangents, triangles };
 
 class Passes {
 public:
     // Uploads what stays as it is: texcoords, indices, adjacency.
-    Passes(const Gpu& gpu, const Mesh& rest, const cotan::Adjacency& adjacency, const cotan::Adjacency& normalAdjacency);
+    Passes(const Gpu& gpu, const Mesh& rest, const cotan::Adjacency& adjacency,
+           const cotan::Adjacency& normalAdjacency);
 
     // The pose for the passes that follow, in the order of the rest mesh. Pass::normals writes over the normals.
     void pose(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals);

@@ -27,7 +27,10 @@ struct Adjacency {
     // Groups from this one on are mirrored: the sign w of glTF's TANGENT is -1 there.
     std::uint32_t firstMirrored = 0;
 
-    std::uint32_t groups() const { return vertexBegin.empty() ? 0 : static_cast<std::uint32_t>(vertexBegin.size() - 1); }
+    std::uint32_t groups() const
+    {
+        return vertexBegin.empty() ? 0 : static_cast<std::uint32_t>(vertexBegin.size() - 1);
+    }
 };
 
 // From the mesh as it is loaded, in its rest pose. Linear in time and memory.

@@ -86,7 +86,8 @@ Adjacency makeNormalAdjacency(const MeshView& mesh)
     }
     std::vector<std::size_t> slots(count);
     for (std::size_t v = 0; v < count; ++v)
-        slots[v] = 2 * std::size_t(first[v]) + (corners[2 * std::size_t(first[v]) + 1] > corners[2 * std::size_t(first[v])] ? 1 : 0);
+        slots[v] = 2 * std::size_t(first[v])
+            + (corners[2 * std::size_t(first[v]) + 1] > corners[2 * std::size_t(first[v])] ? 1 : 0);
     return adjacencyOf(mesh, slots, [&](std::uint32_t c) { return slotOf[c]; });
 }
 

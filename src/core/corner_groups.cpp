@@ -11,8 +11,8 @@ Edges edgesAt(const MeshView& mesh, std::size_t f, std::size_t k)
                         c = mesh.indices[3 * f + (k + 2) % 3];
     const glm::dvec3 p(mesh.positions[a]);
     const glm::dvec2 t(mesh.texcoords[a]);
-    return {glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p,
-            glm::dvec2(mesh.texcoords[b]) - t, glm::dvec2(mesh.texcoords[c]) - t};
+    return {glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p, glm::dvec2(mesh.texcoords[b]) - t,
+            glm::dvec2(mesh.texcoords[c]) - t};
 }
 
 Side sideAt(const Edges& e, glm::vec3 normal)
@@ -38,8 +38,8 @@ std::vector<Side> cornerSides(const MeshView& mesh)
 // Adds the gradients of a corner's triangle; returns the weight that they got.
 static float addCorner(CotangentSums& sums, std::size_t at, const Edges& e, glm::vec3 n)
 {
-    const f32::cotan_frame frame = f32::cotan_frame_gradient(n, glm::vec3(e.dp1), glm::vec3(e.dp2),
-                                                             glm::vec2(e.duv1), glm::vec2(e.duv2));
+    const f32::cotan_frame frame =
+        f32::cotan_frame_gradient(n, glm::vec3(e.dp1), glm::vec3(e.dp2), glm::vec2(e.duv1), glm::vec2(e.duv2));
     const float weight = projectedAngle(glm::vec3(0), glm::vec3(e.dp1), glm::vec3(e.dp2), n);
     if (!(weight > 0) || (isZero(frame.t) && isZero(frame.b)))
         return 0;
@@ -52,7 +52,8 @@ static float addCorner(CotangentSums& sums, std::size_t at, const Edges& e, glm:
 CornerGroups groupCorners(const MeshView& mesh)
 {
     const std::size_t count = mesh.positions.size();
-    CornerGroups g{weld(mesh), std::vector<Side>(mesh.indices.size()), CotangentSums(2 * count), std::vector<std::size_t>(count)};
+    CornerGroups g{weld(mesh), std::vector<Side>(mesh.indices.size()), CotangentSums(2 * count),
+                   std::vector<std::size_t>(count)};
     std::vector<float> share(2 * count, 0.0f); // angle by vertex as given and side
     for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
         const std::uint32_t vertex = mesh.indices[c];
@@ -65,9 +66,7 @@ CornerGroups groupCorners(const MeshView& mesh)
     for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
         const float plain = share[slot(vertex, Side::unmirrored)];
         const float mirrored = share[slot(vertex, Side::mirrored)];
-        const Side own = plain + mirrored == 0 ? Side::none
-            : mirrored > plain                 ? Side::mirrored
-                                               : Side::unmirrored;
+        const Side own = plain + mirrored == 0 ? Side::none : mirrored > plain ? Side::mirrored : Side::unmirrored;
         g.slots[vertex] = slot(g.first[vertex], sideOrNearest(own, g.first[vertex], isEmpty));
     }
     return g;

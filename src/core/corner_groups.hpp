@@ -30,19 +30,15 @@ enum class Side : std::uint8_t { unmirrored = 0, mirrored = 1, none = 2 };
 Side sideAt(const Edges& e, glm::vec3 normal);
 std::vector<Side> cornerSides(const MeshView& mesh);
 
-inline std::size_t slot(std::uint32_t vertex, Side side)
-{
-    return 2 * std::size_t(vertex) + std::size_t(side);
-}
+inline std::size_t slot(std::uint32_t vertex, Side side) { return 2 * std::size_t(vertex) + std::size_t(side); }
 
 // What a corner without a side of its own takes: that of the vertex, where it has any.
 Side sideOrNearest(Side side, std::uint32_t vertex, const auto& isEmpty)
 {
     if (side != Side::none)
         return side;
-    return isEmpty(slot(vertex, Side::unmirrored)) && !isEmpty(slot(vertex, Side::mirrored))
-        ? Side::mirrored
-        : Side::unmirrored;
+    return isEmpty(slot(vertex, Side::unmirrored)) && !isEmpty(slot(vertex, Side::mirrored)) ? Side::mirrored
+                                                                                             : Side::unmirrored;
 }
 
 // Sums by slot: of a welded vertex, on one side.
@@ -50,9 +46,7 @@ struct CotangentSums {
     std::vector<glm::vec3> u, v;
     std::vector<float> weight;
 
-    explicit CotangentSums(std::size_t n) : u(n, glm::vec3(0)), v(n, glm::vec3(0)), weight(n, 0.0f)
-    {
-    }
+    explicit CotangentSums(std::size_t n) : u(n, glm::vec3(0)), v(n, glm::vec3(0)), weight(n, 0.0f) {}
     bool isEmpty(std::size_t at) const { return !(weight[at] > 0); }
 };
 

@@ -1,23 +1,12 @@
-// The meshes that are deformed, around the origin. Tubes are 4 units tall; others fit into 2, so that bending folds none.
+// The meshes that are deformed, around the origin. Tubes are 4 units tall; others fit into 2, so that bending folds
+// none.
 #pragma once
-
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <cotan/tangents.hpp>
 
-struct Mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;
-    std::vector<glm::vec2> texcoords; // v down
-    std::vector<std::uint32_t> indices;
+#include "../triangle/mesh.hpp"
 
-    cotan::MeshView view() const { return {positions, normals, texcoords, indices}; }
-};
+inline cotan::MeshView viewOf(const Mesh& mesh) { return {mesh.positions, mesh.normals, mesh.texcoords, mesh.indices}; }
 
 constexpr double kTubeRadius = 0.5, kTubeHeight = 4;
 

@@ -1,4 +1,4 @@
-#include "mesh.hpp"
+#include "meshes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,11 @@
 #include <glm/common.hpp>
 
 #include <cotan/model/load.hpp>
-#include <cotan/shapes/shapes.hpp>
 
 namespace {
 
-Mesh centred(const cotan::Mesh& source)
+Mesh centred(Mesh mesh)
 {
-    Mesh mesh{source.positions, source.normals, source.texcoords[0], source.indices};
     glm::vec3 low(1e30f), high(-1e30f);
     for (const glm::vec3 p : mesh.positions) {
         low = glm::min(low, p);
@@ -26,19 +24,6 @@ Mesh centred(const cotan::Mesh& source)
     for (glm::vec3& p : mesh.positions)
         p = (p - 0.5f * (low + high)) * scale;
     return mesh;
-}
-
-Mesh split(const Mesh& mesh)
-{
-    const cotan::VertexSplit parts = cotan::splitMirrored(mesh.view());
-    Mesh out;
-    out.indices = parts.indices;
-    for (const std::uint32_t source : parts.sources) {
-        out.positions.push_back(mesh.positions[source]);
-        out.normals.push_back(mesh.normals[source]);
-        out.texcoords.push_back(mesh.texcoords[source]);
-    }
-    return out;
 }
 
 Mesh seam()
@@ -65,19 +50,19 @@ Mesh strange()
     // On a line in space, on a line in uv, the same vertex twice and three times, the same place twice, not finite.
     for (const std::uint32_t i : {a, b, c, a, b, d, a, b, b, a, a, a, a, equal, d, a, b, e, a, b, f})
         mesh.indices.push_back(i);
-    add({0, 1, 0}, {0, 0}); // used by none
+    add({0, 1, 0}, {0, 0});                                      // used by none
     mesh.indices.insert(mesh.indices.end(), {0, 1, 0, 5, 5, 5}); // sound vertices, too
     return mesh;
 }
 
-Mesh model(const std::string& file)
+Mesh fromFile(const std::string& file)
 {
     const auto scene = cotan::loadScene(file);
     if (!scene)
         throw std::runtime_error(scene.error().message);
     for (const cotan::Mesh& mesh : scene->meshes)
         if (!mesh.texcoords[0].empty())
-            return centred(mesh);
+            return centred({mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices});
     throw std::runtime_error(file + ": expected a mesh with texture coordinates; found none");
 }
 
@@ -104,10 +89,10 @@ Mesh tube(std::uint32_t around, std::uint32_t along)
 
 Mesh named(const std::string& name)
 {
-    return split(name == "teapot"  ? centred(cotan::makeTeapot(12))
-                 : name == "tube"  ? tube(48, 64)
-                 : name == "seam"  ? seam()
-                 : name == "strange" ? strange()
-                 : name == "large" ? tube(500, 1000)
-                                   : model(name));
+    return splitAtMirrors(name == "teapot"        ? centred(teapot())
+                              : name == "tube"    ? tube(48, 64)
+                              : name == "seam"    ? seam()
+                              : name == "strange" ? strange()
+                              : name == "large"   ? tube(500, 1000)
+                                                  : fromFile(name));
 }
