@@ -95,7 +95,7 @@ std::vector<RTCRayHit> raysOf(const LowSurface& low, const HighSurface& high, co
     const float diagonal = glm::length(high.high() - high.low()), reach = 0.05f * diagonal, lift = 1e-5f * diagonal;
     std::vector<RTCRayHit> forward, back;
     for (const auto& [at, place] : texelsOf(UvRaster({low.texcoords, low.indices}, size, size), square)) {
-        const LowPoint p = pointOf(low, Frame::exact, place.triangle, place.b1, place.b2);
+        const LowPoint p = pointOf(low, place.triangle, place.b1, place.b2);
         for (float way : {1.0f, -1.0f}) {
             const glm::vec3 d = glm::vec3(p.normal) * way, o = glm::vec3(p.position) - d * lift;
             RTCRayHit r{};
@@ -162,7 +162,7 @@ int main(int argc, char** argv)
     options.frame = Frame::smooth;
     options.width = options.height = size;
     options.threads = 1;
-    const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentSource::generated);
+    const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({*highScene}, 1);
     if (!low || !high)
         return 2;

@@ -32,7 +32,7 @@ void checkTotalFrames(Values values)
     const glm::vec3 n = anyVector(values), dpdx = anyVector(values), dpdy = anyVector(values), m = anyVector(values);
     const glm::vec2 duvdx = anyPair(values), duvdy = anyPair(values);
     for (const FrameInfo& frame : frames()) {
-        if (!frame.total || frame.source == FrameSource::vertices)
+        if (!frame.total || readsVertices(frame.frame))
             continue;
         const bool metric = frame.frame == Frame::gradient;
         const auto f = evaluate(frame.frame, n, dpdx, dpdy, duvdx, duvdy);

@@ -273,7 +273,7 @@ TEST_F(AssimpFile, mtlNormalMapsAreReadUnderEveryName)
         const Scene scene = loadMaterial(line + "\n");
         const Material& material = materialOf(scene);
         ASSERT_TRUE(material.normalMap.present()) << line;
-        EXPECT_FALSE(material.normalFormat.greenAlongV) << line;
+        EXPECT_TRUE(material.normalFormat.greenUp) << line;
         EXPECT_EQ(material.normalScale, line.find("-bm") != std::string::npos ? 0.5f : 1.0f)
             << line;
         EXPECT_TRUE(scene.warnings.empty()) << line << ": " << scene.warnings[0];
@@ -288,7 +288,7 @@ TEST_F(AssimpFile, normalMapNamedDirectXHasGreenAlongV)
         {"deluxdx_n.png", false},      {"dxfoo.png", false}};
     for (const auto& [name, along] : names) {
         writeColour(folder / name, 128, 128, 255);
-        EXPECT_EQ(materialOf(loadMaterial("norm " + name + "\n")).normalFormat.greenAlongV, along)
+        EXPECT_EQ(greenAlongV(materialOf(loadMaterial("norm " + name + "\n")).normalFormat), along)
             << name;
     }
 }
@@ -316,7 +316,7 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
         ASSERT_TRUE(material.normalMap.present());
         EXPECT_TRUE(mentions(scene.warnings, "height map"));
         EXPECT_EQ(material.normalScale, 1);
-        EXPECT_FALSE(material.normalFormat.greenAlongV);
+        EXPECT_TRUE(material.normalFormat.greenUp);
         const Image& map = scene.images[std::size_t(material.normalMap.image)];
         double worst = 0;
         for (int y = 0; y < side; ++y) {

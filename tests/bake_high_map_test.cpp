@@ -83,7 +83,7 @@ Baked bakeWithMap(const Scene& low, Scene high, BakeOptions options, Frame highF
 {
     std::vector<Scene> scenes;
     scenes.push_back(std::move(high));
-    const auto lowSurface = makeLowSurface(low, -1, options.frame, TangentSource::stored);
+    const auto lowSurface = makeLowSurface(low, -1, options.frame, TangentOrigin::stored);
     const auto surface = HighSurface::make(scenes, 1);
     auto maps = HighNormalMaps::make(scenes, highFrame);
     EXPECT_TRUE(lowSurface && surface && maps);
@@ -239,7 +239,7 @@ TEST(BakeHighMap, heightsAndOcclusionTakeNoNotice)
 {
     for (BakeKind kind : {BakeKind::height, BakeKind::occlusion}) {
         const Scene low = sheet(kPlain, {}), high = sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief));
-        const auto surface = makeLowSurface(low, -1, Frame::cotangent, TangentSource::stored);
+        const auto surface = makeLowSurface(low, -1, Frame::cotangent, TangentOrigin::stored);
         const auto plain = HighSurface::make({high}, 1);
         ASSERT_TRUE(surface && plain);
         BakeOptions options = square(kind);
@@ -255,7 +255,7 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.3, -0.2, 1));
     std::vector<Scene> high;
     high.push_back(sheet(kPlain, storedMap(4, 4, PixelType::float32, [&](double, double) { return m; })));
-    const auto low = makeLowSurface(sheet(kPlain, {}), -1, Frame::cotangent, TangentSource::stored);
+    const auto low = makeLowSurface(sheet(kPlain, {}), -1, Frame::cotangent, TangentOrigin::stored);
     const auto surface = HighSurface::make(high, 1);
     auto maps = HighNormalMaps::make(high, Frame::mikktspace);
     ASSERT_TRUE(low && surface && maps);

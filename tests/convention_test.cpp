@@ -60,8 +60,8 @@ TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
             EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << p.name << " " << bits;
             EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
         }
-    EXPECT_EQ(expansionFor(COTAN_EXPAND_BIASED, 16), COTAN_EXPAND_BIASED);
-    EXPECT_EQ(expansionFor(COTAN_EXPAND_SIGNED, 32), COTAN_EXPAND_SIGNED);
+    EXPECT_EQ(expansionFor(Expansion::biased, 16), COTAN_EXPAND_BIASED);
+    EXPECT_EQ(expansionFor(Expansion::signedValues, 32), COTAN_EXPAND_SIGNED);
 }
 
 TEST(Convention, descriptionNamesEveryChoice)

@@ -13,12 +13,13 @@
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr f64::cotan_normal_format kStored{0, 0, -1, 1}; // glTF: green against +v
+const auto kStored = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"));
 
 Image mapOf(glm::dvec3 m)
 {
@@ -64,8 +65,7 @@ Image normalMapIn(const GltfDocument& document, std::size_t image = 0)
 
 glm::dvec3 directionAt(const Image& image, int x, int y)
 {
-    f64::cotan_normal_format format = kStored;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    const auto format = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"), image.type);
     return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 

@@ -208,7 +208,7 @@ TEST(Tally, ofNothingIsNotZeroAndOfZerosIs)
 // A map of 4 by 2 under a rectangle, one unit of space per unit of uv; where on it a texel's first place lies.
 std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, Wrap wrapU, Wrap wrapV, int row)
 {
-    MapUse use{surfaceOf(rectangle({low.x, -high.y}, high - low, low, high)), kAsMeant, wrapU, wrapV};
+    MapUse use{surfaceOf(rectangle({low.x, -high.y}, high - low, low, high)), kAsMeant, 1, wrapU, wrapV};
     const convert::UseRaster raster(use, 4, 2);
     std::vector<std::vector<convert::Place>> texels(4);
     raster.addRow(row, 7, texels);
@@ -264,8 +264,8 @@ TEST(UseRaster, beyondAClampedAxisThereIsNothing)
 
 constexpr FramePair kPartsToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated, TangentOrigin::generated};
 // As glTF has it, but for green, which runs along v here.
-constexpr f64::cotan_normal_format kUnorm{0, 0, 1, 1};   // of a use, as for 8 bits
-constexpr f64::cotan_normal_format kUnorm16{expansionFor(0, 16), 0, 1, 1}; // what that is in pictures of 16
+constexpr Convention kUnorm{.greenUp = false};
+const auto kUnorm16 = toFormat<f64::cotan_normal_format>(kUnorm, 1, 16);
 
 Image unormMap(int width, int height, const std::function<glm::dvec3(int, int)>& texel)
 {
@@ -319,7 +319,7 @@ TEST(Reencode, greenAgainstVStaysAgainstV)
 {
     const Image map = unormMap(4, 2, [](int, int) { return glm::dvec3(0.1, 0.3, 1); });
     MapUse use = unormUse(rectangle({0, 0}, {1, 2}, {0, 0}, {1, 1}));
-    use.format.green = -1;
+    use.stored.greenUp = true;
     const Reencoded r = reencode(map, {&use, 1}, kPartsToCotangent, 16);
     EXPECT_LT(angleBetween(unormTexel(r.image, 1, 1), {0.1, 0.6, 1}), 0.01);
     EXPECT_LT(r.error.maximum, 0.01);
@@ -328,7 +328,7 @@ TEST(Reencode, greenAgainstVStaysAgainstV)
     for (Corner& c : sheared)
         c.position.x += 0.5f * c.position.y;
     MapUse leaning = unormUse(sheared);
-    leaning.format.green = -1;
+    leaning.stored.greenUp = true;
     EXPECT_LT(reencode(map, {&leaning, 1}, kPartsToCotangent, 16).error.maximum, 0.02);
 }
 
@@ -366,7 +366,7 @@ TEST(Reencode, texelsThatPointBelowTheHorizonAreCounted)
 {
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     const Image map = unormMap(2, 2, [](int x, int) { return glm::dvec3(x == 0 ? 0.9 : 0.1, 0.0, x == 0 ? -0.4 : 1); });
-    const MapUse use{makeSurface(mesh, Texture{}), kUnorm, Wrap::repeat, Wrap::repeat};
+    const MapUse use{makeSurface(mesh, Texture{}), kUnorm, 1, Wrap::repeat, Wrap::repeat};
     EXPECT_EQ(reencode(map, {&use, 1}, kPartsToCotangent, 8).belowHorizon, 2u);
 }
 

@@ -12,11 +12,12 @@
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/normal_format.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr f64::cotan_normal_format kGltf{0, 0, -1, 1};
+const auto kGltf = toFormat<f64::cotan_normal_format>(Convention{});
 
 // An 8-bit map with the same texel everywhere; m along (+u, +v, outwards).
 Image constantMap(glm::dvec3 m, int side = 32)
@@ -33,12 +34,11 @@ Image constantMap(glm::dvec3 m, int side = 32)
 
 glm::dvec3 texelOf(const Image& image, int x, int y)
 {
-    f64::cotan_normal_format format = kGltf;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    const auto format = toFormat<f64::cotan_normal_format>(Convention{}, image.type);
     return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 
-MapUse useOf(const Mesh& mesh, double scale = 1) { return {makeSurface(mesh, Texture{}), {0, 0, -1, scale}, Wrap::repeat, Wrap::repeat}; }
+MapUse useOf(const Mesh& mesh, double scale = 1) { return {makeSurface(mesh, Texture{}), Convention{}, scale, Wrap::repeat, Wrap::repeat}; }
 
 // A patch whose uv fill the unit square.
 Mesh patch(float stretch, bool mirrored = false)
@@ -250,7 +250,7 @@ TEST(Convert, aNodeThatStretchesIsPartOfThePlace)
 {
     const Image map = constantMap({0.3, 0.2, 1});
     const MapUse straight[] = {useOf(patch(2))};
-    const MapUse byNode[] = {{makeSurface(patch(1), Texture{}, glm::dmat3(2, 0, 0, 0, 1, 0, 0, 0, 1)), kGltf, Wrap::repeat, Wrap::repeat}};
+    const MapUse byNode[] = {{makeSurface(patch(1), Texture{}, glm::dmat3(2, 0, 0, 0, 1, 0, 0, 0, 1)), Convention{}, 1, Wrap::repeat, Wrap::repeat}};
     EXPECT_EQ(reencode(map, straight, kToCotangent, 8).image.data, reencode(map, byNode, kToCotangent, 8).image.data);
 }
 

@@ -337,7 +337,7 @@ double changeWithTheView(Frame frame)
 TEST(FrameTable, saysWhichFramesDependOnTheView)
 {
     for (const FrameInfo& f : frames()) {
-        if (f.source == FrameSource::vertices) {
+        if (readsVertices(f.frame)) {
             EXPECT_FALSE(f.dependsOnView) << f.name; // no difference goes in
         } else if (f.dependsOnView) {
             EXPECT_GT(changeWithTheView(f.frame), 30) << f.name;

@@ -168,9 +168,7 @@ TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
     const Material& m = scene.materials.at(0);
     ASSERT_TRUE(m.normalMap.present());
     EXPECT_EQ(m.normalScale, 0.5f);
-    EXPECT_FALSE(m.normalFormat.greenAlongV);
-    EXPECT_EQ(m.normalFormat.expansion, 0) << "COTAN_EXPAND_EXACT";
-    EXPECT_EQ(m.normalFormat.channels, 0) << "COTAN_CHANNELS_XYZ";
+    EXPECT_EQ(m.normalFormat, *conventionFromName("gltf"));
     const Image& image = scene.images.at(std::size_t(m.normalMap.image));
     ASSERT_EQ(image.width, 2);
     ASSERT_EQ(image.height, 2);

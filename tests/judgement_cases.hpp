@@ -48,7 +48,7 @@ inline std::vector<Corner> operator+(std::vector<Corner> a, const std::vector<Co
     return a;
 }
 
-inline constexpr f64::cotan_normal_format kAsMeant{2, 0, 1, 1}; // signed, green along v: stored as it is meant
+inline constexpr Convention kAsMeant{.expansion = Expansion::signedValues, .greenUp = false}; // signed, green along v: stored as it is meant
 
 // A float map; texel(x, y) along (+u, +v, outwards).
 template<class Texel> Image floatMap(int width, int height, const Texel& texel)

@@ -87,7 +87,7 @@ TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
 TEST(TangentSpaceLighting, fromTheVerticesIsExactOnAFlatSquarePlane)
 {
     Scene scene = squareScene();
-    deriveVertexFrames(scene, Frame::vertex, true);
+    deriveVertexFrames(scene, Frame::vertex, TangentOrigin::generated);
     ASSERT_FALSE(scene.meshes[0].tangents.empty());
     for (Shading shading : {Shading::blinnPhong, Shading::pbr})
         EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentVertex, Frame::vertex)), kRounding);

@@ -232,7 +232,7 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     const glm::dvec3 m(0.4, 0.3, 1);
     Material material;
     material.normalMap.image = 0;
-    material.normalFormat = {2, 0, true};
+    material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const Image map = floatMap(4, 4, [&](int, int) { return m; });
     const auto read = lint::readings(tall(2), material, map);
     ASSERT_EQ(read.size(), 4u);
@@ -250,7 +250,7 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1)); // green the other way
     Material material;
-    material.normalFormat = {2, 0, true};
+    material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const auto read = lint::readings(makeSurface(mesh, Texture{}), material, floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
     ASSERT_EQ(read.size(), 5u);
     EXPECT_EQ(read[4].name, "stored");
@@ -327,8 +327,9 @@ TEST(Texels, areFoundByColumnThenRowInEveryType)
     EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
     Texture texture;
     texture.sampler.wrapV = Wrap::clamp;
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
 }
 
 TEST(Texels, coordinatesWrapAsTheSamplerSays)

@@ -35,7 +35,7 @@ Scene sceneOf(std::vector<Mesh> meshes, Image map = makeReliefMap(Relief::waves,
     Material material;
     material.normalMap.image = 0;
     if (scene.images[0].type == PixelType::float32)
-        material.normalFormat = {2, 0, true}; // signed, green along v: stored as it is meant
+        material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false}; // signed, green along v: stored as it is meant
     scene.materials.push_back(material);
     for (Mesh& mesh : meshes) {
         scene.instances.push_back({"", int(scene.meshes.size()), glm::mat4(1)});

@@ -11,7 +11,7 @@ using namespace test;
 MapUse fitUse(const std::vector<Corner>& corners, double scale = 1)
 {
     MapUse use{surfaceOf(corners), kAsMeant};
-    use.format.strength = scale;
+    use.strength = scale;
     return use;
 }
 

@@ -26,7 +26,7 @@ AngleStatistics difference(const Scene& scene, Painter& gpu, Painter& reference,
     view.height = 480;
     view.camera = fitCamera(bounds(scene), view.width, view.height);
     view.output = Output::normal;
-    view.frame = int(Frame::cotangent);
+    view.frame = Frame::cotangent;
     view.pointSampled = pointSampled;
     return angleStatistics(interiorAngles(drawWith(gpu, view), drawWith(reference, view)));
 }

@@ -103,7 +103,7 @@ TEST(ReferenceFrame, greenAgainstVIsTheSameMapWithGreenReversed)
     Scene along = sceneOf(fullMesh(kSheared)), against = along;
     addNormalMap(along, kTexel);
     addNormalMap(against, {kTexel.x, 256 - kTexel.y, kTexel.z});
-    against.materials[0].normalFormat.greenAlongV = false;
+    against.materials[0].normalFormat.greenUp = true;
     Image other = rendered(against, viewOf(Output::normal));
     forCovered(rendered(along, viewOf(Output::normal)), [&](int x, int y, glm::vec4 value) {
         // Decoding rounds the two bytes to opposite numbers, up to a few units of 1e-7.
@@ -333,10 +333,31 @@ TEST(ReferenceFrame, degenerateUvGiveTheInterpolatedNormal)
     }
 }
 
-TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutTheirAttributes)
+TEST(ReferenceFrame, framesFromVerticesAreRefusedWithoutTheirAttributes)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
+    scene.meshes[0].name = "bare";
+    for (const FrameInfo& f : frames()) {
+        const auto image = renderReference(scene, viewOf(Output::normal, f.frame));
+        ASSERT_EQ(bool(image), !readsVertices(f.frame)) << f.name;
+        if (image)
+            continue;
+        EXPECT_EQ(image.error().kind, ErrorKind::usage);
+        EXPECT_NE(image.error().message.find("'bare'"), std::string::npos) << image.error().message;
+        EXPECT_NE(image.error().message.find(f.name), std::string::npos) << image.error().message;
+    }
+    scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, 1});
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::vertex)));
+    EXPECT_FALSE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+    scene.meshes[0].cotangentsU = scene.meshes[0].cotangentsV = scene.meshes[0].normals;
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+}
+
+TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutUvToMakeThemFrom)
+{
+    Scene scene = sceneOf(meshOf(kSheared));
+    scene.meshes[0].texcoords[0].clear();
     for (Frame frame : {Frame::smooth, Frame::vertex, Frame::mikktspace}) {
         glm::vec4 t = pixelOf(rendered(scene, viewOf(Output::tangent, frame)), 32, 32);
         EXPECT_EQ(t, glm::vec4(0, 0, 0, 1));

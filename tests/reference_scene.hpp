@@ -83,7 +83,7 @@ inline void addNormalMap(Scene& scene, glm::ivec3 bytes)
 {
     scene.images.push_back(solidImage({bytes, 255}));
     scene.materials[0].normalMap.image = int(scene.images.size()) - 1;
-    scene.materials[0].normalFormat.greenAlongV = true;
+    scene.materials[0].normalFormat.greenUp = false;
 }
 
 // A small square picture, without lights, from (0,0,distance) towards the origin.
@@ -92,7 +92,7 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent, float distance
     View view;
     view.width = view.height = 64;
     view.output = output;
-    view.frame = int(frame);
+    view.frame = frame;
     view.camera.eye = {0, 0, distance};
     return view;
 }

@@ -189,7 +189,7 @@ TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
     for (const bool greenAlongV : {false, true}) {
         Scene scene =
             sceneOf(quad(glm::vec2(du), glm::vec2(dv)), map, placement(/*mirrored*/ false));
-        scene.materials[0].normalFormat.greenAlongV = greenAlongV;
+        scene.materials[0].normalFormat.greenUp = !greenAlongV;
         load(renderer, scene);
         const Gradients g = gradientsOf(du, dv, placement(/*mirrored*/ false));
         const double longest = std::max(glm::length(g.u), glm::length(g.v));

@@ -22,7 +22,7 @@ Image image8(int width, int height, std::initializer_list<std::array<int, 4>> te
     return image;
 }
 
-MipChain chainOf(const Image& image, TextureKind kind, NormalMapFormat format = {})
+MipChain chainOf(const Image& image, TextureKind kind, Convention format = {})
 {
     MipRequest request;
     request.image = &image;
@@ -69,8 +69,8 @@ TEST(RenderMips, oppositeTiltsAverageToAUnitNormalStraightUp)
 
 TEST(RenderMips, twoChannelNormalsAreAveragedAsVectors)
 {
-    NormalMapFormat format;
-    format.channels = COTAN_CHANNELS_ORTHOGRAPHIC;
+    Convention format;
+    format.channels = Channels::orthographic;
     // 60 degrees and upright: the mean vector leans 30 degrees, sin 30 = 0.5.
     const Image image = image8(2, 1, {{{128 + 110, 128, 0, 255}}, {{128, 128, 0, 255}}});
     const MipChain chain = chainOf(image, TextureKind::normal, format);

@@ -132,7 +132,7 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent)
     view.height = 64;
     view.camera.eye = {0, 0, 3};
     view.output = output;
-    view.frame = int(frame);
+    view.frame = frame;
     return view;
 }
 

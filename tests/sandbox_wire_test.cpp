@@ -56,7 +56,7 @@ Scene everything()
     m.name = "material";
     m.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
     m.metallic = 0.5f, m.roughness = 0.6f, m.emissive = {0.7f, 0.8f, 0.9f}, m.occlusionStrength = 0.11f;
-    m.normalScale = -2, m.normalFormat = {1, 2, true};
+    m.normalScale = -2, m.normalFormat = {MapKind::objectSpace, Expansion::biased, Channels::stereographic, false, VDirection::up};
     m.normalMap = {0, 1, {Wrap::mirror, Wrap::clamp, Filter::nearest, Filter::linear, MipFilter::nearest}, {1, 2, 3}, {4, 5, 6}};
     m.alphaMode = AlphaMode::mask, m.alphaCutoff = 0.3f, m.doubleSided = true, m.unlit = true, m.tangentsFor = "X";
     Mesh mesh = makePlane(2, 2, 3);
@@ -175,8 +175,8 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
         {[](Scene& s, float x) { s.materials[0].baseColor.w = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].alphaCutoff = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].normalScale = x; }, "material 0: expected finite factors"},
-        {[](Scene& s, float) { s.materials[0].normalFormat.expansion = 4; }, "expected a way to store normals"},
-        {[](Scene& s, float) { s.materials[0].normalFormat.channels = -1; }, "expected a way to store normals"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.expansion = Expansion(4); }, "expected a way to store normals"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.channels = Channels(-1); }, "expected a way to store normals"},
         {[](Scene& s, float) { s.meshes[0].material = 1; }, "mesh 0: expected a material below 1, found 1"},
         {[](Scene& s, float) { s.meshes[0].material = -1; }, "expected a material below 1, found -1"},
         {[](Scene& s, float) { s.meshes[0].indices[5] = 9; }, "triangle 1: expected an index below 9, found 9"},

@@ -77,7 +77,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
-    if (info(frame).source != FrameSource::vertices) {
+    if (!readsVertices(frame)) {
         c.call = drawn ? "cotan_perturb_normal(n, p, uv, m)" : made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
         c.expected = [=](const Vectors& v) {
             const glm::dvec3 n = total ? glm::dvec3(v.n) : unitOf(v.n);
@@ -85,11 +85,10 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
         };
         return c;
     }
-    c.call = made->entry + (frame == Frame::smooth ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
+    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
     c.expected = [=](const Vectors& v) {
-        const f64::cotan_frame f = frame == Frame::smooth ? f64::cotan_frame_smooth(v.n, v.dpdx, v.dpdy)
-            : frame == Frame::vertex                      ? f64::cotan_frame_vertex(v.n, v.dpdx, 1)
-                                                          : f64::cotan_frame_mikktspace(v.n, v.dpdx, 1);
+        const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
+        const f64::cotan_frame f = readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
         return f64::cotan_apply(f, decoded(v));
     };
     return c;

@@ -384,7 +384,7 @@ TEST(BuiltinScene, isConsistent)
         ASSERT_LT(std::size_t(mesh.material), scene.materials.size());
         const cotan::Material& material = scene.materials[std::size_t(mesh.material)];
         ASSERT_LT(std::size_t(material.normalMap.image), scene.images.size()) << material.name;
-        EXPECT_FALSE(material.normalFormat.greenAlongV) << material.name;
+        EXPECT_TRUE(material.normalFormat.greenUp) << material.name;
     }
 }
 

@@ -170,7 +170,7 @@ private:
     // Returns how many rays were traced.
     std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
     {
-        pointsOf(low_, options_.frame, places, points_);
+        pointsOf(low_, places, points_);
         baker_.aim(points_, places, probes_);
         baker_.find(probes_, hits_);
         const std::size_t more = baker_.valuesOf(points_, probes_, hits_, samples, values_);
@@ -234,9 +234,7 @@ void countTexels(const StateCounts& states, BakeStatistics& s)
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f) {
-        const glm::dvec2 a(low.texcoords[low.indices[3 * f]]), b(low.texcoords[low.indices[3 * f + 1]]),
-            c(low.texcoords[low.indices[3 * f + 2]]);
-        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        const double area = edgesOf(low.positions, low.texcoords, low.cornersOf(f)).uvArea2();
         statistics.mirroredTriangles += area > 0; // v runs down: charts that are not mirrored turn the other way
         statistics.degenerateTriangles += !(std::abs(area) > 0);
     }
@@ -278,7 +276,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
             LowPoints point;
             Probes probe;
             Hits hit;
-            pointsOf(low, options.frame, {&place, 1}, point);
+            pointsOf(low, {&place, 1}, point);
             baker.aim(point, {&place, 1}, probe);
             baker.find(probe, hit);
             if (!hit.found(0))
@@ -300,6 +298,9 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
                                       low.positions.size(), options.cage.size()));
+    if (options.frame != low.frame)
+        return usageError(fmt::format("options.frame: expected {}, which the low surface was made for; found {}",
+                                      name(low.frame), name(options.frame)));
     const auto start = std::chrono::steady_clock::now();
     Baked out;
     out.width = options.width;

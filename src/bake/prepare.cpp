@@ -58,7 +58,7 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
-void applyMaps(HighModel& high, const std::optional<NormalMapFormat>& format)
+void applyMaps(HighModel& high, const std::optional<Convention>& format)
 {
     for (std::size_t i = 0; i < high.scenes.size() && !high.maps.empty(); ++i) {
         Scene& scene = high.scenes[i];
@@ -89,7 +89,7 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
 // Whether what is baked has tangents everywhere and they count.
 bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
 {
-    return options.tangents == TangentSource::stored && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+    return options.tangents == TangentOrigin::stored && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
         return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty() || !mesh.tangents.empty();
     });
 }

@@ -46,12 +46,10 @@ struct Writer {
 
 } // namespace
 
-NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format)
+Convention storedFormat(BakeKind kind, Convention format)
 {
-    if (kind == BakeKind::objectNormal) {
-        format.channels = COTAN_CHANNELS_XYZ;
-        format.greenAlongV = true;
-    }
+    if (kind == BakeKind::objectNormal) // three axes of a mesh, as they are
+        format = {MapKind::objectSpace, format.expansion, Channels::xyz, true, VDirection::up};
     return format;
 }
 

@@ -66,7 +66,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     b.maxDistance = o.max_distance;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
     b.threads = o.threads;
-    options.tangents = TangentSource::generated;
+    options.tangents = TangentOrigin::generated;
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;

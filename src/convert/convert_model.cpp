@@ -138,8 +138,6 @@ private:
 
 } // namespace
 
-bool readsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
-
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
 {
     for (const Frame frame : {options.frames.from, options.frames.to})

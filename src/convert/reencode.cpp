@@ -6,10 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_sample.hpp"
 #include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
@@ -21,9 +22,12 @@ namespace {
 using convert::Place;
 using convert::UseRaster;
 
-glm::dmat3 matrixOf(const f64::cotan_frame& f, const f64::cotan_normal_format& format)
+// Along green: 1 where it points along +v, else -1.
+double greenOf(const MapUse& use) { return greenAlongV(use.stored) ? 1 : -1; }
+
+glm::dmat3 matrixOf(const f64::cotan_frame& f, const MapUse& use)
 {
-    return {f.t * format.strength, f.b * (format.strength * format.green), f.n};
+    return {f.t * use.strength, f.b * (use.strength * greenOf(use)), f.n};
 }
 
 struct RowCounts {
@@ -37,12 +41,10 @@ public:
         : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)),
           owner_(map.pixelCount(), kNoTexel)
     {
-        plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
-        plain_.strength = 1;
-        plain_.green = 1;
-        written_ = plain_;
-        plain_.expansion = expansionFor(plain_.expansion, bitsPerComponent(map.type));
-        written_.expansion = expansionFor(written_.expansion, bits);
+        const Convention stored = uses.empty() ? Convention{} : uses.front().stored;
+        plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
+        written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
+        plain_.green = written_.green = 1;
         for (const MapUse& use : uses)
             rasters_.emplace_back(use, map.width, map.height);
         result_.image =
@@ -91,7 +93,7 @@ private:
     {
         std::vector<std::vector<Place>> texels(std::size_t(map_.width));
         for (std::size_t i = 0; i < rasters_.size(); ++i)
-            if (std::abs(uses_[i].format.strength) > kFlattened)
+            if (std::abs(uses_[i].strength) > kFlattened)
                 rasters_[i].addRow(y, std::uint32_t(i), texels);
         for (std::vector<Place>& places : texels) {
             const bool covered = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.covers; });
@@ -115,9 +117,9 @@ private:
         const MapUse& use = uses_[p.use];
         const f64::cotan_frame from = frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
         const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
-        const glm::dvec3 m(old.x * use.format.strength, old.y * use.format.strength * use.format.green, old.z);
+        const glm::dvec3 m(old.x * use.strength, old.y * use.strength * greenOf(use), old.z);
         // `mikktspace` hands back its n, not unit, where the sum vanishes.
-        return {matrixOf(to, use.format), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
+        return {matrixOf(to, use), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
     }
 
     void write(int x, int y, glm::dvec3 texel)
@@ -139,10 +141,8 @@ private:
 
     void copyAlpha(std::size_t at)
     {
-        const double alpha = map_.type == PixelType::unorm8 ? map_.bytes8()[at + 3] / 255.0
-            : map_.type == PixelType::unorm16               ? map_.words()[at + 3] / 65535.0
-                                                            : double(map_.floats()[at + 3]);
-        set(at + 3, alpha);
+        const int x = int(at / 4 % std::size_t(map_.width)), y = int(at / 4 / std::size_t(map_.width));
+        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
     }
 
     void keep(int x, int y)

@@ -6,6 +6,8 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 namespace {
@@ -103,7 +105,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
 double degreesOff(const Demand& d, glm::dvec3 texel)
 {
     const glm::dvec3 got = d.frame * texel;
-    return glm::degrees(std::atan2(glm::length(glm::cross(got, d.target)), glm::dot(got, d.target)));
+    return glm::degrees(angleBetween(got, d.target));
 }
 
 } // namespace cotan

@@ -26,7 +26,6 @@ public:
     void addRow(int y, std::uint32_t number, std::vector<std::vector<Place>>& texels) const;
 
 private:
-    UvRaster makeRaster() const;
     bool clampedAway(const Place& p) const;
 
     const MapUse* use_;

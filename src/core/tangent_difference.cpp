@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 namespace {
@@ -19,11 +21,10 @@ bool isDegenerate(const MeshView& mesh, std::size_t corner)
     return a.x * b.y == a.y * b.x || p == q || q == r || p == r;
 }
 
-// By the cross product as well: the cosine alone knows no angles below 0.02 degrees in float.
 float degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
     constexpr double kDegrees = 57.29577951308232;
-    return float(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees);
+    return float(angleBetween(a, b) * kDegrees);
 }
 
 double share(std::size_t part, std::size_t whole)

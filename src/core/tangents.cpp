@@ -215,4 +215,21 @@ VertexSplit splitMirrored(const MeshView& mesh)
     return splitVertices(mesh.positions.size(), mesh.indices, values);
 }
 
+std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads)
+{
+    if (frame == Frame::mikktspace)
+        return mikktspaceTangents(mesh, threads);
+    return frame == Frame::vertex ? vertexTangents(mesh) : std::vector<glm::vec4>{};
+}
+
+SplitCotangents splitSmoothCotangents(const MeshView& mesh)
+{
+    SplitCotangents made{splitMirrored(mesh), {}};
+    const auto positions = gathered(mesh.positions, made.split);
+    const auto normals = gathered(mesh.normals, made.split);
+    const auto texcoords = gathered(mesh.texcoords, made.split);
+    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices});
+    return made;
+}
+
 } // namespace cotan

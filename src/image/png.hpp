@@ -8,12 +8,11 @@
 #include <string>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
-
-bool isPng(std::span<const std::byte> bytes);
 
 // As decodeImage. Palettes are expanded, 1-, 2- and 4-bit samples scaled to the full range, a
 // transparent colour becomes alpha. Chunks about colour spaces are ignored.

@@ -121,7 +121,7 @@ void addMaps(LintReport& report, const Scene& scene)
             continue;
         done.push_back(image);
         const Image& map = scene.images[std::size_t(image)];
-        GreenEvidence e{image, map.name, !m.normalFormat.greenAlongV, {}}; // v runs down the picture
+        GreenEvidence e{image, map.name, m.normalFormat.greenUp, {}};
         if (hasPixels(map))
             e.verdict = maps::greenOf(map);
         report.maps.push_back(std::move(e));
@@ -171,7 +171,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const Sampler& sampler = material.normalMap.sampler;
         for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
-            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), formatOf(material, PixelType::unorm8), sampler.wrapU, sampler.wrapV});
+            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), material.normalFormat, double(material.normalScale), sampler.wrapU, sampler.wrapV});
             PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance);
             p.placing = k;
             p.placings = placed[i].size();

@@ -155,8 +155,7 @@ std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
 {
     std::vector<MipLevel> chain;
     const auto fromMap = [&](int y, std::vector<Moments>& row) {
-        thread_local std::vector<glm::vec3> normals;
-        normals.resize(row.size());
+        std::vector<glm::vec3> normals(row.size());
         decodeRow(map, y, settings.from, normals);
         std::ranges::transform(normals, row.begin(), momentsOf);
     };

@@ -48,7 +48,7 @@ Image normalMapFromHeight(const Image& height, float strength)
     Image out =
         makeImage(w, h, height.type == PixelType::unorm8 ? PixelType::unorm8 : PixelType::unorm16,
                   height.name + " (bump)");
-    const int expansion = expansionFor(COTAN_EXPAND_EXACT, bitsPerComponent(out.type));
+    const int expansion = expansionFor(Expansion::exact, bitsPerComponent(out.type));
     const auto at = [&](int x, int y) {
         return component(
             height, 4 * (std::size_t((y + h) % h) * std::size_t(w) + std::size_t((x + w) % w)));

@@ -103,7 +103,7 @@ void setNormalMap(const SourceMaterial& source, TextureReader& textures, Scene& 
         return; // the strength is in the conversion
     material.normalScale = map.strength;
     if (namesDirectX(map.path)) {
-        material.normalFormat.greenAlongV = true;
+        material.normalFormat.greenUp = false;
         scene.warnings.push_back(fmt::format(
             "material {}: normal map {} is taken as green down (DirectX), as its name says",
             material.name, map.path));

@@ -47,7 +47,8 @@ glm::vec3 covector(const Transform& t, glm::vec3 v)
     return glm::vec3(t.covectors * glm::dvec3(v));
 }
 
-// The one place where stored tangents meet our frames. glTF has bitangent = cross(n, t) * w, along
+// The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
+// (tangentAlongV). glTF has bitangent = cross(n, t) * w, along
 // the map's green direction, which is up the image: against +v, since v runs down. Our b points
 // along +v, hence the minus. A mirroring matrix reverses cross products once more.
 glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
@@ -82,10 +83,10 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
                  [&](glm::vec3 p) { return t.vectors * p + t.translation; });
     transformAll(mesh.normals, count, draw.normals,
                  [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
-    if (frame == Frame::vertex || frame == Frame::mikktspace)
+    if (readsTangents(frame))
         transformAll(mesh.tangents, count, draw.tangents,
                      [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
-    if (frame == Frame::smooth) {
+    if (readsCotangents(frame)) {
         auto asCovector = [&](glm::vec3 v) { return covector(t, v); };
         transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
         transformAll(mesh.cotangentsV, count, draw.cotangentsV, asCovector);
@@ -100,7 +101,7 @@ bool isBlended(const Scene& scene, const Draw& draw)
 
 } // namespace
 
-std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, int frame, bool blending)
+std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
 {
     std::vector<Draw> draws;
     for (const Instance& instance : scene.instances) {
@@ -110,7 +111,7 @@ std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, int frame, bool 
         bool hasMaterial =
             mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
         if (hasMaterial && mesh.triangleCount() > 0)
-            draws.push_back(makeDraw(mesh, instance.toWorld, eye, Frame(frame)));
+            draws.push_back(makeDraw(mesh, instance.toWorld, eye, frame));
     }
     if (blending)
         std::stable_partition(draws.begin(), draws.end(),

@@ -125,19 +125,13 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
 
 } // namespace
 
-bool isUsable(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
-}
-
-MipChain makeMipChain(const Image& image, Content content, NormalMapFormat stored, bool withLevels)
+MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
 {
     MipChain chain{&image, content, {}};
     if (!withLevels)
         return chain;
-    stored.greenAlongV = true; // green as it is stored
-    const auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    format.green = 1; // as it is stored
     std::vector<glm::vec4> before, averages;
     int width = image.width, height = image.height;
     while (width > 1 || height > 1) {

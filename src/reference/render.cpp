@@ -10,6 +10,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
@@ -134,9 +135,9 @@ std::optional<Error> checkView(const View& view)
     if (!fits(view.width) || !fits(view.height))
         return usageError("picture size: expected 1 to 16384 pixels a side, found "
                           + std::to_string(view.width) + "x" + std::to_string(view.height));
-    if (view.frame < 0 || view.frame >= kFrameCount)
+    if (!isFrame(int(view.frame)))
         return usageError("frame: expected 0 to " + std::to_string(kFrameCount - 1) + ", found "
-                          + std::to_string(view.frame));
+                          + std::to_string(int(view.frame)));
     return std::nullopt;
 }
 
@@ -146,8 +147,9 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
-    if (const Status ok = checkTrianglesDrawn(scene); !ok)
-        return ok.error();
+    for (const Status& ok : {checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+        if (!ok)
+            return ok.error();
     try {
         std::optional<Result<Image>> picture;
         withThreads(threads, [&] { picture = draw(scene, view, progress); });

@@ -6,6 +6,7 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_uv.hpp"
 
 namespace cotan::reference {
 
@@ -34,12 +35,6 @@ glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterT
                              const std::array<double, 3>& weights)
 {
     return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
-}
-
-glm::vec2 transformed(const Texture& texture, glm::vec2 uv)
-{
-    return {texture.uRow.x * uv.x + texture.uRow.y * uv.y + texture.uRow.z,
-            texture.vRow.x * uv.x + texture.vRow.y * uv.y + texture.vRow.z};
 }
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
@@ -72,9 +67,9 @@ glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
     return {glm::dot(glm::vec2(texture.uRow), edge), glm::dot(glm::vec2(texture.vRow), edge)};
 }
 
-// The frame `exact`: the triangle's edges in place of the pixel's differences. The edges are taken
+// The frames of a whole triangle: its edges in place of the pixel's differences. The edges are taken
 // in the mesh and moved afterwards, so they lose nothing far from the eye.
-f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
+f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, Frame frame, glm::vec3 n)
 {
     const Texture& texture = in.material->normalMap;
     std::size_t set = setOf(texture);
@@ -83,27 +78,26 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(Frame::exact, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
+    return evaluate(frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
                     in.draw->vectors * (p[v[2]] - p[v[0]]),
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]),
                     transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
-// The frames that are made at the vertices. t = b = 0 where the mesh has not got what they need.
+// The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
 f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n,
                                  glm::vec3 rawNormal, const std::array<double, 3>& weights)
 {
     const Draw& draw = *in.draw;
     const RasterTriangle& triangle = *in.triangle;
-    if (frame == Frame::smooth && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
-        return f32::cotan_frame_smooth(n, interpolated(draw.cotangentsU, triangle, weights),
-                                       interpolated(draw.cotangentsV, triangle, weights));
-    if (frame == Frame::smooth || draw.tangents.empty())
+    if (readsCotangents(frame) && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
+        return evaluateCotangents(frame, n, interpolated(draw.cotangentsU, triangle, weights),
+                                  interpolated(draw.cotangentsV, triangle, weights));
+    if (readsCotangents(frame) || draw.tangents.empty())
         return {glm::vec3(0), glm::vec3(0), n};
     glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
-    if (frame == Frame::vertex)
-        return f32::cotan_frame_vertex(n, glm::vec3(tangent), tangent.w);
-    return f32::cotan_frame_mikktspace(rawNormal, glm::vec3(tangent), tangent.w);
+    // `mikktspace` wants its normal as interpolated.
+    return evaluateTangents(frame, frame == Frame::mikktspace ? rawNormal : n, glm::vec3(tangent), tangent.w);
 }
 
 glm::vec3 finiteOrZero(glm::vec3 v)
@@ -159,7 +153,7 @@ UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
                    Derivatives derivatives)
 {
     Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {transformed(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
+    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
             uvDifference(texture, quad, x), uvDifference(texture, quad, y)};
 }
 
@@ -199,14 +193,13 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     f32::cotan_differences safe = f32::cotan_scale_differences(dpdx, dpdy, uv.dx, uv.dy);
     glm::vec3 n = f32::cotan_safe_normal(raw, safe.dpdx, safe.dpdy);
 
-    auto frameName = Frame(view.frame);
     f32::cotan_frame frame;
-    if (frameName == Frame::exact)
-        frame = frameOfTriangle(in, n);
-    else if (info(frameName).source == FrameSource::vertices)
-        frame = frameOfVertices(in, frameName, n, raw, weights);
+    if (info(view.frame).source == FrameSource::triangle)
+        frame = frameOfTriangle(in, view.frame, n);
+    else if (readsVertices(view.frame))
+        frame = frameOfVertices(in, view.frame, n, raw, weights);
     else
-        frame = evaluate(frameName, n, dpdx, dpdy, uv.dx, uv.dy);
+        frame = evaluate(view.frame, n, dpdx, dpdy, uv.dx, uv.dy);
 
     SurfaceNormal result;
     result.interpolated = result.finished = n;

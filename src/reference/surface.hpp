@@ -1,4 +1,7 @@
 // What a pixel of a triangle sees of its surface: normal, frame, material.
+//
+// The part `surface` answers the same question for bakers and checkers. This is a second answer on purpose: what they make
+// is judged by pictures that are drawn here, so nothing is shared but Scene and the portable text.
 #pragma once
 
 #include <array>

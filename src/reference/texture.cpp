@@ -79,12 +79,12 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
 }
 
 const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture,
-                        Content content, NormalMapFormat format, bool withLevels)
+                        Content content, Convention format, bool withLevels)
 {
     if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
         return nullptr;
     const Image& image = scene.images[std::size_t(texture.image)];
-    if (!isUsable(image))
+    if (!hasPixels(image))
         return nullptr;
     const MipChain*& known =
         library.made[{texture.image, content, format.expansion, format.channels}];
@@ -117,7 +117,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
     TextureLibrary library;
     bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
     for (const Material& m : scene.materials) {
-        auto get = [&](const Texture& texture, Content content, NormalMapFormat format = {}) {
+        auto get = [&](const Texture& texture, Content content, Convention format = {}) {
             return chainOf(library, scene, texture, content, format, levels);
         };
         MaterialMaps maps;

@@ -43,7 +43,7 @@ struct TextureLibrary {
     std::deque<MipChain> chains; // a deque, since the materials point into it
 
     // The chain of every (image, content, expansion, channels) made so far.
-    std::map<std::tuple<int, Content, int, int>, const MipChain*> made;
+    std::map<std::tuple<int, Content, Expansion, Channels>, const MipChain*> made;
 };
 
 // Makes the chains that the view reads: all for shaded pictures, otherwise normal maps and the

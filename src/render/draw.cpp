@@ -84,11 +84,11 @@ Status checkView(const Device& device, const View& view)
     if (needed > room / 10 * 9)
         return usageError("size " + size + " needs " + std::to_string(needed >> 20)
                           + " MiB: " + device.name + " has " + std::to_string(room >> 20));
-    if (view.frame < 0 || view.frame >= kFrameCount)
-        return usageError("frame " + std::to_string(view.frame) + ": expected 0 to "
+    if (!isFrame(int(view.frame)))
+        return usageError("frame " + std::to_string(int(view.frame)) + ": expected 0 to "
                           + std::to_string(kFrameCount - 1));
-    if (view.frame == int(Frame::exact) && !device.exact)
-        return unavailableError("the frame exact needs the features geometryShader and "
+    if (info(view.frame).source == FrameSource::triangle && !device.exact)
+        return unavailableError("the frame " + std::string(name(view.frame)) + " needs the features geometryShader and "
                                 "bufferDeviceAddress: "
                                 + device.name + " lacks them");
     return Done{};
@@ -357,6 +357,8 @@ const vk::raii::CommandBuffer& Drawer::begin()
 Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
 {
     if (const Status ok = checkView(*device_, view); !ok)
+        return ok.error();
+    if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
         return ok.error();
     const Targets::Kind kind = targetKind(*device_, view);
     if (!targets_ || !(targets_->kind() == kind)) {

@@ -31,9 +31,9 @@ struct FloatLevel {
 // Green as it is stored: levels are made in the map's own terms.
 f32::cotan_normal_format portableFormat(const MipRequest& request)
 {
-    NormalMapFormat format = request.normalFormat;
-    format.greenAlongV = true;
-    return toFormat<f32::cotan_normal_format>(format, request.image->type);
+    auto format = toFormat<f32::cotan_normal_format>(request.normalFormat, request.image->type);
+    format.green = 1;
+    return format;
 }
 
 vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
@@ -289,12 +289,6 @@ std::size_t bytesPerTexel(TexelFormat format)
     case TexelFormat::float32: break;
     }
     return 16;
-}
-
-bool usableImage(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
 }
 
 TexelFormat texelFormat(PixelType type, TextureKind kind, bool filterable16, bool filterable32)

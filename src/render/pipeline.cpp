@@ -53,7 +53,6 @@ struct StageShaders {
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
-    constexpr int kExact = 10;
     switch (key.pass) {
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
@@ -67,7 +66,7 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::forward: break;
     }
     return {Shader::forwardVert,
-            key.frame == kExact ? Shader::forwardExactFrag : Shader::forwardFrag};
+            info(key.frame).source == FrameSource::triangle ? Shader::forwardExactFrag : Shader::forwardFrag};
 }
 
 // One triangle, made by the vertex stage, over everything.

@@ -5,6 +5,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "gpu_structs.hpp"
 #include "view_data.hpp"
 
@@ -181,8 +182,8 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.baseColor = m.baseColor;
     g.emissive = gpu::vec4(m.emissive, m.alphaCutoff);
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
-    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)), m.normalFormat.channels,
-                             m.normalFormat.greenAlongV ? 1 : -1, m.unlit ? 1 : 0);
+    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)), int(m.normalFormat.channels),
+                             greenAlongV(m.normalFormat) ? 1 : -1, m.unlit ? 1 : 0);
     g.baseColorMap = use(m.baseColorMap, TextureKind::color);
     g.metallicRoughnessMap = use(m.metallicRoughnessMap, TextureKind::data);
     // Without a normal map the frame is that of uv set 0 as it is.
@@ -199,6 +200,8 @@ GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& sc
     : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
       textures_(device)
 {
+    for (const FrameInfo& f : frames())
+        withFrame.push_back(checkVertexAttributes(scene, f.frame));
     Uploader uploader(device, kStaging);
     textures_.load(scene, uploader);
     loadMeshes(scene, uploader);

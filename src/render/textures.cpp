@@ -101,20 +101,20 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
-Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const NormalMapFormat& format)
+Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const Convention& format)
 {
     if (kind != TextureKind::normal)
-        return {use.image, kind, 0, 0};
+        return {use.image, kind, Expansion{}, Channels{}};
     return {use.image, kind, format.expansion, format.channels};
 }
 
 void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
-                       const NormalMapFormat& format)
+                       const Convention& format)
 {
     if (!use.present() || std::size_t(use.image) >= scene.images.size())
         return;
     const Image& image = scene.images[std::size_t(use.image)];
-    if (!usableImage(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
+    if (!hasPixels(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
         return;
     MipRequest r;
     r.image = &image;
@@ -176,13 +176,13 @@ void Textures::load(const Scene& scene, Uploader& uploader)
     }
 }
 
-bool Textures::present(const Texture& use, TextureKind kind, const NormalMapFormat& format) const
+bool Textures::present(const Texture& use, TextureKind kind, const Convention& format) const
 {
     return use.present() && index_.contains(keyOf(use, kind, format));
 }
 
 vk::ImageView Textures::view(const Texture& use, TextureKind kind,
-                             const NormalMapFormat& format) const
+                             const Convention& format) const
 {
     if (!present(use, kind, format))
         return *textures_.back().view;

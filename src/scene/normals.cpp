@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan {
@@ -44,11 +45,6 @@ struct Face {
     std::array<double, 3> angle{}; // at each corner, radians
     bool usable() const { return normal != glm::dvec3(0); }
 };
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 std::vector<Face> measureFaces(const Mesh& mesh)
 {

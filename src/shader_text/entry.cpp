@@ -15,7 +15,7 @@ std::string normalFor(Frame frame)
 
 std::string fromVertices(Frame frame)
 {
-    const bool covectors = frame == Frame::smooth;
+    const bool covectors = readsCotangents(frame);
     const std::string arguments = covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent"
                                             : "cotan_vec3 tangent, cotan_real handedness";
     const std::string what = covectors
@@ -35,7 +35,7 @@ std::string fromVertices(Frame frame)
 
 std::string fromDifferences(Frame frame, Form form)
 {
-    const bool edges = frame == Frame::exact;
+    const bool edges = info(frame).source == FrameSource::triangle;
     const std::string what = edges
         ? "// normal: interpolated at the shaded point.\n"
           "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
@@ -111,16 +111,14 @@ std::string fromScreen(int sets)
 
 std::string functionWord(Frame frame)
 {
-    std::string word(name(frame));
-    for (char& c : word)
-        c = c == '-' ? '_' : c;
-    return word;
+    return std::string(info(frame).word);
 }
 
 std::string entryOf(Frame frame)
 {
     switch (info(frame).source) {
-    case FrameSource::vertices: return kVertexEntry;
+    case FrameSource::cotangents:
+    case FrameSource::tangents: return kVertexEntry;
     case FrameSource::triangle: return kEdgeEntry;
     case FrameSource::differences: break;
     }
@@ -135,7 +133,7 @@ bool hasScreenEntry(const Choice& choice)
 
 std::string entryText(const Choice& choice, Form form)
 {
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return fromVertices(choice.frame);
     std::string text = choice.uvSets == 1 ? fromDifferences(choice.frame, form)
                                           : fromSeveralSets(choice.frame, choice.uvSets);

@@ -65,12 +65,12 @@ std::string call(const Choice& choice)
 {
     const Language l = choice.language;
     const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return declared(l, scope + kVertexEntry
-                               + (choice.frame == Frame::smooth ? "(normal, cotangent, cobitangent, "
+                               + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
                                                                 : "(normal, tangent, handedness, ")
                                + std::string(sample(l)) + ")");
-    if (choice.frame == Frame::exact)
+    if (info(choice.frame).source == FrameSource::triangle)
         return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, "
                                + std::string(sample(l)) + ")");
     const bool screen = hasScreenEntry(choice);
@@ -87,9 +87,9 @@ std::string needs(const Choice& choice)
 {
     std::string text = "// Needs from the caller:\n"
                        "//   normal     interpolated surface normal; any space, the same for all vectors\n";
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return text + "//   the vertex attributes named at the function below, interpolated\n";
-    if (choice.frame == Frame::exact)
+    if (info(choice.frame).source == FrameSource::triangle)
         return text + "//   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives\n";
     text += "//   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;\n"
             "//              normalising it first is wrong by 11 degrees at 45 degrees of grazing\n"

@@ -1,5 +1,7 @@
 #include "cotan/shader_text/shader_text.hpp"
 
+#include <algorithm>
+
 #include "entry.hpp"
 #include "fill.hpp"
 #include "parse.hpp"
@@ -65,7 +67,7 @@ Result<Form> formOf(const Choice& choice)
                                       name(choice.frame)));
     if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
         return usageError(several ? std::string("the fused form has one uv set; for several, the form is total")
-                                  : fill("the fused form: expected cotangent, gradient or orthonormal; found '{}'",
+                                  : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "),
                                                 name(choice.frame)));
     return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
 }
@@ -74,7 +76,20 @@ Result<Form> formOf(const Choice& choice)
 
 bool hasFusedForm(Frame frame)
 {
-    return frame == Frame::cotangent || frame == Frame::gradient || frame == Frame::orthonormal;
+    return info(frame).fused;
+}
+
+std::string fusedFrameNames(std::string_view beforeLast)
+{
+    std::vector<std::string_view> names;
+    for (const FrameInfo& f : frames())
+        if (f.fused)
+            names.push_back(f.name);
+    std::ranges::sort(names);
+    std::string text(names.front());
+    for (std::size_t i = 1; i < names.size(); ++i)
+        text += std::string(i + 1 < names.size() ? ", " : beforeLast) + std::string(names[i]);
+    return text;
 }
 
 Result<ShaderText> makeShaderText(const Choice& choice)

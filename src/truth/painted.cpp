@@ -72,7 +72,7 @@ PaintedScene paintedScene(const Surface& surface, int segments, int texelsPerUni
     scene.images.push_back(
         slopeMap(painted.mapOrigin, painted.mapSide, int(std::ceil(painted.mapSide * texelsPerUnit))));
     Material material;
-    material.normalFormat.greenAlongV = true;
+    material.normalFormat.greenUp = false;
     material.normalMap.image = 0;
     material.normalMap.sampler.mip = MipFilter::none;
     material.normalMap.sampler.wrapU = material.normalMap.sampler.wrapV = Wrap::clamp;

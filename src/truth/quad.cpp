@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 PixelCamera PixelCamera::lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double focal,
@@ -72,7 +74,7 @@ double commonScale(glm::dvec3 gradU, glm::dvec3 gradV)
 
 double degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+    return angleBetween(a, b) * 180 / std::numbers::pi;
 }
 
 } // namespace cotan

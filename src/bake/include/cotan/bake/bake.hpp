@@ -6,7 +6,7 @@
 
 #include "cotan/bake/high_normal_maps.hpp"
 #include "cotan/bake/high_surface.hpp"
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/scene/view.hpp"
 
@@ -86,14 +86,14 @@ void padCharts(Baked& baked, int radius);
 
 // How a map is stored.
 struct StoredAs {
-    NormalMapFormat format;
+    Convention format;
     PixelType type = PixelType::unorm8;
     bool dither = false; // 8 bit: rounds by a fixed pattern so that gradients do not band
 };
 
 // The format that storeBaked writes where `format` is asked for: object normals have no green to turn and need all three
 // channels.
-NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format);
+Convention storedFormat(BakeKind kind, Convention format);
 
 // The picture of a baked map. Normals by the format; heights and occlusion as grey, heights shifted
 // and scaled to [0,1] unless float. Texels without a value become flat (normals) or zero.

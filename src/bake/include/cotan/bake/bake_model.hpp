@@ -31,7 +31,7 @@ struct BakeModelOptions {
     BakeOptions bake;                // its tile, cage, highMaps and matched are made from what follows
     std::vector<int> tiles{1001};    // UDIM numbers: 1001 + u + 10 v, u below 10, v upwards. One map each
     int material = -1;               // of the simple scene; -1: all
-    TangentSource tangents = TangentSource::stored; // for the frames `vertex` and `mikktspace`
+    TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
     const Scene* cage = nullptr;     // the triangles of the simple scene in their order, moved out around both sides; rays
                                      // run from it inwards. Null: none. Read by prepareBake only
     bool matchByName = false;        // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
@@ -39,7 +39,7 @@ struct BakeModelOptions {
     bool ownMaps = false;            // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
                                      // occlusion take no notice
     Frame highFrame = Frame::mikktspace;       // that those maps were made for
-    std::optional<NormalMapFormat> highFormat; // how they are stored; none: as the materials say, the default one for
+    std::optional<Convention> highFormat; // how they are stored; none: as the materials say, the default one for
                                                // HighModel::maps
     int padding = 0;                 // texels around charts that are filled from the nearest chart; 0: all, -1: none
     StoredAs stored;
@@ -65,7 +65,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
 struct BakedMap {
     int tile = 1001;        // UDIM number
     Image image;
-    NormalMapFormat format; // of `image` where it holds normals
+    Convention format; // of `image` where it holds normals
     Image mask;             // what became of each texel, as maskOf; empty unless asked for
     BakeStatistics statistics;
 };

@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
 
 namespace cotan {
 
@@ -34,7 +34,6 @@ private:
         Sampler sampler;
         f64::cotan_normal_format format{};
     };
-    Frame frame_ = Frame::mikktspace;
     std::deque<Image> images_; // a deque, since the parts point into it
     std::vector<Part> parts_;
     std::size_t mapped_ = 0;

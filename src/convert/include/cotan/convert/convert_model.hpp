@@ -18,9 +18,6 @@
 
 namespace cotan {
 
-// Whether readers of a frame want TANGENT in the file: mikktspace and vertex.
-bool readsTangents(Frame frame);
-
 // What became of one normal map.
 struct ConvertedMap {
     std::size_t image = 0; // index into the file's images, before the conversion

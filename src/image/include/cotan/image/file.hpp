@@ -13,6 +13,10 @@
 
 namespace cotan {
 
+// Whether a file of these first bytes is a PNG or a JPEG, the formats that glTF asks every reader to know.
+bool isPng(std::span<const std::byte> bytes);
+bool isJpeg(std::span<const std::byte> bytes);
+
 // "WebP", "KTX2", "DDS" or "AVIF" for the first bytes of such a file, which extensions of glTF name as images and
 // nothing here reads for a model; empty for all else.
 std::string foreignFormat(std::span<const std::byte> bytes);

@@ -8,7 +8,7 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/lint/spread.hpp"
-#include "cotan/lint/surface.hpp"
+#include "cotan/surface/mapped_surface.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/scene/scene.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cotan/lint/spread.hpp"
-#include "cotan/lint/surface.hpp"
-#include "cotan/portable.hpp"
+#include "cotan/surface/mapped_surface.hpp"
+#include "cotan/convention.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -14,7 +14,8 @@ namespace cotan {
 // One surface that reads the map, and how.
 struct MapUse {
     MappedSurface surface;
-    f64::cotan_normal_format format; // as for 8 bits, others follow the image; strength: the material's factor on the slopes; 0: does not count
+    Convention stored;
+    double strength = 1; // the material's factor on the slopes; 0: does not count
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
 };
 

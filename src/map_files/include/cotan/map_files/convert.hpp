@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/map_files/map_file.hpp"
 #include "cotan/maps/recode.hpp"
@@ -14,7 +14,7 @@ namespace cotan::maps {
 struct MeshOfMap {
     std::filesystem::path file;
     Frame frame = Frame::smooth; // that reads the map in tangent space
-    TangentSource tangents = TangentSource::stored;
+    TangentOrigin tangents = TangentOrigin::stored;
     int material = -1; // -1: all
 };
 

@@ -38,6 +38,12 @@ struct Image {
     const float* floats() const { return reinterpret_cast<const float*>(data.data()); }
 };
 
+// Whether an image has a size and all of its data.
+inline bool hasPixels(const Image& image)
+{
+    return image.width > 0 && image.height > 0 && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
+}
+
 // An image of that size with every byte zero.
 inline Image makeImage(int width, int height, PixelType type, std::string name = {})
 {

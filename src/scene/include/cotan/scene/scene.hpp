@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/convention.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
@@ -42,13 +43,6 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// How a normal map is stored: see shaders/cotan/normal.h for the meaning of each field.
-struct NormalMapFormat {
-    int expansion = 0;      // COTAN_EXPAND_...
-    int channels = 0;       // COTAN_CHANNELS_...
-    bool greenAlongV = false; // green points along increasing v. glTF: false ("green up", v down)
-};
-
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
@@ -57,7 +51,7 @@ struct Material {
     glm::vec3 emissive{0, 0, 0};     // linear, KHR_materials_emissive_strength multiplied in
     float occlusionStrength = 1;
     float normalScale = 1;           // factor on the slopes
-    NormalMapFormat normalFormat;
+    Convention normalFormat;         // how normalMap is stored; v runs down, as everywhere in a scene
     Texture baseColorMap;            // sRGB, alpha linear
     Texture metallicRoughnessMap;    // linear: g roughness, b metallic
     Texture normalMap;               // linear

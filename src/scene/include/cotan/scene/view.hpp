@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cotan/frame.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -37,7 +38,7 @@ struct View {
     int width = 1280;
     int height = 720;
     Camera camera;
-    int frame = 0;               // cotan::Frame as an integer
+    Frame frame = Frame::cotangent;
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     Lighting lighting = Lighting::world;

@@ -20,7 +20,7 @@ std::optional<Language> languageFromName(std::string_view name);
 
 // How the perturbed normal is computed.
 enum class Form {
-    fused, // frame and texel in one step (fused.h): cotangent, gradient, orthonormal
+    fused, // frame and texel in one step (fused.h), of the frames that have it
     total, // the frame as three covectors, then applied (frame.h)
 };
 
@@ -43,8 +43,9 @@ struct ShaderText {
     std::vector<std::string> functions; // in the order of the text
 };
 
-// Whether a frame has a fused form.
+// Whether a frame has a fused form, and the names of those that have one, in alphabetical order.
 bool hasFusedForm(Frame frame);
+std::string fusedFrameNames(std::string_view beforeLast = ", ");
 
 // Errors (usage): a form that the frame does not have, uvSets out of range or for a frame from
 // vertices. The same choice gives the same bytes.

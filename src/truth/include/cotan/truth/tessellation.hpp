@@ -19,7 +19,7 @@ struct Tessellation {
     std::vector<glm::dvec2> parameters;        // (s,t) of each vertex
     std::vector<std::uint32_t> indices;        // counter-clockwise seen from outside
     // From the generators of cotan/tangents.hpp. Tangents per corner, cotangents per vertex.
-    std::vector<glm::vec4> mikktspace, classic;
+    std::array<std::vector<glm::vec4>, kFrameCount> tangents; // of the frames that read them, a corner each, as glTF has them
     std::vector<glm::vec3> cotangentsU, cotangentsV;
 
     std::size_t triangleCount() const { return indices.size() / 3; }
@@ -43,8 +43,7 @@ TrianglePoint randomPoint(Random& random, const Tessellation& mesh);
 struct Interpolated {
     glm::dvec3 position, n;           // n not normalised
     glm::dvec2 parameters, uv;
-    glm::dvec3 mikktspace, classic;   // tangents
-    double mikktspaceHandedness = 1, classicHandedness = 1;
+    std::array<glm::dvec4, kFrameCount> tangents{}; // of the frames that read them, as tangentAlongV
     glm::dvec3 cotangentU, cotangentV;
     Differences<double> edges;        // of the triangle
     AffinePatch plane;                // the triangle's, with its gradients of uv; normal to n's side
