@@ -15,7 +15,8 @@
 namespace cotan {
 namespace {
 
-// A square that runs along `along` from `corner` and along +y; its uv fill the unit square of uv whose corner is `tile`.
+// A square that runs along `along` from `corner` and along +y; its uv fill the unit square of uv whose corner is
+// `tile`.
 Mesh square(glm::vec3 corner, glm::vec3 along, glm::vec2 tile = {0, 0})
 {
     Mesh mesh = rectangle(corner, along, {0, 1, 0});
@@ -162,7 +163,8 @@ TEST(BakeModel, endsWithAnErrorThatSaysSoWhereItsProgressStopsIt)
 
 TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
 {
-    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}), cage = sceneOfMeshes({square({0, 0, 2}, {1, 0, 0})});
+    const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}),
+                cage = sceneOfMeshes({square({0, 0, 2}, {1, 0, 0})});
     const Scene high = sceneOfMeshes({square({0, 0, 1}, {1, 0, 0.3f})});
     BakeModelOptions options = smallOptions();
     const auto without = bakeModel(low, highOf(high), options);
@@ -227,11 +229,16 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     using O = BakeModelOptions;
     using H = HighModel;
     EXPECT_EQ(errorWith([](O& o, H&) { o.material = 1; }), "options.material: expected 0 to 0; found 1");
-    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.height = 0; }), "options.bake: expected a width and a height from 1 to 65535; found 12x0");
-    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }), "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
-    EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }), "options.tiles: expected numbers from 1001 on; found 1000");
-    EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }), "high.maps: expected none, one, or one for each of the 1 scenes; found 2");
-    EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }), "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.height = 0; }),
+              "options.bake: expected a width and a height from 1 to 65535; found 12x0");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }),
+              "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }),
+              "options.tiles: expected numbers from 1001 on; found 1000");
+    EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }),
+              "high.maps: expected none, one, or one for each of the 1 scenes; found 2");
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }),
+              "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
 }
 
 } // namespace

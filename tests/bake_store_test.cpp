@@ -156,7 +156,8 @@ TEST(PlacedByHand, aMirroredLowMeshKeepsItsSidesAndTurnsItsHandedness)
     ASSERT_TRUE(low);
     const glm::vec3 n = low->normals[0], expected = glm::normalize(glm::vec3(-1, 1, 1));
     EXPECT_LT(glm::length(n - expected), kRounding);
-    const glm::vec3 a = low->positions[low->indices[0]], b = low->positions[low->indices[1]], c = low->positions[low->indices[2]];
+    const glm::vec3 a = low->positions[low->indices[0]], b = low->positions[low->indices[1]],
+                    c = low->positions[low->indices[2]];
     EXPECT_GT(glm::dot(glm::cross(b - a, c - a), n), 0) << "the triangle runs the other way";
     EXPECT_EQ(low->tangents[0].w, 1); // glTF's 1 is -1 along v, and the mirror turns it
     EXPECT_LT(glm::length(glm::vec3(low->tangents[0]) - glm::normalize(glm::vec3(-3, 0, -3))), kRounding);
@@ -226,7 +227,8 @@ TEST(RaysByHand, aCageReachesAsFarBehindTheLowSurfaceAsInFront)
     const Scene low = sceneOfMeshes({unitSquare(0)});
     for (const glm::vec3& p : low.meshes[0].positions)
         options.cage.push_back(p + glm::vec3(0, 0, 1));
-    for (const auto& [height, found] : {std::pair(0.8f, true), std::pair(-0.8f, true), std::pair(1.2f, false), std::pair(-1.2f, false)}) {
+    for (const auto& [height, found] :
+         {std::pair(0.8f, true), std::pair(-0.8f, true), std::pair(1.2f, false), std::pair(-1.2f, false)}) {
         const Baked baked = bakeScenes(low, sceneOfMeshes({unitSquare(height)}), options);
         EXPECT_EQ(baked.statistics.missed, found ? 0u : 16u) << height;
         for (const glm::vec3& v : baked.values)
@@ -239,7 +241,8 @@ TEST(RaysByHand, theDistanceIsFivePercentOfTheHighSurfacesBoxUnlessGiven)
     BakeOptions options = small(4, 4);
     options.maxDistance = 0;
     const Scene low = sceneOfMeshes({unitSquare(0)});
-    const Scene high = sceneOfMeshes({unitSquare(0), rectangle({3, 0, 0}, {0, 4, 0}, {0, 0, 12})}); // a box of 3 x 4 x 12
+    const Scene high =
+        sceneOfMeshes({unitSquare(0), rectangle({3, 0, 0}, {0, 4, 0}, {0, 0, 12})}); // a box of 3 x 4 x 12
     EXPECT_NEAR(bakeScenes(low, high, options).statistics.rayDistance, 0.05 * 13, kRounding);
     options.maxDistance = 0.25f;
     EXPECT_EQ(bakeScenes(low, high, options).statistics.rayDistance, 0.25);

@@ -80,10 +80,12 @@ TEST(BakeBarC4, encodedTexelsAreUnitAndAboveTheHorizonWhereTheTargetIs)
 
 TEST(BakeBarC2, aMapForAnotherFrameIsOffByDegrees)
 {
-    // Made for MikkTSpace, drawn with cotangent: over 3 degrees mean; with orthonormal little more than faceting. 32 segments.
+    // Made for MikkTSpace, drawn with cotangent: over 3 degrees mean; with orthonormal little more than faceting. 32
+    // segments.
     for (const auto& [which, most] : {std::pair("sphere", 1.1), {"spout", 0.35}}) {
         const auto all = surfaces();
-        const Surface& surface = *std::find_if(all.begin(), all.end(), [&](const Surface& s) { return s.name == which; });
+        const Surface& surface =
+            *std::find_if(all.begin(), all.end(), [&](const Surface& s) { return s.name == which; });
         const Tessellation mesh = tessellate(surface, 32, false);
         const auto low = makeLowSurface(sceneOf(mesh), -1, Frame::mikktspace, TangentOrigin::generated);
         Random random(18);
@@ -123,7 +125,8 @@ Waves2 wavyPair(int segments)
                 const double hx = 0.18 * std::cos(9 * x + 1) * std::cos(7 * y);
                 const double hy = -0.14 * std::sin(9 * x + 1) * std::sin(7 * y);
                 mesh.positions.emplace_back(float(x), float(y), n == 1 ? 0.0f : float(waveHeight(x, y)));
-                mesh.normals.push_back(n == 1 ? glm::vec3(0, 0, 1) : glm::normalize(glm::vec3(float(-hx), float(-hy), 1)));
+                mesh.normals.push_back(n == 1 ? glm::vec3(0, 0, 1)
+                                              : glm::normalize(glm::vec3(float(-hx), float(-hy), 1)));
                 mesh.texcoords[0].emplace_back(float(x), float(1 - y)); // v down
             }
         for (int j = 0; j < n; ++j)
@@ -185,8 +188,8 @@ TEST(Bake, heightIsTheDistanceAlongTheLowNormal)
     const Baked baked = bakeWaves(options);
     for (int j = 0; j < 32; ++j)
         for (int i = 0; i < 32; ++i)
-            EXPECT_NEAR(double(baked.values[std::size_t(j * 32 + i)].x),
-                        waveHeight((i + 0.5) / 32, 1 - (j + 0.5) / 32), 2e-5); // chords of 200 cells
+            EXPECT_NEAR(double(baked.values[std::size_t(j * 32 + i)].x), waveHeight((i + 0.5) / 32, 1 - (j + 0.5) / 32),
+                        2e-5); // chords of 200 cells
 }
 
 TEST(Bake, anOpenSheetIsAlmostUnoccluded)

@@ -43,9 +43,9 @@ TEST(Convention, theFormatTurnsGreenByVAndNotByThePicture)
 
 TEST(Convention, knownEnginesPointGreenTheirWay)
 {
-    EXPECT_FALSE(greenAlongV(*conventionFromName("gltf")));    // green up, v down
-    EXPECT_TRUE(greenAlongV(*conventionFromName("opengl")));   // green up, v up
-    EXPECT_TRUE(greenAlongV(*conventionFromName("directx")));  // green down, v down
+    EXPECT_FALSE(greenAlongV(*conventionFromName("gltf")));   // green up, v down
+    EXPECT_TRUE(greenAlongV(*conventionFromName("opengl")));  // green up, v up
+    EXPECT_TRUE(greenAlongV(*conventionFromName("directx"))); // green down, v down
     EXPECT_TRUE(greenAlongV(*conventionFromName("unreal")));
     EXPECT_TRUE(greenAlongV(*conventionFromName("unity")));
 }
@@ -94,11 +94,16 @@ TEST(Convention, presetsStoreAsTheirEnginesDo)
     using enum VDirection;
     // By each program's own documentation: which way green is drawn, where v = 0 is, what is left after import.
     const Expected table[] = {
-        {"gltf", true, down, Channels::xyz},           {"opengl", true, up, Channels::xyz},
-        {"directx", false, down, Channels::xyz},       {"unity", true, up, Channels::orthographic},
-        {"unreal", false, down, Channels::orthographic}, {"blender", true, up, Channels::xyz},
-        {"godot", true, down, Channels::orthographic}, {"maya", true, up, Channels::xyz},
-        {"3dsmax", false, up, Channels::xyz},          {"source", false, down, Channels::xyz},
+        {"gltf", true, down, Channels::xyz},
+        {"opengl", true, up, Channels::xyz},
+        {"directx", false, down, Channels::xyz},
+        {"unity", true, up, Channels::orthographic},
+        {"unreal", false, down, Channels::orthographic},
+        {"blender", true, up, Channels::xyz},
+        {"godot", true, down, Channels::orthographic},
+        {"maya", true, up, Channels::xyz},
+        {"3dsmax", false, up, Channels::xyz},
+        {"source", false, down, Channels::xyz},
     };
     EXPECT_EQ(conventionPresets().size(), std::size(table));
     for (const Expected& e : table) {

@@ -20,9 +20,9 @@ constexpr const char* kModel = "synthetic/uv_cases.gltf";
 // its vertices with the widest spread.
 struct Grid {
     std::string name;
-    glm::dvec3 low, high;     // world
+    glm::dvec3 low, high; // world
     glm::dvec3 normal;
-    glm::dvec3 gradU, gradV;  // zero where the uv are degenerate
+    glm::dvec3 gradU, gradV; // zero where the uv are degenerate
     glm::dvec2 uvAtOrigin;
     bool degenerate = false;
 };

@@ -75,8 +75,7 @@ Scene hostile()
             if (k % 5 == 0)
                 mesh.normals[i] = k % 2 ? glm::vec3(0) : glm::vec3(kNan, kInfinity, 1e38f);
             if (k % 7 == 0)
-                mesh.texcoords[0][i] =
-                    k % 2 ? glm::vec2(kInfinity, kNan) : glm::vec2(1e38f, -3e38f);
+                mesh.texcoords[0][i] = k % 2 ? glm::vec2(kInfinity, kNan) : glm::vec2(1e38f, -3e38f);
             if (k % 11 == 0)
                 mesh.positions[i] = k % 2 ? glm::vec3(kNan) : glm::vec3(1e30f, -1e38f, 3e38f);
         }
@@ -176,8 +175,8 @@ TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
     EXPECT_EQ(drawn(renderer, view).data, drawn(renderer, view).data);
 }
 
-// What a frame can spoil are its two vectors and the normal made with it. What is made of that normal, and what no frame has
-// a part in, is the same text for all: drawn with the first.
+// What a frame can spoil are its two vectors and the normal made with it. What is made of that normal, and what no
+// frame has a part in, is the same text for all: drawn with the first.
 TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
@@ -237,8 +236,8 @@ TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
     COTAN_RENDERER_OR_SKIP(renderer, options);
     if (!renderer.messages().empty())
         GTEST_SKIP() << renderer.messages().front();
-    // Frames made from differences give the driver the same buffers and the same stages, so one of them draws every output of
-    // both scenes; the others one picture of each scene, for their shader.
+    // Frames made from differences give the driver the same buffers and the same stages, so one of them draws every
+    // output of both scenes; the others one picture of each scene, for their shader.
     for (const FrameInfo& info : frames()) {
         const bool first = info.frame == Frame::cotangent;
         const bool alike = !first && info.source == FrameSource::differences;

@@ -274,7 +274,8 @@ TEST(Pack, smoothInEightAndInFourBytes)
 TEST(Pack, smoothOfNothingStaysNothing)
 {
     const std::array normals{glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0)};
-    const Cotangents none{{glm::vec3(0), glm::vec3(kNan), glm::vec3(kInfinity)}, {glm::vec3(0), glm::vec3(0), glm::vec3(1)}};
+    const Cotangents none{{glm::vec3(0), glm::vec3(kNan), glm::vec3(kInfinity)},
+                          {glm::vec3(0), glm::vec3(0), glm::vec3(1)}};
     for (const std::uint32_t word : packSmooth4(normals, none)) {
         const f32::cotan_covectors c = f32::cotan_unpack_smooth4(normals[0], word);
         EXPECT_EQ(c.t, glm::vec3(0));
@@ -327,7 +328,8 @@ TEST(Pack, theBasisOfANormalIsOrthonormalEverywhere)
 
 TEST(Pack, unitCotangentsHaveALongerOneOfLengthOne)
 {
-    const Cotangents c{{{3, 0, 0}, {0, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e30f}}, {{0, 4, 0}, {0, 0, 0}, {1e-31f, 0, 0}, {1, 0, 0}}};
+    const Cotangents c{{{3, 0, 0}, {0, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e30f}},
+                       {{0, 4, 0}, {0, 0, 0}, {1e-31f, 0, 0}, {1, 0, 0}}};
     const Cotangents unit = unitCotangents(c);
     EXPECT_LT(glm::length(unit.u[0] - glm::vec3(0.75f, 0, 0)), 1e-6f);
     EXPECT_LT(glm::length(unit.v[0] - glm::vec3(0, 1, 0)), 1e-6f);

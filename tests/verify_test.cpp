@@ -65,7 +65,7 @@ TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
     EXPECT_GT(compared->views[2].degrees.count, 1000u); // from behind
     for (std::size_t side : {1, 3, 4})                  // from the sides and from above the quad is a line
         EXPECT_EQ(compared->views[side].degrees.count, 0u) << side;
-    EXPECT_NEAR(compared->all.mean, tilt, 1e-3);        // float
+    EXPECT_NEAR(compared->all.mean, tilt, 1e-3); // float
     EXPECT_NEAR(compared->all.maximum, tilt, 1e-2);
 }
 

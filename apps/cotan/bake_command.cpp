@@ -161,9 +161,10 @@ Status run(const BakeCommandOptions& o)
                 {"seconds", {{"load", loadSeconds}, {"pad", baked->statistics.padSeconds}, {"write", writeSeconds}}},
                 {"peak_megabytes", peakMegabytes()}};
     if (!o.verify.empty()) {
-        const auto verified = verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake,
-                                          image, job->setup.options.stored.format, o.material, job->setup.options.tangents},
-                                         o.device, o.verify, o);
+        const auto verified =
+            verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake, image,
+                        job->setup.options.stored.format, o.material, job->setup.options.tangents},
+                       o.device, o.verify, o);
         if (!verified)
             return verified.error();
         report["verify"] = *verified;

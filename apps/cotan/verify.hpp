@@ -15,7 +15,7 @@ struct VerifyOptions {
     std::filesystem::path before, after; // models
     Frame from = Frame::mikktspace, to = Frame::cotangent;
     TangentOrigin fromTangents = TangentOrigin::stored; // of the original
-    std::filesystem::path folder; // for before-N.png, after-N.png, difference-N.png
+    std::filesystem::path folder;                       // for before-N.png, after-N.png, difference-N.png
     std::string device;
     int memory = 0;
 };

@@ -41,8 +41,8 @@ struct Convention {
     MapKind kind = MapKind::tangentSpace;
     Expansion expansion = Expansion::exact;
     Channels channels = Channels::xyz;
-    bool greenUp = true;               // green points up the picture
-    VDirection v = VDirection::down;   // of the uv that the map is used with
+    bool greenUp = true;             // green points up the picture
+    VDirection v = VDirection::down; // of the uv that the map is used with
 
     friend bool operator==(const Convention&, const Convention&) = default;
 };
@@ -75,8 +75,7 @@ constexpr int expansionFor(Expansion expansion, int bits)
 
 // The same value for the portable text, f32:: or f64::cotan_normal_format, which also has to know of what precision
 // it reads. strength: factor on the slopes. bits: 8, 16 or 32 (floats) a component.
-template<class Format>
-Format toFormat(const Convention& c, double strength = 1, int bits = 8)
+template<class Format> Format toFormat(const Convention& c, double strength = 1, int bits = 8)
 {
     Format f;
     f.expansion = expansionFor(c.expansion, bits);

@@ -60,13 +60,14 @@ public:
         if (options_.highMaps && showsNormals(options_.kind))
             for (std::size_t i = 0; i < probes.count; ++i)
                 if (hits.found(i))
-                    hits.normal.set(i, options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
-                                                                   double(hits.b2[i]), hits.normal.at(i)));
+                    hits.normal.set(i,
+                                    options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
+                                                                double(hits.b2[i]), hits.normal.at(i)));
     }
 
     // What the map says of each hit. Returns how many rays that took.
-    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits, std::span<const glm::ivec2> samples,
-                         Lanes3& values) const
+    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
+                         std::span<const glm::ivec2> samples, Lanes3& values) const
     {
         switch (options_.kind) {
         case BakeKind::normal: encode(points, hits.normal, values); return 0;
@@ -81,7 +82,8 @@ public:
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (hits.found(i)) {
                 const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
-                const std::uint32_t pattern = std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
+                const std::uint32_t pattern =
+                    std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
                 values.set(i, {openness(where, hits.normal.at(i), pattern), 0, 1});
                 rays += std::size_t(options_.occlusionRays);
             }
@@ -132,12 +134,14 @@ struct Counts {
 // Bakes the texels of blocks of rows. One for each thread: keeps its memory.
 class BlockBaker {
 public:
-    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options, Baked& out)
+    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
+               Baked& out)
         : low_(low), baker_(baker), raster_(raster), options_(options), out_(out)
     {
     }
 
-    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and rays.
+    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and
+    // rays.
     void bake(int block, int first, int last, Counts& counts)
     {
         raster_.firsts(block, samples_);
@@ -209,8 +213,8 @@ private:
     const BakeOptions& options_;
     Baked& out_;
     UvFirsts samples_;
-    std::size_t base_ = 0;          // the block's first texel
-    std::vector<glm::vec3> sums_;   // over samples
+    std::size_t base_ = 0;            // the block's first texel
+    std::vector<glm::vec3> sums_;     // over samples
     std::vector<std::uint8_t> found_; // how many samples of each texel found something
     LowPoints points_;
     Probes probes_;
@@ -252,7 +256,8 @@ glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
 
 } // namespace
 
-Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view)
+Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
+                              const View& view)
 {
     Image image = makeImage(view.width, view.height, PixelType::float32, "expected normals");
     Scene scene;
@@ -292,8 +297,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
     return image;
 }
 
-Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const Progress& progress)
+Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Progress& progress)
 {
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",

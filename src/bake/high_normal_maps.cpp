@@ -65,13 +65,15 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
             const Image& picture = *image->second;
             if (!hasPixels(picture))
                 continue;
-            auto surface = makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentOrigin::stored);
+            auto surface =
+                makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentOrigin::stored);
             if (!surface)
                 return surface.error();
             part.surface = std::move(*surface);
             part.image = &picture;
             part.sampler = map.sampler;
-            part.format = toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
+            part.format =
+                toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
             ++maps.mapped_;
         }
     }
@@ -81,7 +83,8 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
     return maps;
 }
 
-glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2, glm::vec3 smooth) const
+glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2,
+                                   glm::vec3 smooth) const
 {
     const Part& part = parts_[instance];
     if (!part.image)

@@ -89,8 +89,8 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
             checked(result, "result");
         HighModel model;
         model.scenes.push_back(sceneOf(detailed));
-        const BakedModel baked =
-            valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
+        const BakedModel baked = valueOf(
+            bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
         put(baked.maps[0].image, out);
         if (result) {
             const BakeStatistics& s = baked.maps[0].statistics;

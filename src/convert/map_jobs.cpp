@@ -45,8 +45,8 @@ void dropOtherForms(Json& texture, std::size_t index, std::vector<std::string>& 
 
 // One primitive with one of its materials, added to the job of that material's normal map.
 // document: with the material in the primitive's place, for its uv.
-Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material,
-              bool foreign, const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material, bool foreign,
+              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
     const Json& root = document.root;
@@ -61,7 +61,8 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
     if (!geometry)
         return geometry.error();
     if (geometry->texcoords.empty() || geometry->indices.empty()) {
-        notes.push_back(primitiveField(m, p) + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
+        notes.push_back(primitiveField(m, p)
+                        + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
                         + "; its normal map is not converted for it");
         return Done{};
     }

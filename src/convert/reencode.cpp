@@ -38,8 +38,7 @@ struct RowCounts {
 class Reencoder {
 public:
     Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits)
-        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)),
-          owner_(map.pixelCount(), kNoTexel)
+        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)), owner_(map.pixelCount(), kNoTexel)
     {
         const Convention stored = uses.empty() ? Convention{} : uses.front().stored;
         plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
@@ -47,8 +46,7 @@ public:
         plain_.green = written_.green = 1;
         for (const MapUse& use : uses)
             rasters_.emplace_back(use, map.width, map.height);
-        result_.image =
-            makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
+        result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
         nearest_.resize(std::size_t(map.height));
     }
 
@@ -115,7 +113,8 @@ private:
     Demand demandAt(const Place& p, glm::dvec3 old) const
     {
         const MapUse& use = uses_[p.use];
-        const f64::cotan_frame from = frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
+        const f64::cotan_frame from =
+            frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
         const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
         const glm::dvec3 m(old.x * use.strength, old.y * use.strength * greenOf(use), old.z);
         // `mikktspace` hands back its n, not unit, where the sum vanishes.
@@ -169,7 +168,8 @@ private:
             demands.clear();
             for (const Place& p : places)
                 demands.push_back(demandAt(p, old));
-            const bool any = std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
+            const bool any =
+                std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
             if (!any) {
                 keep(x, y);
                 continue; // and nothing to spread from
@@ -241,7 +241,8 @@ private:
             }
             const auto& row = nearest_[owner_[i] / std::size_t(map_.width)];
             const int column = int(owner_[i] % std::size_t(map_.width));
-            const auto lent = std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
+            const auto lent =
+                std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
             const Demand demand = demandAt(lent->place, old);
             write(x, y, solveTexel({&demand, 1}, old));
             ++rows_[std::size_t(y)].padded;
@@ -266,8 +267,8 @@ private:
 
 } // namespace
 
-Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   int threads, CountedSteps* rows)
+Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads,
+                   CountedSteps* rows)
 {
     Reencoded result;
     withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });

@@ -12,7 +12,7 @@ namespace cotan {
 
 namespace {
 
-constexpr int kSteps = 12;      // quadratic convergence: four or five do
+constexpr int kSteps = 12;       // quadratic convergence: four or five do
 constexpr double kStill = 1e-10; // a step this short ends it
 
 glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise)

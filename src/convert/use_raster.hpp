@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cotan/surface/uv_raster.hpp"
 #include "cotan/convert/reencode.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan::convert {
 

@@ -27,17 +27,13 @@ float degreesBetween(glm::dvec3 a, glm::dvec3 b)
     return float(angleBetween(a, b) * kDegrees);
 }
 
-double share(std::size_t part, std::size_t whole)
-{
-    return whole == 0 ? 0 : double(part) / double(whole);
-}
+double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : double(part) / double(whole); }
 
 } // namespace
 
 double turnedShare(const TangentDifference& d)
 {
-    const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(),
-                                      [](float degrees) { return degrees > 90; });
+    const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(), [](float degrees) { return degrees > 90; });
     return share(std::size_t(turned), d.degrees.size());
 }
 
@@ -73,8 +69,7 @@ TangentVerdict verdictOf(const TangentDifference& d)
 {
     if (d.degrees.empty())
         return TangentVerdict::nothing;
-    if (d.handedness == 0
-        && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
+    if (d.handedness == 0 && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
         return TangentVerdict::equal;
     if (invertedShare(d) >= 0.9)
         return TangentVerdict::inverted;

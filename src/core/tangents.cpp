@@ -25,8 +25,8 @@ Edges edgesAt(const MeshView& mesh, std::size_t f, std::size_t k)
                         c = mesh.indices[3 * f + (k + 2) % 3];
     const glm::dvec3 p(mesh.positions[a]);
     const glm::dvec2 t(mesh.texcoords[a]);
-    return {glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p,
-            glm::dvec2(mesh.texcoords[b]) - t, glm::dvec2(mesh.texcoords[c]) - t};
+    return {glm::dvec3(mesh.positions[b]) - p, glm::dvec3(mesh.positions[c]) - p, glm::dvec2(mesh.texcoords[b]) - t,
+            glm::dvec2(mesh.texcoords[c]) - t};
 }
 
 // On which side of its vertices' tangent plane a triangle's image reads: unmirrored where (dP/du,
@@ -54,10 +54,7 @@ std::vector<Side> cornerSides(const MeshView& mesh)
     return sides;
 }
 
-std::size_t slot(std::uint32_t vertex, Side side)
-{
-    return 2 * std::size_t(vertex) + std::size_t(side);
-}
+std::size_t slot(std::uint32_t vertex, Side side) { return 2 * std::size_t(vertex) + std::size_t(side); }
 
 // The unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
@@ -72,18 +69,15 @@ Side sideOrNearest(Side side, std::uint32_t vertex, const auto& isEmpty)
 {
     if (side != Side::none)
         return side;
-    return isEmpty(slot(vertex, Side::unmirrored)) && !isEmpty(slot(vertex, Side::mirrored))
-        ? Side::mirrored
-        : Side::unmirrored;
+    return isEmpty(slot(vertex, Side::unmirrored)) && !isEmpty(slot(vertex, Side::mirrored)) ? Side::mirrored
+                                                                                             : Side::unmirrored;
 }
 
 struct CotangentSums {
     std::vector<glm::vec3> u, v;
     std::vector<float> weight;
 
-    explicit CotangentSums(std::size_t n) : u(n, glm::vec3(0)), v(n, glm::vec3(0)), weight(n, 0.0f)
-    {
-    }
+    explicit CotangentSums(std::size_t n) : u(n, glm::vec3(0)), v(n, glm::vec3(0)), weight(n, 0.0f) {}
 };
 
 float angleAt(const Edges& e, glm::vec3 n)
@@ -94,8 +88,8 @@ float angleAt(const Edges& e, glm::vec3 n)
 // Adds the gradients of a corner's triangle; returns the weight that they got.
 float addCorner(CotangentSums& sums, std::size_t at, const Edges& e, glm::vec3 n)
 {
-    const f32::cotan_frame frame = f32::cotan_frame_gradient(n, glm::vec3(e.dp1), glm::vec3(e.dp2),
-                                                             glm::vec2(e.duv1), glm::vec2(e.duv2));
+    const f32::cotan_frame frame =
+        f32::cotan_frame_gradient(n, glm::vec3(e.dp1), glm::vec3(e.dp2), glm::vec2(e.duv1), glm::vec2(e.duv2));
     const float weight = angleAt(e, n);
     if (!(weight > 0) || (tangents::isZero(frame.t) && tangents::isZero(frame.b)))
         return 0;
@@ -144,8 +138,7 @@ Cotangents smoothCotangents(const MeshView& mesh)
         const Edges e = edgesAt(mesh, c / 3, c % 3);
         const Side side = sideAt(e, mesh.normals[vertex]);
         if (side != Side::none)
-            share[slot(vertex, side)] +=
-                addCorner(sums, slot(first[vertex], side), e, mesh.normals[vertex]);
+            share[slot(vertex, side)] += addCorner(sums, slot(first[vertex], side), e, mesh.normals[vertex]);
     }
 
     const auto isEmpty = [&](std::size_t at) { return !(sums.weight[at] > 0); };
@@ -153,9 +146,7 @@ Cotangents smoothCotangents(const MeshView& mesh)
     for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
         const float plain = share[slot(vertex, Side::unmirrored)];
         const float mirrored = share[slot(vertex, Side::mirrored)];
-        const Side own = plain + mirrored == 0 ? Side::none
-            : mirrored > plain                 ? Side::mirrored
-                                               : Side::unmirrored;
+        const Side own = plain + mirrored == 0 ? Side::none : mirrored > plain ? Side::mirrored : Side::unmirrored;
         const std::size_t at = slot(first[vertex], sideOrNearest(own, first[vertex], isEmpty));
         const float scale = isEmpty(at) ? 0 : 1 / sums.weight[at];
         out.u[vertex] = sums.u[at] * scale;
@@ -167,20 +158,14 @@ Cotangents smoothCotangents(const MeshView& mesh)
 VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
                           std::span<const glm::vec4> corners)
 {
-    if (corners.size() != indices.size() || vertexCount >= tangents::kNone
-        || indices.size() >= tangents::kNone
+    if (corners.size() != indices.size() || vertexCount >= tangents::kNone || indices.size() >= tangents::kNone
         || std::any_of(indices.begin(), indices.end(), [&](auto i) { return i >= vertexCount; }))
         return {};
-    const auto first =
-        tangents::firstEqual(static_cast<std::uint32_t>(indices.size()), [&](std::uint32_t c) {
-            const glm::vec4 x = corners[c];
-            return std::array{indices[c],
-                              0u,
-                              tangents::bitsOf(x.x),
-                              tangents::bitsOf(x.y),
-                              tangents::bitsOf(x.z),
-                              tangents::bitsOf(x.w)};
-        });
+    const auto first = tangents::firstEqual(static_cast<std::uint32_t>(indices.size()), [&](std::uint32_t c) {
+        const glm::vec4 x = corners[c];
+        return std::array{indices[c],           0u, tangents::bitsOf(x.x), tangents::bitsOf(x.y), tangents::bitsOf(x.z),
+                          tangents::bitsOf(x.w)};
+    });
     VertexSplit split{std::vector<std::uint32_t>(vertexCount), {indices.begin(), indices.end()}};
     for (std::uint32_t i = 0; i < vertexCount; ++i)
         split.sources[i] = i;

@@ -76,7 +76,7 @@ constexpr FrameFunction kFrames[] = {
 #define COTAN_ROW_triangle(name, word) {name, counted::cotan_frame_##word},
 #define COTAN_ROW_cotangents(name, word)
 #define COTAN_ROW_tangents(name, word)
-#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
     COTAN_ROW_##source(name, word)
 #include "cotan/frames.inc"
 };

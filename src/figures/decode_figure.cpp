@@ -90,11 +90,11 @@ void addDomes(Studio& studio, Figure& figure)
         Channels channels;
         bool greenUp;
         const char *file, *label, *caption;
-    } rows[] = {{Channels::xyz, true, "d-three-channels", "three channels, green up", "As the map is meant."},
-                {Channels::orthographic, true, "e-two-channels", "two channels",
-                 "Blue is not read; z comes from x and y."},
-                {Channels::xyz, false, "f-green-wrong", "green the wrong way",
-                 "The same map read as green down: lit from the lower left, or dents."}};
+    } rows[] = {
+        {Channels::xyz, true, "d-three-channels", "three channels, green up", "As the map is meant."},
+        {Channels::orthographic, true, "e-two-channels", "two channels", "Blue is not read; z comes from x and y."},
+        {Channels::xyz, false, "f-green-wrong", "green the wrong way",
+         "The same map read as green down: lit from the lower left, or dents."}};
     Image truth;
     for (const auto& row : rows) {
         const Scene scene = domeScene(map, row.channels, row.greenUp);

@@ -341,7 +341,9 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
 }
 
 // What a failure of `write` is to the caller.
-template<class Write> auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write) -> Result<decltype(write())>
+template<class Write>
+auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write)
+    -> Result<decltype(write())>
 {
     try {
         return write();

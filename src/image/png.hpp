@@ -16,8 +16,7 @@ namespace cotan {
 
 // As decodeImage. Palettes are expanded, 1-, 2- and 4-bit samples scaled to the full range, a
 // transparent colour becomes alpha. Chunks about colour spaces are ignored.
-Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
-                      const LoadLimits& limits);
+Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
 // Writes unorm8 or unorm16. An image whose alpha is 1 everywhere is stored without alpha, which
 // reads back the same. `name` is for messages.

@@ -92,10 +92,7 @@ void addSteps(const MappedSurface& s, Frame frame, const Side& a, const Side& b,
 
 } // namespace
 
-double degreesBetween(glm::dvec3 a, glm::dvec3 b)
-{
-    return glm::degrees(angleBetween(a, b));
-}
+double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBetween(a, b)); }
 
 EdgeSteps edgeSteps(const MappedSurface& s)
 {

@@ -63,7 +63,8 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count)
     return points;
 }
 
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses, const FramePair& frames)
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames)
 {
     const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
     std::vector<std::pair<double, double>> errors;

@@ -18,10 +18,7 @@ namespace {
 constexpr float kSame = 3.0f / 255;
 constexpr float kShortest = 1e-3f;
 
-bool finite(const glm::vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // cotan_decode with "along v" read as "up the picture".
 f32::cotan_normal_format pictureFormat(const Convention& c, PixelType type)
@@ -180,14 +177,17 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 void forRowBands(int height, const std::function<void(int first, int last)>& work)
 {
     constexpr int kBand = 16;
-    parallelFor(0, (height + kBand - 1) / kBand, [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
+    parallelFor(0, (height + kBand - 1) / kBand,
+                [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
 }
 
 double quantisationDegrees(const Convention& convention, int bits, double tilt)
 {
     // Half a step in each stored component, as a signed number.
     const double codes = std::pow(2.0, bits);
-    const double half = bits >= 32 ? 3e-7 : convention.expansion == Expansion::exact ? 1 / (codes - 2) : 1 / (codes - 1);
+    const double half = bits >= 32                 ? 3e-7
+        : convention.expansion == Expansion::exact ? 1 / (codes - 2)
+                                                   : 1 / (codes - 1);
     const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
     // Tangential part of the error, to first order:
     double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst

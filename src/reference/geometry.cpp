@@ -15,8 +15,8 @@ namespace {
 // How an instance moves points, vectors and covectors.
 struct Transform {
     glm::mat3 vectors{1};
-    glm::vec3 translation{0};  // relative to the eye
-    glm::dmat3 covectors{1};   // inverse transpose, up to a positive factor
+    glm::vec3 translation{0}; // relative to the eye
+    glm::dmat3 covectors{1};  // inverse transpose, up to a positive factor
     bool mirrored = false;
 };
 
@@ -42,10 +42,7 @@ Transform transformOf(const glm::mat4& toWorld, glm::dvec3 eye)
 
 glm::vec3 unitOrZero(glm::vec3 v) { return f32::cotan_normalize_or(v, glm::vec3(0)); }
 
-glm::vec3 covector(const Transform& t, glm::vec3 v)
-{
-    return glm::vec3(t.covectors * glm::dvec3(v));
-}
+glm::vec3 covector(const Transform& t, glm::vec3 v) { return glm::vec3(t.covectors * glm::dvec3(v)); }
 
 // The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
 // (tangentAlongV). glTF has bitangent = cross(n, t) * w, along
@@ -58,8 +55,7 @@ glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
 }
 
 template<class In, class Out, class Function>
-void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>& out,
-                  Function function)
+void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>& out, Function function)
 {
     if (in.size() < count)
         return; // absent
@@ -79,13 +75,10 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
     draw.material = mesh.material;
     draw.vectors = t.vectors;
     draw.mirrored = t.mirrored;
-    transformAll(mesh.positions, count, draw.positions,
-                 [&](glm::vec3 p) { return t.vectors * p + t.translation; });
-    transformAll(mesh.normals, count, draw.normals,
-                 [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
+    transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return t.vectors * p + t.translation; });
+    transformAll(mesh.normals, count, draw.normals, [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
     if (readsTangents(frame))
-        transformAll(mesh.tangents, count, draw.tangents,
-                     [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
+        transformAll(mesh.tangents, count, draw.tangents, [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
     if (readsCotangents(frame)) {
         auto asCovector = [&](glm::vec3 v) { return covector(t, v); };
         transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
@@ -108,14 +101,12 @@ std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, boo
         if (instance.mesh < 0 || std::size_t(instance.mesh) >= scene.meshes.size())
             continue;
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        bool hasMaterial =
-            mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
+        bool hasMaterial = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
         if (hasMaterial && mesh.triangleCount() > 0)
             draws.push_back(makeDraw(mesh, instance.toWorld, eye, frame));
     }
     if (blending)
-        std::stable_partition(draws.begin(), draws.end(),
-                              [&](const Draw& draw) { return !isBlended(scene, draw); });
+        std::stable_partition(draws.begin(), draws.end(), [&](const Draw& draw) { return !isBlended(scene, draw); });
     return draws;
 }
 

@@ -23,10 +23,7 @@ struct MipChain {
     std::vector<Image> smaller;
 
     int levels() const { return 1 + int(smaller.size()); }
-    const Image& level(int i) const
-    {
-        return i == 0 ? *image : smaller[std::size_t(i - 1)];
-    }
+    const Image& level(int i) const { return i == 0 ? *image : smaller[std::size_t(i - 1)]; }
 };
 
 // Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded

@@ -12,16 +12,12 @@ namespace cotan::reference {
 
 namespace {
 
-bool hasUv(const Draw& draw, std::size_t set)
-{
-    return draw.mesh->texcoords[set].size() >= draw.positions.size();
-}
+bool hasUv(const Draw& draw, std::size_t set) { return draw.mesh->texcoords[set].size() >= draw.positions.size(); }
 
 // In double, rounded once: what is left in a difference of neighbours is the rounding of the two
 // values, as on a GPU at its best.
 template<glm::length_t N>
-glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values,
-                                const RasterTriangle& triangle,
+glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, const RasterTriangle& triangle,
                                 const std::array<double, 3>& weights)
 {
     glm::vec<N, double> sum(0);
@@ -78,15 +74,13 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, Frame frame, glm::vec3
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
-                    in.draw->vectors * (p[v[2]] - p[v[0]]),
-                    transformedEdge(texture, uv[v[1]] - uv[v[0]]),
-                    transformedEdge(texture, uv[v[2]] - uv[v[0]]));
+    return evaluate(frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+                    transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
 // The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
-f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n,
-                                 glm::vec3 rawNormal, const std::array<double, 3>& weights)
+f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n, glm::vec3 rawNormal,
+                                 const std::array<double, 3>& weights)
 {
     const Draw& draw = *in.draw;
     const RasterTriangle& triangle = *in.triangle;
@@ -100,10 +94,7 @@ f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3
     return evaluateTangents(frame, frame == Frame::mikktspace ? rawNormal : n, glm::vec3(tangent), tangent.w);
 }
 
-glm::vec3 finiteOrZero(glm::vec3 v)
-{
-    return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0);
-}
+glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
 
 // The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
 // zero floats are dense, so close steps of uv far from zero are not lost to rounding.
@@ -149,12 +140,11 @@ QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, 
     return quad;
 }
 
-UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
-                   Derivatives derivatives)
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives)
 {
     Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
-            uvDifference(texture, quad, x), uvDifference(texture, quad, y)};
+    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, quad, x),
+            uvDifference(texture, quad, y)};
 }
 
 BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -164,8 +154,7 @@ BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
     base.value = m.baseColor;
     if (in.maps->baseColor)
         base.value *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
-                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives),
-                             in.view->pointSampled);
+                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
     const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
     if (colors.size() >= in.draw->positions.size())
         base.value *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
@@ -207,13 +196,12 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
-    result.mapped =
-        in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
+    result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
-        glm::vec4 texel =
-            sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
-        glm::vec3 m = f32::cotan_decode(
-            glm::vec3(texel), toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
+        glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
+        glm::vec3 m =
+            f32::cotan_decode(glm::vec3(texel),
+                              toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
                                                                  double(material.normalScale)));
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);

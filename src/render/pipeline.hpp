@@ -51,9 +51,7 @@ struct PipelineKey {
 
 class Pipelines {
 public:
-    Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts)
-    {
-    }
+    Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
     vk::Pipeline get(const PipelineKey& key);
 
 private:

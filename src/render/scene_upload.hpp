@@ -65,7 +65,7 @@ public:
     std::vector<GpuMesh> meshes;
     std::vector<GpuMaterial> materials; // as in the scene
     std::vector<GpuInstance> instances;
-    Bounds bounds; // world
+    Bounds bounds;                 // world
     std::vector<Status> withFrame; // whether it has what each frame reads at the vertices
 
 private:

@@ -41,8 +41,7 @@ private:
     using Key = std::tuple<int, TextureKind, Expansion, Channels>;
     static Key keyOf(const Texture& use, TextureKind kind, const Convention& format);
     void collect(const Scene& scene);
-    void request(const Scene& scene, const Texture& use, TextureKind kind,
-                 const Convention& format);
+    void request(const Scene& scene, const Texture& use, TextureKind kind, const Convention& format);
     Texture2D upload(const MipChain& chain, Uploader& uploader);
 
     const Device* device_;

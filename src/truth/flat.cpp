@@ -23,8 +23,8 @@ VertexFrames vertexFrames(const Layout& l)
         texcoords.emplace_back(uv);
     }
     // Triangles run counter-clockwise seen from +z, also where the layout mirrors.
-    const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0
-        ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
+    const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0 ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}
+                                                                         : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
     const MeshView mesh{positions, normals, texcoords, indices};
     const Cotangents cotangents = smoothCotangents(mesh);
     VertexFrames made{{}, glm::dvec3(cotangents.u.front()), glm::dvec3(cotangents.v.front())};
@@ -72,9 +72,8 @@ struct PatchRows {
             if (degreesBetween(truths[k], patch.normal) < leastTilt)
                 continue;
             for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
-                const glm::dvec3 n = readsVertices(row.frame)
-                    ? shadeVertexFrame(row.single, row.frame, vertices, m)
-                    : shadeAs(row.single, row.frame, patch.normal, d, m);
+                const glm::dvec3 n = readsVertices(row.frame) ? shadeVertexFrame(row.single, row.frame, vertices, m)
+                                                              : shadeAs(row.single, row.frame, patch.normal, d, m);
                 row.angles.add(degreesBetween(n, truths[k]));
             }
         }
@@ -86,8 +85,7 @@ void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::d
 {
     const AffinePatch patch = patchOf(layout);
     const VertexFrames vertices = vertexFrames(layout);
-    const PixelCamera camera =
-        PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
+    const PixelCamera camera = PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) {
             const double u = (i + 0.5) / 128, v = (j + 0.5) / 128;

@@ -28,7 +28,7 @@ public:
     std::size_t mappedCount() const { return mapped_; }
 
 private:
-    struct Part { // one instance, numbered as Hit::instance
+    struct Part {           // one instance, numbered as Hit::instance
         LowSurface surface; // empty where there is no map
         const Image* image = nullptr;
         Sampler sampler;

@@ -15,11 +15,11 @@ struct LowPoints {
 
     // What the frame is made from.
     struct Ingredients {
-        Lanes<float> b1{}, b2{};              // barycentric coordinates
-        Lanes3 raw;                           // normal, not normalised
-        Lanes3 u, v;                          // of frames from cotangents; u of those from a tangent: the tangent
+        Lanes<float> b1{}, b2{}; // barycentric coordinates
+        Lanes3 raw;              // normal, not normalised
+        Lanes3 u, v;             // of frames from cotangents; u of those from a tangent: the tangent
         Lanes<float> handedness{};
-        Lanes3 dpdx, dpdy;                    // of the others: differences
+        Lanes3 dpdx, dpdy;                   // of the others: differences
         Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
     } from;
 };

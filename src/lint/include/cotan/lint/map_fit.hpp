@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "cotan/lint/spread.hpp"
-#include "cotan/surface/mapped_surface.hpp"
 #include "cotan/convention.hpp"
+#include "cotan/lint/spread.hpp"
 #include "cotan/scene/scene.hpp"
+#include "cotan/surface/mapped_surface.hpp"
 
 namespace cotan {
 
@@ -20,7 +20,7 @@ struct MapUse {
 };
 
 struct FramePair {
-    Frame from = Frame::mikktspace, to = Frame::cotangent;           // view independent, both
+    Frame from = Frame::mikktspace, to = Frame::cotangent; // view independent, both
     TangentOrigin fromTangents = TangentOrigin::stored, toTangents = TangentOrigin::generated;
 };
 
@@ -40,7 +40,8 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
 // their data, of any sizes. Empty (count 0) where no use shows anything: no triangle with area in space and uv.
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses, const FramePair& frames);
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames);
 
 // Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
 inline constexpr double kAsRounding = 0.3;

@@ -1,8 +1,8 @@
 // What the plain structs of a scene are on the wire.
 #pragma once
 
-#include "cotan/scene/scene.hpp"
 #include "cotan/sandbox/wire.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan {
 

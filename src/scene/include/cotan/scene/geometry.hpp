@@ -31,9 +31,9 @@ std::vector<Light> defaultLights();
 // its material's map asks for. Else normals do not differ between frames, and a comparison of them says nothing.
 bool drawsNormalMaps(const Scene& scene);
 
-// Whether the scene can be drawn with the frame: every mesh that is drawn and has the uv of its normal map also has what
-// the frame reads at its vertices. A renderer would show it without a frame otherwise.
-// Errors: ErrorKind::usage, with the mesh, where deriveVertexFrames (cotan/surface/vertex_frames.hpp) was left out.
+// Whether the scene can be drawn with the frame: every mesh that is drawn and has the uv of its normal map also has
+// what the frame reads at its vertices. A renderer would show it without a frame otherwise. Errors: ErrorKind::usage,
+// with the mesh, where deriveVertexFrames (cotan/surface/vertex_frames.hpp) was left out.
 Status checkVertexAttributes(const Scene& scene, Frame frame);
 
 } // namespace cotan

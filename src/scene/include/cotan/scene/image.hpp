@@ -21,11 +21,11 @@ constexpr int bitsPerComponent(PixelType type) { return int(8 * bytesPerComponen
 // Grey files become r = g = b; a missing alpha becomes 1. The values are those of the file:
 // whether they are sRGB or linear is decided by what they are used for.
 struct Image {
-    std::string name;                     // for messages: file name, or what it was made from
-    int width = 0;                        // pixels
-    int height = 0;                       // pixels
+    std::string name; // for messages: file name, or what it was made from
+    int width = 0;    // pixels
+    int height = 0;   // pixels
     PixelType type = PixelType::unorm8;
-    std::vector<std::byte> data;          // width * height * 4 * bytesPerComponent(type)
+    std::vector<std::byte> data; // width * height * 4 * bytesPerComponent(type)
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }

@@ -28,9 +28,8 @@ template<class Use> auto atTexel(const Image& image, int x, int y, const Use& us
 // The components at column x, row y, inside the image, as a sampler gives them: unorm as [0,1].
 inline glm::vec4 storedComponents(const Image& image, int x, int y)
 {
-    return atTexel(image, x, y, [](const auto* c, int most) {
-        return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(most));
-    });
+    return atTexel(image, x, y,
+                   [](const auto* c, int most) { return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(most)); });
 }
 
 // The column or row that texel i of an endless axis is, of `size` that the image has.

@@ -14,7 +14,7 @@ namespace cotan::shader_text {
 
 enum class Language { glsl, essl, hlsl, wgsl, msl, cpp };
 inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl,
-                                          Language::wgsl, Language::msl, Language::cpp};
+                                          Language::wgsl, Language::msl,  Language::cpp};
 std::string_view name(Language language);
 std::optional<Language> languageFromName(std::string_view name);
 
@@ -27,13 +27,13 @@ enum class Form {
 struct Choice {
     Language language = Language::glsl;
     Frame frame = Frame::cotangent;
-    Convention convention;     // expansion, channels and green are used
-    std::optional<Form> form;  // nothing: fused where there is one, else total
-    int uvSets = 1;            // 1..4; more than one: gradients are added, total form
+    Convention convention;          // expansion, channels and green are used
+    std::optional<Form> form;       // nothing: fused where there is one, else total
+    int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
     bool callerDifferences = false; // leave out the function that takes derivatives itself
-    bool gradients = false;    // add all of gradient.h
-    bool blends = false;       // add all of blend.h
-    bool lights = false;       // add all of light.h
+    bool gradients = false;         // add all of gradient.h
+    bool blends = false;            // add all of blend.h
+    bool lights = false;            // add all of light.h
 };
 
 struct ShaderText {

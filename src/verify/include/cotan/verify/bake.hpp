@@ -19,8 +19,8 @@ struct BakeToVerify {
     const HighSurface& high;
     const BakeOptions& options; // that the map was baked with; its frame draws
     const Image& map;
-    Convention format; // of the map
-    int material = -1; // index of the scene's material that reads the map; -1: all do
+    Convention format;                              // of the map
+    int material = -1;                              // index of the scene's material that reads the map; -1: all do
     TangentOrigin tangents = TangentOrigin::stored; // that are drawn with
 };
 
