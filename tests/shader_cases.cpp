@@ -183,7 +183,7 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE(
         "triangle",
         cotan_apply(
-            cotan_frame_triangle(n,
+            cotan_frame_of_triangle(n,
                                  cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
                                      .u,

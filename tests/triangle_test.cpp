@@ -88,7 +88,7 @@ TEST(Triangle, changesSlopesByAFactorBetweenTheCosineOfTheLeanAndOne)
     for (int i = 0; i < 20000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f64::cotan_triangle v = f64::cotan_triangle_of_edges(t.dp1, t.dp2, t.duv1, t.duv2, t.n);
-        const f64::cotan_frame triangle = f64::cotan_frame_triangle(t.n, v.u, v.v), pixel = frameOf(t);
+        const f64::cotan_frame triangle = f64::cotan_frame_of_triangle(t.n, v.u, v.v), pixel = frameOf(t);
         const double factor = glm::length(triangle.t) / glm::length(pixel.t);
         const double lean = std::abs(glm::dot(t.n, glm::normalize(glm::cross(t.dp1, t.dp2))));
         ASSERT_LE(factor, 1 + 1e-12);
@@ -105,7 +105,7 @@ TEST(Triangle, fusedEqualsTotal)
     for (int i = 0; i < 20000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f32::cotan_triangle v = vectorsOf(t);
-        const Vec expected = f64::cotan_apply(f64::cotan_frame_triangle(t.n, v.u, v.v), t.m);
+        const Vec expected = f64::cotan_apply(f64::cotan_frame_of_triangle(t.n, v.u, v.v), t.m);
         ASSERT_LT(degreesBetween(f32::cotan_perturb_triangle(t.n * 0.05, v.u, v.v, t.m), expected), 1e-4);
         const f32::cotan_triangle sound = f32::cotan_triangle_of_sound_edges(t.dp1, t.dp2, t.duv1, t.duv2, t.n);
         ASSERT_LT(glm::length(sound.u - v.u) + glm::length(sound.v - v.v), 1e-5);
@@ -182,7 +182,7 @@ TEST(Triangle, neverGivesNaN)
         const glm::vec3 p = f32::cotan_perturb_triangle(n, t.u, t.v, m);
         ASSERT_NEAR(glm::length(p), 1, 1e-5);
         // Also where U and V themselves are anything.
-        const glm::vec3 q = f32::cotan_apply(f32::cotan_frame_triangle(side, dp1, dp2), m);
+        const glm::vec3 q = f32::cotan_apply(f32::cotan_frame_of_triangle(side, dp1, dp2), m);
         ASSERT_NEAR(glm::length(q), 1, 1e-5);
         const f32::cotan_triangle moved = f32::cotan_triangle_transformed(t, dp1, dp2, side, 1.0f);
         ASSERT_TRUE(std::isfinite(moved.u.x + moved.u.y + moved.u.z + moved.v.x + moved.v.y + moved.v.z));

@@ -70,9 +70,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
-    const Convention convention =
-        storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
-    options.stored.format = {int(convention.expansion), int(convention.channels), !convention.greenUp};
+    options.stored.format = storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
     return options;
 }
 
