@@ -37,7 +37,8 @@ template<class Generate> void time(const char* name, int runs, std::size_t trian
     std::vector<double> wall, thread, process;
     for (int i = 0; i < runs; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        const double t = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID), p = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
+        const double t = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID),
+                     p = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
         const auto out = generate();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         wall.push_back(taken.count());
@@ -45,14 +46,13 @@ template<class Generate> void time(const char* name, int runs, std::size_t trian
         process.push_back(processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID) - p);
     }
     const auto best = [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); };
-    std::printf("%-44s %8.1f ms median, %8.1f ms best, processor %8.1f ms here, %8.1f ms in all, %6.2f M triangles/s\n", name,
-                median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
+    std::printf("%-44s %8.1f ms median, %8.1f ms best, processor %8.1f ms here, %8.1f ms in all, %6.2f M triangles/s\n",
+                name, median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
 }
 
 template<class T> void write(std::ofstream& file, const std::vector<T>& values)
 {
-    file.write(reinterpret_cast<const char*>(values.data()),
-               std::streamsize(values.size() * sizeof(T)));
+    file.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size() * sizeof(T)));
 }
 
 long peakKilobytes()
@@ -74,8 +74,8 @@ int main(int argc, char** argv)
     const cotan::bench::Grid grid = cotan::bench::makeGrid(side);
     {
         std::ofstream file(argv[3], std::ios::binary);
-        write(file, std::vector<std::uint32_t>{std::uint32_t(grid.positions.size()),
-                                               std::uint32_t(grid.indices.size())});
+        write(file,
+              std::vector<std::uint32_t>{std::uint32_t(grid.positions.size()), std::uint32_t(grid.indices.size())});
         write(file, grid.positions);
         write(file, grid.normals);
         write(file, grid.texcoords);
@@ -91,8 +91,7 @@ int main(int argc, char** argv)
     cotan::mikktspaceTangents(grid.view());
     std::printf("cotan's memory: %.0f bytes a triangle, of these 48 for the result\n",
                 double(peakKilobytes() - before) * 1024 / double(triangles));
-    time("cotan mikktspaceTangents, indexed", runs, triangles,
-         [&] { return cotan::mikktspaceTangents(grid.view()); });
+    time("cotan mikktspaceTangents, indexed", runs, triangles, [&] { return cotan::mikktspaceTangents(grid.view()); });
     time("cotan mikktspaceTangents, one thread", runs, triangles,
          [&] { return cotan::mikktspaceTangents(grid.view(), 1); });
     const cotan::bench::Grid loose = cotan::bench::unindexed(grid);

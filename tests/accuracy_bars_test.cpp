@@ -197,9 +197,7 @@ TEST(AccuracyControls, wrongFramesOnASphereAreWrongByTheirKnownAmounts)
 TEST(AccuracyBarD1, largeUvCostAboutADegreeTimesTheirRoundingOverTheFootprint)
 {
     const auto rows = measure("precision", {{Frame::cotangent}, "large uv"});
-    auto mean = [&](const char* setting) {
-        return only(rows, setting, "cotangent", "float", "exact arithmetic").mean;
-    };
+    auto mean = [&](const char* setting) { return only(rows, setting, "cotangent", "float", "exact arithmetic").mean; };
     // One degree times uv x 1e-6 / footprint, to a factor of two: rounding of a float.
     EXPECT_NEAR(mean("uv up to 16, footprint 0.0001"), 0.123, 0.06);
     EXPECT_NEAR(mean("uv up to 256, footprint 0.001"), 0.196, 0.1);
@@ -243,8 +241,8 @@ TEST(AccuracyBarD4, proceduralUvCostUnderADegreeWhereAWarpSpans64Pixels)
     const auto fine = measure("procedural", scene("fine derivatives"));
     EXPECT_LT(only(fine, "64 pixels a wave", "cotangent").mean, 0.9);
     // First order in the footprint: a quarter of the pixels, four times the error.
-    EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean,
-                4, 0.2);
+    EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean, 4,
+                0.2);
     const auto analytic = measure("procedural", scene("analytic Jacobian"));
     for (const char* setting : {"64 pixels a wave", "4 pixels a wave"})
         EXPECT_LT(only(analytic, setting, "cotangent").maximum, 1e-6);

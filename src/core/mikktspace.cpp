@@ -34,7 +34,8 @@ CornersAt cornersByVertex(const Triangles& t, std::size_t threads)
     // Each thread reads all corners and writes those of its own vertices. each(vertex, corner), from the last.
     const auto forCorners = [&](const auto& each) {
         runTasks(threads, threads, [&](std::size_t part) {
-            const std::size_t begin = partBegin(vertices, part, threads), size = partBegin(vertices, part + 1, threads) - begin;
+            const std::size_t begin = partBegin(vertices, part, threads),
+                              size = partBegin(vertices, part + 1, threads) - begin;
             for (auto c = static_cast<std::uint32_t>(t.corners()); c-- > 0;)
                 if (const std::size_t v = t.vertices[c]; v - begin < size && !t.has(c / 3, kDegenerate))
                     each(v, c);
@@ -76,7 +77,7 @@ struct Ring {
 
 private:
     static constexpr std::uint32_t kFew = 16;
-    std::uint32_t count = 0; // of corners; the lists are as long as the longest needed so far
+    std::uint32_t count = 0;                    // of corners; the lists are as long as the longest needed so far
     std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
     std::vector<std::uint32_t> byLeaving, byComing;
 

@@ -69,20 +69,14 @@ Cotangents smoothCotangents(const MeshView& mesh)
 VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
                           std::span<const glm::vec4> corners)
 {
-    if (corners.size() != indices.size() || vertexCount >= tangents::kNone
-        || indices.size() >= tangents::kNone
+    if (corners.size() != indices.size() || vertexCount >= tangents::kNone || indices.size() >= tangents::kNone
         || std::any_of(indices.begin(), indices.end(), [&](auto i) { return i >= vertexCount; }))
         return {};
-    const auto first =
-        tangents::firstEqual(static_cast<std::uint32_t>(indices.size()), [&](std::uint32_t c) {
-            const glm::vec4 x = corners[c];
-            return std::array{indices[c],
-                              0u,
-                              tangents::bitsOf(x.x),
-                              tangents::bitsOf(x.y),
-                              tangents::bitsOf(x.z),
-                              tangents::bitsOf(x.w)};
-        });
+    const auto first = tangents::firstEqual(static_cast<std::uint32_t>(indices.size()), [&](std::uint32_t c) {
+        const glm::vec4 x = corners[c];
+        return std::array{indices[c],           0u, tangents::bitsOf(x.x), tangents::bitsOf(x.y), tangents::bitsOf(x.z),
+                          tangents::bitsOf(x.w)};
+    });
     VertexSplit split{std::vector<std::uint32_t>(vertexCount), {indices.begin(), indices.end()}};
     for (std::uint32_t i = 0; i < vertexCount; ++i)
         split.sources[i] = i;
@@ -115,6 +109,23 @@ VertexSplit splitMirrored(const MeshView& mesh)
         values[c].x = mirrored ? 1.0f : 0.0f;
     }
     return splitVertices(mesh.positions.size(), mesh.indices, values);
+}
+
+std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads)
+{
+    if (frame == Frame::mikktspace)
+        return mikktspaceTangents(mesh, threads);
+    return frame == Frame::vertex ? vertexTangents(mesh) : std::vector<glm::vec4>{};
+}
+
+SplitCotangents splitSmoothCotangents(const MeshView& mesh)
+{
+    SplitCotangents made{splitMirrored(mesh), {}};
+    const auto positions = gathered(mesh.positions, made.split);
+    const auto normals = gathered(mesh.normals, made.split);
+    const auto texcoords = gathered(mesh.texcoords, made.split);
+    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices});
+    return made;
 }
 
 } // namespace cotan

@@ -15,27 +15,27 @@ std::string normalFor(Frame frame)
 
 std::string fromVertices(Frame frame)
 {
-    const bool covectors = frame == Frame::smooth;
-    const std::string arguments = covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent"
-                                            : "cotan_vec3 tangent, cotan_real handedness";
+    const bool covectors = readsCotangents(frame);
+    const std::string arguments =
+        covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent" : "cotan_vec3 tangent, cotan_real handedness";
     const std::string what = covectors
         ? "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n"
         : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
           "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
     return fill("// The perturbed normal, unit.\n"
-                       "// normal: interpolated.\n{}"
-                       "// texel: the normal map as sampled.\n"
-                       "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
-                       "    cotan_vec3 m = cotan_decode(texel);\n"
-                       "    cotan_frame frame = cotan_frame_{}(normal, {});\n"
-                       "    return cotan_apply(frame, m);\n}}\n",
-                       what, kVertexEntry, arguments, functionWord(frame),
-                       covectors ? "cotangent, cobitangent" : "tangent, handedness");
+                "// normal: interpolated.\n{}"
+                "// texel: the normal map as sampled.\n"
+                "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
+                "    cotan_vec3 m = cotan_decode(texel);\n"
+                "    cotan_frame frame = cotan_frame_{}(normal, {});\n"
+                "    return cotan_apply(frame, m);\n}}\n",
+                what, kVertexEntry, arguments, functionWord(frame),
+                covectors ? "cotangent, cobitangent" : "tangent, handedness");
 }
 
 std::string fromDifferences(Frame frame, Form form)
 {
-    const bool edges = frame == Frame::exact;
+    const bool edges = info(frame).source == FrameSource::triangle;
     const std::string what = edges
         ? "// normal: interpolated at the shaded point.\n"
           "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
@@ -43,19 +43,18 @@ std::string fromDifferences(Frame frame, Form form)
         : "// normal: interpolated.\n"
           "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
           "// duvdx, duvdy: differences of uv along the same two.\n";
-    const std::string head = fill(
-        "// The perturbed normal, unit.\n{}"
-        "// texel: the normal map as sampled.\n"
-        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
-        "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
-        "    cotan_vec3 m = cotan_decode(texel);\n",
-        what, entryOf(frame));
+    const std::string head = fill("// The perturbed normal, unit.\n{}"
+                                  "// texel: the normal map as sampled.\n"
+                                  "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
+                                  "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
+                                  "    cotan_vec3 m = cotan_decode(texel);\n",
+                                  what, entryOf(frame));
     if (form == Form::fused)
         return fill("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
-                           functionWord(frame));
+                    functionWord(frame));
     return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
-                       "    return cotan_apply(frame, m);\n}}\n",
-                       head, functionWord(frame), normalFor(frame));
+                "    return cotan_apply(frame, m);\n}}\n",
+                head, functionWord(frame), normalFor(frame));
 }
 
 // What follows for every uv set, {0} being its number.
@@ -69,23 +68,22 @@ std::string perSet(int sets, std::string_view pattern)
 
 std::string fromSeveralSets(Frame frame, int sets)
 {
-    std::string text = fill(
-        "// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
-        "// added as surface gradients.\n"
-        "// normal: interpolated.\n"
-        "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
-        "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
-        "// texelK: its normal map as sampled.\n"
-        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
-        "    cotan_vec3 n = {};\n",
-        sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
-        normalFor(frame));
+    std::string text =
+        fill("// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
+             "// added as surface gradients.\n"
+             "// normal: interpolated.\n"
+             "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
+             "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
+             "// texelK: its normal map as sampled.\n"
+             "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
+             "    cotan_vec3 n = {};\n",
+             sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
+             normalFor(frame));
     for (int k = 0; k < sets; ++k)
-        text += fill(
-            "    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
-            "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
-            "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
-            k, functionWord(frame));
+        text += fill("    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
+                     "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
+                     "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
+                     k, functionWord(frame));
     std::string sum = "gradient0";
     for (int k = 1; k < sets; ++k)
         sum += fill(" + gradient{}", k);
@@ -101,26 +99,20 @@ std::string fromScreen(int sets)
         "// position: camera-relative, interpolated, not normalised.\n"
         "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{})\n{{\n"
         "    return {}(normal, cotan_ddx(position), cotan_ddy(position){});\n}}\n",
-        kScreenEntry, one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"),
-        kEntry,
-        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel"
-            : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
+        kScreenEntry,
+        one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"), kEntry,
+        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel" : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
 }
 
 } // namespace
 
-std::string functionWord(Frame frame)
-{
-    std::string word(name(frame));
-    for (char& c : word)
-        c = c == '-' ? '_' : c;
-    return word;
-}
+std::string functionWord(Frame frame) { return std::string(info(frame).word); }
 
 std::string entryOf(Frame frame)
 {
     switch (info(frame).source) {
-    case FrameSource::vertices: return kVertexEntry;
+    case FrameSource::cotangents:
+    case FrameSource::tangents: return kVertexEntry;
     case FrameSource::triangle: return kEdgeEntry;
     case FrameSource::differences: break;
     }
@@ -135,10 +127,10 @@ bool hasScreenEntry(const Choice& choice)
 
 std::string entryText(const Choice& choice, Form form)
 {
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return fromVertices(choice.frame);
-    std::string text = choice.uvSets == 1 ? fromDifferences(choice.frame, form)
-                                          : fromSeveralSets(choice.frame, choice.uvSets);
+    std::string text =
+        choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, choice.uvSets);
     return hasScreenEntry(choice) ? text + fromScreen(choice.uvSets) : text;
 }
 

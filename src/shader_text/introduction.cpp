@@ -58,21 +58,23 @@ std::string declared(Language language, const std::string& value)
 {
     if (language == Language::wgsl)
         return "let n = " + value + ";";
-    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value + ";";
+    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value
+        + ";";
 }
 
 std::string call(const Choice& choice)
 {
     const Language l = choice.language;
     const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
-    if (info(choice.frame).source == FrameSource::vertices)
-        return declared(l, scope + kVertexEntry
-                               + (choice.frame == Frame::smooth ? "(normal, cotangent, cobitangent, "
-                                                                : "(normal, tangent, handedness, ")
-                               + std::string(sample(l)) + ")");
-    if (choice.frame == Frame::exact)
-        return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, "
-                               + std::string(sample(l)) + ")");
+    if (readsVertices(choice.frame))
+        return declared(l,
+                        scope + kVertexEntry
+                            + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
+                                                             : "(normal, tangent, handedness, ")
+                            + std::string(sample(l)) + ")");
+    if (info(choice.frame).source == FrameSource::triangle)
+        return declared(
+            l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, " + std::string(sample(l)) + ")");
     const bool screen = hasScreenEntry(choice);
     std::string arguments = screen ? "normal, position" : "normal, dpdx, dpdy";
     for (int k = 0; k < choice.uvSets; ++k) {
@@ -87,17 +89,17 @@ std::string needs(const Choice& choice)
 {
     std::string text = "// Needs from the caller:\n"
                        "//   normal     interpolated surface normal; any space, the same for all vectors\n";
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return text + "//   the vertex attributes named at the function below, interpolated\n";
-    if (choice.frame == Frame::exact)
+    if (info(choice.frame).source == FrameSource::triangle)
         return text + "//   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives\n";
     text += "//   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;\n"
             "//              normalising it first is wrong by 11 degrees at 45 degrees of grazing\n"
             "//   uv         as the normal map is sampled with\n";
     if (hasScreenEntry(choice))
         return text
-            + fill("//   derivatives of position and uv: taken here by {} and {}\n",
-                          namesOf(choice.language).ddx, namesOf(choice.language).ddy);
+            + fill("//   derivatives of position and uv: taken here by {} and {}\n", namesOf(choice.language).ddx,
+                   namesOf(choice.language).ddy);
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
@@ -164,15 +166,15 @@ std::string credits(const Choice& choice)
 std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
-    return fill(
-        "// Normal mapping, frame `{}` ({}), for {}.\n"
-        "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
-        "//\n"
-        "// Normal map: {}, {}, green {} increasing v.\n"
-        "//\n{}//\n// Call:\n//   {}\n// It returns the perturbed normal, unit, in the space of the arguments.\n//\n{}//\n{}\n",
-        name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
-        channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against", needs(choice),
-        call(choice), limits(choice, form), credits(choice));
+    return fill("// Normal mapping, frame `{}` ({}), for {}.\n"
+                "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
+                "//\n"
+                "// Normal map: {}, {}, green {} increasing v.\n"
+                "//\n{}//\n// Call:\n//   {}\n// It returns the perturbed normal, unit, in the space of the "
+                "arguments.\n//\n{}//\n{}\n",
+                name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
+                channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
+                needs(choice), call(choice), limits(choice, form), credits(choice));
 }
 
 } // namespace cotan::shader_text

@@ -22,7 +22,8 @@ PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
     return PixelCamera::lookAt(target + direction * 4.0, target + random.direction() * 0.5, {0.1, 0.2, 1}, 1800);
 }
 
-// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse than.
+// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse
+// than.
 struct CurvedRows {
     FrameRows frames;
     AngleCollector none, normal, gradients, blinn;
@@ -95,8 +96,9 @@ std::vector<Measurement> measureCurved(const AccuracySelection& selection)
         for (bool irregular : {false, true})
             for (int segments : kSegments) {
                 const Tessellation mesh = tessellate(surface, segments, irregular);
-                CurvedRows rows(selection, {"curved", surface.name,
-                                            fmt::format("{}{}", segments, irregular ? " irregular" : ""), "", "", ""});
+                CurvedRows rows(
+                    selection,
+                    {"curved", surface.name, fmt::format("{}{}", segments, irregular ? " irregular" : ""), "", "", ""});
                 Random random(std::uint64_t(1000 + segments));
                 for (int i = 0; i < kCurvedSamples; ++i) {
                     const Interpolated x = interpolate(mesh, randomPoint(random, mesh));

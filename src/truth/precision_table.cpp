@@ -31,8 +31,8 @@ void measure(const AccuracySelection& selection, const std::string& scene, const
             const auto d = edges ? floatEdges(t) : measuredDifferences(t, source);
             angles.add(degreesBetween(shadeFloat(frame, t.normal, d, t.texel), truth));
         }
-        result.push_back(angles.finish(
-            {"precision", scene, settingName, std::string(name(frame)), "exact arithmetic", "float"}));
+        result.push_back(
+            angles.finish({"precision", scene, settingName, std::string(name(frame)), "exact arithmetic", "float"}));
     }
 }
 
