@@ -42,14 +42,16 @@ struct Place {
 std::vector<Place> placesOf(const FrameInfo& f)
 {
     const std::string word(f.word), name(f.name);
-    std::vector<Place> places = {{"shaders/cotan/frame.h", " cotan_frame_" + word + "("},
-                                 {"shaders/cost/rows.h", "cotan_frame_" + word + "("},
-                                 {"src/cost/rows.cpp", "{\"" + name + "\","},
-                                 {"docs/cost.md", "| " + name + " "},
-                                 {"docs/conventions.md", rowOfDocs(f)},
-                                 {"docs/accuracy.csv", "," + name + ","},
-                                 {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
-                                 {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
+    const std::string text = f.frame == Frame::triangle ? "shaders/cotan/triangle.h" : "shaders/cotan/frame.h";
+    std::vector<Place> places = {
+        {text, " cotan_frame_" + word + "("},
+        {"shaders/cost/rows.h", (f.frame == Frame::triangle ? "cotan_frame_of_" : "cotan_frame_") + word + "("},
+        {"src/cost/rows.cpp", "{\"" + name + "\","},
+        {"docs/cost.md", "| " + name + " "},
+        {"docs/conventions.md", rowOfDocs(f)},
+        {"docs/accuracy.csv", "," + name + ","},
+        {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
+        {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
     if (f.fused)
         for (const char* file : {"shaders/cotan/fused.h", "tests/portable_main.glsl", "tests/portable_main.hlsl"})
             places.push_back({file, "cotan_perturb_" + word + "("});

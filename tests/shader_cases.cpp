@@ -180,6 +180,110 @@ void addLines(std::vector<Case>& all)
                             n, cotan_gradient_of_slope(cotan_frame_smooth(n, dpdx, dpdy), cotan_slope_of_texel(m)))));
     all.push_back(COTAN_LINE_CASE(
         "encode", cotan_encode(cotan_frame_smooth(n, dpdx, dpdy), cotan_apply(cotan_frame_smooth(n, dpdx, dpdy), m))));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle",
+        cotan_apply(
+            cotan_frame_of_triangle(n,
+                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                     .u,
+                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                     .v),
+            m)));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle, fused",
+        cotan_perturb_triangle(n,
+                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                   .u,
+                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                   .v,
+                               m)));
+    all.push_back(
+        COTAN_LINE_CASE("triangle, scaled",
+                        cotan_perturb_triangle_scaled(
+                            n,
+                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                .u,
+                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                .v,
+                            m)));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle, transformed",
+        cotan_perturb_triangle(n,
+                               cotan_triangle_transformed(
+                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
+                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
+                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
+                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
+                                   .u,
+                               cotan_triangle_transformed(
+                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
+                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
+                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
+                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
+                                   .v,
+                               m)));
+    all.push_back(
+        COTAN_LINE_CASE("smooth, fused", cotan_perturb_smooth(n, m2 * cotan_real(0.5), cotan_vec3(m.z, m.x, m.y), m)));
+    // Times 1, which the compiler cannot know: Mesa 22.3 folds the packing of constants into wrong words.
+    all.push_back(COTAN_LINE_CASE(
+        "triangle in 12 bytes",
+        cotan_normalize_or(
+            m
+                + cotan_unpack_triangle_u(cotan_pack_triangle(
+                    cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)) * cotan_sign(cotan_real(7.0) - m.z),
+                    cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1)) * cotan_sign(cotan_real(7.0) - m.z)))
+                + cotan_unpack_triangle_v(
+                      cotan_pack_triangle(cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65))
+                                              * cotan_sign(cotan_real(7.0) - m.z),
+                                          cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1))
+                                              * cotan_sign(cotan_real(7.0) - m.z)))
+                    * cotan_real(0.5),
+            n)));
+    all.push_back(COTAN_LINE_CASE(
+        "smooth in 8 bytes",
+        cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth8(n, cotan_pack_smooth8(n, m, m2)).t, n)));
+    all.push_back(COTAN_LINE_CASE(
+        "smooth in 4 bytes, packed",
+        cotan_normalize_or(m * cotan_real(3.0)
+                               + cotan_unpack_smooth4(
+                                     cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                     cotan_pack_smooth4(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                                        cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)),
+                                                        cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1))))
+                                     .b,
+                           n)));
+    all.push_back(COTAN_LINE_CASE("smooth in 4 bytes, unpacked",
+                                  cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth4(n, 0x92345678u).t
+                                                         + cotan_unpack_smooth4(n, 0x72345678u).b,
+                                                     n)));
+    all.push_back(COTAN_LINE_CASE(
+        "tangent in 2 bytes, packed",
+        cotan_normalize_or(
+            m * cotan_real(3.0)
+                + cotan_frame_vertex(
+                      n,
+                      cotan_vec3(
+                          cotan_unpack_tangent2(
+                              cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                              cotan_pack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                                  cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)),
+                                                  cotan_real(-1.0)))
+                              .x,
+                          cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x5678u)
+                              .y,
+                          cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x8678u)
+                              .w),
+                      cotan_real(1.0))
+                      .t,
+            n)));
     all.push_back(COTAN_LINE_CASE("blend reoriented", cotan_blend_reoriented(m, m2)));
     all.push_back(COTAN_LINE_CASE("blend whiteout", cotan_blend_whiteout(m, m2)));
     all.push_back(COTAN_LINE_CASE("blend udn", cotan_blend_udn(m, m2)));

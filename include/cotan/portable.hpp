@@ -1,13 +1,14 @@
 // The portable text of shaders/cotan/ as C++: once over float in cotan::f32, once over double in
 // cotan::f64. The same names as in a shader: cotan::f32::cotan_frame_cotangent and so on.
 // For other scalar types (half, an operation counter) include the text the same way, with a
-// cotan_inverse_power_of_two of theirs.
+// cotan_inverse_power_of_two of theirs, and cotan_pack_half from here.
 #pragma once
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/packing.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -27,6 +28,10 @@ inline double cotan_inverse_power_of_two(double m)
     constexpr std::uint64_t kExponent = 0x7ff0000000000000u, kTwiceOne = 0x7fe0000000000000u;
     return std::bit_cast<double>(kTwiceOne - (std::bit_cast<std::uint64_t>(m) & kExponent));
 }
+
+// Two halfs in a word, the first in the low bits, rounded to the nearest.
+inline std::uint32_t cotan_pack_half(glm::vec2 v) { return glm::packHalf2x16(v); }
+inline glm::vec2 cotan_unpack_half(std::uint32_t word) { return glm::unpackHalf2x16(word); }
 
 } // namespace cotan
 

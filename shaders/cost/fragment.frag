@@ -7,6 +7,8 @@
 #include "cotan/normal.h"
 #include "cotan/frame.h"
 #include "cotan/fused.h"
+#include "cotan/triangle.h"
+#include "cotan/pack.h"
 #include "cost/rows.h"
 
 layout(location = 0) in vec3 position; // camera-relative
@@ -18,6 +20,16 @@ layout(location = 3) in vec4 tangent;
 #ifdef COST_COTANGENTS
 layout(location = 3) in vec3 cotangentU;
 layout(location = 4) in vec3 cotangentV;
+#endif
+#ifdef COST_TRIANGLE
+layout(location = 3) flat in vec3 triangleU;
+layout(location = 4) flat in vec3 triangleV;
+#endif
+#ifdef COST_TRIANGLE_HALFS
+layout(location = 3) flat in uvec3 triangleHalfs;
+#endif
+#ifdef COST_TRIANGLE_READ
+layout(std430, set = 0, binding = 2) readonly buffer Triangles { uint triangles[]; };
 #endif
 #ifdef COST_EDGES
 layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions[]; };
@@ -43,6 +55,12 @@ void main()
 #endif
 #ifdef COST_COTANGENTS
     color += vec4(cotangentU * cotangentV, 0.0);
+#endif
+#ifdef COST_TRIANGLE
+    color += vec4(triangleU * triangleV, 0.0);
+#endif
+#ifdef COST_TRIANGLE_HALFS
+    color += vec4(triangleHalfs, 0.0);
 #endif
 }
 #else
@@ -71,6 +89,22 @@ void main()
 #ifdef COST_COTANGENTS
     i.cotangent_u = cotangentU;
     i.cotangent_v = cotangentV;
+#endif
+#ifdef COST_TRIANGLE
+    i.triangle_u = triangleU;
+    i.triangle_v = triangleV;
+#endif
+#ifdef COST_TRIANGLE_HALFS
+    cotan_packed_triangle packed = cotan_packed_triangle(triangleHalfs.x, triangleHalfs.y, triangleHalfs.z);
+#endif
+#ifdef COST_TRIANGLE_READ
+    uint word = 3u * uint(gl_PrimitiveID);
+    cotan_packed_triangle packed =
+        cotan_packed_triangle(triangles[word], triangles[word + 1u], triangles[word + 2u]);
+#endif
+#if defined(COST_TRIANGLE_HALFS) || defined(COST_TRIANGLE_READ)
+    i.triangle_u = cotan_unpack_triangle_u(packed);
+    i.triangle_v = cotan_unpack_triangle_v(packed);
 #endif
     // The shortest decoding; how a map is stored is not the frame's price.
     i.m = texture(normalMap, uv).xyz * 2.0 - 1.0;

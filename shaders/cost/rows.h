@@ -5,7 +5,7 @@
 //
 // Inputs: n interpolated normal, not unit; the differences of a frame; m decoded texel; tangent as
 // interpolated, w the sign with which cross(n, t) points along +v; cotangent_u and cotangent_v as
-// interpolated.
+// interpolated; triangle_u and triangle_v the same at every pixel of a triangle.
 
 #ifndef COTAN_COST_ROWS_H
 #define COTAN_COST_ROWS_H
@@ -19,6 +19,8 @@ struct cost_inputs {
     cotan_vec4 tangent;
     cotan_vec3 cotangent_u;
     cotan_vec3 cotangent_v;
+    cotan_vec3 triangle_u;
+    cotan_vec3 triangle_v;
     cotan_vec3 m;
 };
 
@@ -50,6 +52,26 @@ COTAN_FUNCTION cotan_vec3 cost_vertex(cost_inputs i)
 COTAN_FUNCTION cotan_vec3 cost_smooth(cost_inputs i)
 {
     return cotan_apply(cotan_frame_smooth(i.n, i.cotangent_u, i.cotangent_v), i.m);
+}
+
+COTAN_FUNCTION cotan_vec3 cost_smooth_fused(cost_inputs i)
+{
+    return cotan_perturb_smooth(i.n, i.cotangent_u, i.cotangent_v, i.m);
+}
+
+// ---- from two vectors of the triangle ---------------------------------------------------------
+
+COTAN_FUNCTION cotan_vec3 cost_triangle_fused(cost_inputs i)
+{
+    return cotan_perturb_triangle(i.n, i.triangle_u, i.triangle_v, i.m);
+}
+COTAN_FUNCTION cotan_vec3 cost_triangle_scaled(cost_inputs i)
+{
+    return cotan_perturb_triangle_scaled(i.n, i.triangle_u, i.triangle_v, i.m);
+}
+COTAN_FUNCTION cotan_vec3 cost_triangle(cost_inputs i)
+{
+    return cotan_apply(cotan_frame_of_triangle(i.n, i.triangle_u, i.triangle_v), i.m);
 }
 
 // ---- plain forms of the formulas, without totality ----------------------------------------

@@ -1,7 +1,15 @@
 #version 450
+#extension GL_GOOGLE_include_directive : require
 // The vertex stage of `cotan cost`: position, normal and uv; with COST_TANGENT also a stored tangent,
 // with COST_COTANGENTS two derived cotangents. Each is fetched, taken to the space of the frame
-// and handed on to be interpolated.
+// and handed on to be interpolated. COST_PACKED8, 4, 2: fetched in so many bytes.
+// With COST_TRIANGLE or COST_TRIANGLE_HALFS the vertex is the provoking one of the triangle of its own
+// number: it reads that triangle's vertices and hands on U and V.
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "cotan/frame.h"
+#include "cotan/triangle.h"
+#include "cotan/pack.h"
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
 layout(location = 2) in vec2 inUv;
@@ -9,14 +17,45 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 uv;
 #ifdef COST_TANGENT
+#ifdef COST_PACKED2
+layout(location = 3) in uint inPacked;
+#else
 layout(location = 3) in vec4 inTangent;
+#endif
 layout(location = 3) out vec4 tangent;
 #endif
 #ifdef COST_COTANGENTS
+#if defined(COST_PACKED8)
+layout(location = 3) in vec4 inPacked;
+#elif defined(COST_PACKED4)
+layout(location = 3) in uint inPacked;
+#else
 layout(location = 3) in vec3 inCotangentU;
 layout(location = 4) in vec3 inCotangentV;
+#endif
 layout(location = 3) out vec3 cotangentU;
 layout(location = 4) out vec3 cotangentV;
+#endif
+
+#ifdef COST_TRIANGLE
+layout(location = 3) flat out vec3 triangleU;
+layout(location = 4) flat out vec3 triangleV;
+#endif
+#ifdef COST_TRIANGLE_HALFS
+layout(location = 3) flat out uvec3 triangleHalfs;
+#endif
+#if defined(COST_TRIANGLE) || defined(COST_TRIANGLE_HALFS)
+#define COST_PULL
+layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Texcoords { float texcoords[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Indices { uint indices[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Normals { float normals[]; };
+vec3 positionOf(uint v)
+{
+    return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
+}
+vec3 normalOf(uint v) { return vec3(normals[3u * v], normals[3u * v + 1u], normals[3u * v + 2u]); }
+vec2 texcoordOf(uint v) { return vec2(texcoords[2u * v], texcoords[2u * v + 1u]); }
 #endif
 
 layout(std140, set = 0, binding = 0) uniform Draw {
@@ -25,23 +64,65 @@ layout(std140, set = 0, binding = 0) uniform Draw {
     vec4 covectors[3]; // rows: the inverse transpose of model's 3x3
 };
 
+vec3 covectorOf(vec3 c)
+{
+    return vec3(dot(covectors[0].xyz, c), dot(covectors[1].xyz, c), dot(covectors[2].xyz, c));
+}
+
+#ifdef COST_PULL
+vec3 directionOf(vec3 d)
+{
+    return vec3(dot(model[0].xyz, d), dot(model[1].xyz, d), dot(model[2].xyz, d));
+}
+
+// U and V of the triangle that this vertex provokes, from its edges in the space of the frame.
+cotan_triangle triangleOfVertex()
+{
+    uint first = 3u * uint(gl_VertexIndex);
+    uint v1 = indices[first + 1u];
+    uint v2 = indices[first + 2u];
+    return cotan_triangle_of_sound_edges(directionOf(positionOf(v1) - inPosition),
+        directionOf(positionOf(v2) - inPosition), texcoordOf(v1) - inUv, texcoordOf(v2) - inUv,
+        normal + covectorOf(normalOf(v1) + normalOf(v2)));
+}
+#endif
+
 void main()
 {
     vec4 p = vec4(inPosition, 1.0);
     position = vec3(dot(model[0], p), dot(model[1], p), dot(model[2], p));
-    normal = vec3(dot(covectors[0].xyz, inNormal), dot(covectors[1].xyz, inNormal),
-        dot(covectors[2].xyz, inNormal));
+    normal = covectorOf(inNormal);
     uv = inUv;
 #ifdef COST_TANGENT
+#ifdef COST_PACKED2
+    vec4 inTangent = cotan_unpack_tangent2(inNormal, inPacked);
+#endif
     vec3 t = inTangent.xyz;
     tangent =
         vec4(dot(model[0].xyz, t), dot(model[1].xyz, t), dot(model[2].xyz, t), inTangent.w);
 #endif
 #ifdef COST_COTANGENTS
-    cotangentU = vec3(dot(covectors[0].xyz, inCotangentU), dot(covectors[1].xyz, inCotangentU),
-        dot(covectors[2].xyz, inCotangentU));
-    cotangentV = vec3(dot(covectors[0].xyz, inCotangentV), dot(covectors[1].xyz, inCotangentV),
-        dot(covectors[2].xyz, inCotangentV));
+#if defined(COST_PACKED8) || defined(COST_PACKED4)
+#ifdef COST_PACKED8
+    cotan_covectors stored = cotan_unpack_smooth8(inNormal, inPacked);
+#else
+    cotan_covectors stored = cotan_unpack_smooth4(inNormal, inPacked);
+#endif
+    vec3 inCotangentU = stored.t;
+    vec3 inCotangentV = stored.b;
+#endif
+    cotangentU = covectorOf(inCotangentU);
+    cotangentV = covectorOf(inCotangentV);
+#endif
+#ifdef COST_TRIANGLE
+    cotan_triangle triangle = triangleOfVertex();
+    triangleU = triangle.u;
+    triangleV = triangle.v;
+#endif
+#ifdef COST_TRIANGLE_HALFS
+    cotan_triangle triangle = triangleOfVertex();
+    cotan_packed_triangle packed = cotan_pack_triangle(triangle.u, triangle.v);
+    triangleHalfs = uvec3(packed.a, packed.b, packed.c);
 #endif
     gl_Position = projection * vec4(position, 1.0);
 }

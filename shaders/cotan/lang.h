@@ -10,7 +10,8 @@
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later
 //   COTAN_LANG_CPP    C++20 over GLM; COTAN_CPP_REAL names the scalar type. Included through
 //                     <cotan/portable.hpp>, once per scalar type, inside a namespace. It asks for
-//                     cotan_inverse_power_of_two of that type, as portable.hpp has it.
+//                     cotan_inverse_power_of_two of that type, cotan_pack_half and
+//                     cotan_unpack_half, as portable.hpp has them.
 //
 // What the text may use: scalars and vectors of two to four components, structs, functions,
 // selects. What it may not: matrices (row and column order differ between the languages),
@@ -31,6 +32,9 @@
 #define cotan_float_bits(x) floatBitsToUint(x)
 #define cotan_bits_float(x) uintBitsToFloat(x)
 #define cotan_uint uint
+#define cotan_real_of(x) float(x)
+#define cotan_pack_half(v) packHalf2x16(v)
+#define cotan_unpack_half(word) unpackHalf2x16(word)
 
 #elif defined(COTAN_LANG_HLSL)
 
@@ -44,11 +48,15 @@
 #define cotan_float_bits(x) asuint(x)
 #define cotan_bits_float(x) asfloat(x)
 #define cotan_uint uint
+#define cotan_real_of(x) float(x)
+#define cotan_pack_half(v) (f32tof16((v).x) | (f32tof16((v).y) << 16))
+#define cotan_unpack_half(word) float2(f16tof32((word) & 0xffffu), f16tof32((word) >> 16))
 
 #elif defined(COTAN_LANG_CPP)
 
 #define COTAN_FUNCTION inline
 using cotan_real = COTAN_CPP_REAL;
+using cotan_uint = std::uint32_t;
 using cotan_vec2 = glm::vec<2, cotan_real, glm::defaultp>;
 using cotan_vec3 = glm::vec<3, cotan_real, glm::defaultp>;
 using cotan_vec4 = glm::vec<4, cotan_real, glm::defaultp>;
@@ -65,6 +73,7 @@ using std::sqrt;
 inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
 inline cotan_real cotan_mix(cotan_real a, cotan_real b, cotan_real k) { return a + (b - a) * k; }
 inline cotan_vec3 cotan_mix(cotan_vec3 a, cotan_vec3 b, cotan_real k) { return a + (b - a) * k; }
+inline cotan_real cotan_real_of(cotan_uint x) { return cotan_real(x); }
 
 #else
 #error "cotan: define COTAN_LANG_GLSL, COTAN_LANG_HLSL or COTAN_LANG_CPP before including lang.h"

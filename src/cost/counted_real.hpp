@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "cotan/cost/scalar_count.hpp"
@@ -19,7 +20,10 @@ struct CountedReal {
     CountedReal() = default; // trivial, which GLM's vectors ask for; uninitialised like a double
     CountedReal(double v) : value(v), product(false), rooted(false) {}
     CountedReal(int v) : CountedReal(double(v)) {}
+    CountedReal(std::uint32_t v) : CountedReal(double(v)) {}
     explicit operator double() const { return value; }
+    explicit operator float() const { return float(value); }
+    explicit operator std::uint32_t() const { return std::uint32_t(value); }
 
     CountedReal& operator+=(CountedReal b) { return *this = *this + b; }
     CountedReal& operator-=(CountedReal b) { return *this = *this - b; }

@@ -22,12 +22,18 @@ std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
         list.emplace_back(3, 0, F::eR32G32B32Sfloat, 32);
         list.emplace_back(4, 0, F::eR32G32B32Sfloat, 44);
     }
+    if (stored == Stored::cotangents8)
+        list.emplace_back(3, 0, F::eR16G16B16A16Snorm, 32);
+    if (stored == Stored::cotangents4)
+        list.emplace_back(3, 0, F::eR32Uint, 32);
+    if (stored == Stored::tangent2)
+        list.emplace_back(3, 0, F::eR16Uint, 32);
     return list;
 }
 
 } // namespace
 
-std::uint32_t vertexFloats(Stored stored) { return 8 + static_cast<std::uint32_t>(vertexStage(stored).bytes) / 4; }
+std::uint32_t vertexFloats(Stored stored) { return 8 + static_cast<std::uint32_t>(vertexStage(stored).bytes + 3) / 4; }
 
 Layout makeLayout(const Device& device)
 {
@@ -36,7 +42,7 @@ Layout makeLayout(const Device& device)
     std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, T::eUniformBuffer, 1, S::eVertex},
                                                             {1, T::eCombinedImageSampler, 1, S::eFragment}};
     for (std::uint32_t i = 0; i < kBuffers; ++i)
-        bindings.emplace_back(2 + i, T::eStorageBuffer, 1, S::eFragment);
+        bindings.emplace_back(2 + i, T::eStorageBuffer, 1, S::eVertex | S::eFragment);
     Layout layout;
     layout.set = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
     layout.pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));

@@ -7,7 +7,7 @@
 namespace cotan::cost {
 
 inline constexpr vk::Format kColorFormat = vk::Format::eR16G16B16A16Sfloat;
-inline constexpr std::uint32_t kBuffers = 3; // of the exact frame: positions, uv, indices
+inline constexpr std::uint32_t kBuffers = 4; // of the mesh, read by index: positions, uv, indices, normals
 
 struct Layout {
     vk::raii::DescriptorSetLayout set{nullptr}; // 0 uniforms, 1 normal map, 2.. buffers

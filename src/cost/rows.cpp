@@ -21,14 +21,27 @@
 #include "frag_paper_orthogonal.h"
 #include "frag_paper_transpose.h"
 #include "frag_smooth.h"
+#include "frag_smooth_fused.h"
+#include "frag_triangle.h"
+#include "frag_triangle_fused.h"
+#include "frag_triangle_halfs.h"
+#include "frag_triangle_read.h"
+#include "frag_triangle_scaled.h"
 #include "frag_unit_lengths.h"
 #include "frag_vertex.h"
 #include "varyings_cotangents.h"
 #include "varyings_plain.h"
 #include "varyings_tangent.h"
+#include "varyings_triangle.h"
+#include "varyings_triangle_halfs.h"
 #include "vert_cotangents.h"
+#include "vert_cotangents4.h"
+#include "vert_cotangents8.h"
 #include "vert_plain.h"
 #include "vert_tangent.h"
+#include "vert_tangent2.h"
+#include "vert_triangle.h"
+#include "vert_triangle_halfs.h"
 
 namespace cotan::cost {
 
@@ -43,6 +56,16 @@ const std::vector<Row>& rows()
         {"mikktspace", G::stored, S::tangent, 0, 0, "stored tangents, bitangent per pixel", frag_mikktspace},
         {"vertex", G::stored, S::tangent, 0, 0, "stored tangents, orthonormal again per pixel; total", frag_vertex},
         {"smooth", G::stored, S::cotangents, 0, 0, "cotangents averaged at the vertices; total", frag_smooth},
+        {"smooth-fused", G::stored, S::cotangents, 0, 0, "cotangents averaged at the vertices, as interpolated",
+         frag_smooth_fused},
+        {"triangle-halfs", G::triangle, S::triangleHalfs, 0, 0, "U and V of the triangle as six halfs",
+         frag_triangle_halfs},
+        {"triangle-fused", G::triangle, S::triangle, 0, 0, "U and V of the triangle as six floats",
+         frag_triangle_fused},
+        {"triangle-read", G::triangle, S::nothing, 0, 12, "six halfs of the triangle, read per pixel",
+         frag_triangle_read},
+        {"triangle-scaled", G::triangle, S::triangle, 0, 0, "with the scale of cotangent", frag_triangle_scaled},
+        {"triangle", G::triangle, S::triangle, 0, 0, "no input gives NaN", frag_triangle},
         {"cotangent-fused", G::fused, S::nothing, 0, 0, "sign and guard", frag_cotangent_fused},
         {"cotangent-area-fused", G::fused, S::nothing, 0, 0, "area-normalised scale", frag_cotangent_area_fused},
         {"gradient-fused", G::fused, S::nothing, 0, 0, "surface gradient, metric", frag_gradient_fused},
@@ -81,6 +104,11 @@ const std::vector<VertexStage>& vertexStages()
         {Stored::nothing, "no tangent", 0, vert_plain, varyings_plain},
         {Stored::tangent, "tangent", 16, vert_tangent, varyings_tangent},
         {Stored::cotangents, "two cotangents", 24, vert_cotangents, varyings_cotangents},
+        {Stored::cotangents8, "two cotangents in 8 bytes", 8, vert_cotangents8, varyings_cotangents},
+        {Stored::cotangents4, "two cotangents in 4 bytes", 4, vert_cotangents4, varyings_cotangents},
+        {Stored::tangent2, "tangent in 2 bytes", 2, vert_tangent2, varyings_tangent},
+        {Stored::triangle, "triangle, six floats", 0, vert_triangle, varyings_triangle},
+        {Stored::triangleHalfs, "triangle, six halfs", 0, vert_triangle_halfs, varyings_triangle_halfs},
     };
     return list;
 }

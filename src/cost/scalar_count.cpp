@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/portable.hpp"
 #include "counted_real.hpp"
 
 namespace cotan::cost {
@@ -37,6 +38,12 @@ constexpr RowFunction kRows[] = {
     {"mikktspace", counted::cost_mikktspace},
     {"vertex", counted::cost_vertex},
     {"smooth", counted::cost_smooth},
+    {"smooth-fused", counted::cost_smooth_fused},
+    {"triangle-halfs", counted::cost_triangle_fused},
+    {"triangle-fused", counted::cost_triangle_fused},
+    {"triangle-read", counted::cost_triangle_fused},
+    {"triangle-scaled", counted::cost_triangle_scaled},
+    {"triangle", counted::cost_triangle},
     {"cotangent-fused", counted::cost_cotangent_fused},
     {"cotangent-area-fused", counted::cost_cotangent_area_fused},
     {"gradient-fused", counted::cost_gradient_fused},
@@ -86,6 +93,8 @@ counted::cost_inputs exampleInputs()
     i.tangent = cotan_vec4(0.9, 0.1, -0.1, 1.0);
     i.cotangent_u = cotan_vec3(0.9, 0.1, -0.1);
     i.cotangent_v = cotan_vec3(-0.1, 1.1, -0.2);
+    i.triangle_u = cotan_vec3(0.9, 0.1, -0.1);
+    i.triangle_v = cotan_vec3(-0.1, 0.8, -0.2);
     i.m = cotan_vec3(0.2, -0.3, 0.9);
     return i;
 }

@@ -49,7 +49,7 @@ Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
 Grid makeGrid(const Device& device, int leg)
 {
     const std::uint32_t cells = kTargetSize / static_cast<std::uint32_t>(leg);
-    std::vector<float> positions, texcoords;
+    std::vector<float> positions, texcoords, normals;
     std::vector<std::vector<float>> vertices(vertexStages().size());
     for (std::uint32_t y = 0; y <= cells; ++y)
         for (std::uint32_t x = 0; x <= cells; ++x) {
@@ -58,10 +58,11 @@ Grid makeGrid(const Device& device, int leg)
             const float base[] = {2 * u - 1, 2 * v - 1, 0.4f + 0.2f * u, 0.1f, 0.1f, 0.99f, 4 * u, 4 * v};
             positions.insert(positions.end(), base, base + 3);
             texcoords.insert(texcoords.end(), base + 6, base + 8);
+            normals.insert(normals.end(), base + 3, base + 6);
             const float extra[] = {1, 0, -0.1f, 1, 1, 0};
             for (std::size_t s = 0; s < vertices.size(); ++s) {
                 vertices[s].insert(vertices[s].end(), base, base + 8);
-                vertices[s].insert(vertices[s].end(), extra, extra + vertexStages()[s].bytes / 4);
+                vertices[s].insert(vertices[s].end(), extra, extra + (vertexStages()[s].bytes + 3) / 4);
             }
         }
     std::vector<std::uint32_t> indices;
@@ -77,6 +78,7 @@ Grid makeGrid(const Device& device, int leg)
     grid.indices = makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
     grid.positions = makeBuffer(device, U::eStorageBuffer, positions.data(), positions.size() * 4);
     grid.texcoords = makeBuffer(device, U::eStorageBuffer, texcoords.data(), texcoords.size() * 4);
+    grid.normals = makeBuffer(device, U::eStorageBuffer, normals.data(), normals.size() * 4);
     grid.indexCount = static_cast<std::uint32_t>(indices.size());
     return grid;
 }

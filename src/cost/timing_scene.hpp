@@ -22,8 +22,9 @@ struct Picture {
 struct Grid {
     std::vector<Buffer> vertices; // in the order of Stored
     Buffer indices;
-    Buffer positions; // of the exact frame, as are the next
+    Buffer positions; // read by index, as are the next
     Buffer texcoords;
+    Buffer normals;
     std::uint32_t indexCount = 0;
 };
 

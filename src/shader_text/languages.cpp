@@ -13,6 +13,9 @@ const Names kGlsl = {{{"cotan_real", "float"},
                       {"cotan_mix", "mix"},
                       {"cotan_float_bits", "floatBitsToUint"},
                       {"cotan_bits_float", "uintBitsToFloat"},
+                      {"cotan_real_of", "float"},
+                      {"cotan_pack_half", "packHalf2x16"},
+                      {"cotan_unpack_half", "unpackHalf2x16"},
                       {"cotan_ddx", "dFdx"},
                       {"cotan_ddy", "dFdy"}},
                      "",
@@ -32,6 +35,7 @@ const Names kHlsl = {{{"cotan_real", "float"},
                       {"cotan_mix", "lerp"},
                       {"cotan_float_bits", "asuint"},
                       {"cotan_bits_float", "asfloat"},
+                      {"cotan_real_of", "float"},
                       {"cotan_ddx", "ddx_fine"},
                       {"cotan_ddy", "ddy_fine"}},
                      "",
@@ -52,6 +56,9 @@ const Names kWgsl = {{{"cotan_real", "f32"},
                       {"cotan_mix", "mix"},
                       {"cotan_float_bits", "bitcast<u32>"},
                       {"cotan_bits_float", "bitcast<f32>"},
+                      {"cotan_real_of", "f32"},
+                      {"cotan_pack_half", "pack2x16float"},
+                      {"cotan_unpack_half", "unpack2x16float"},
                       {"cotan_ddx", "dpdxFine"},
                       {"cotan_ddy", "dpdyFine"},
                       {"target", "target_normal"}}, // a reserved word
@@ -72,6 +79,7 @@ const Names kMsl = {{{"cotan_real", "float"},
                      {"cotan_mix", "mix"},
                      {"cotan_float_bits", "as_type<uint>"},
                      {"cotan_bits_float", "as_type<float>"},
+                     {"cotan_real_of", "float"},
                      {"cotan_ddx", "dfdx"},
                      {"cotan_ddy", "dfdy"}},
                     "f",
@@ -96,9 +104,11 @@ constexpr std::string_view kCppPrelude = R"(#include <cmath>
 namespace cotan_shader {
 
 using cotan_real = float; // or double
+using cotan_uint = std::uint32_t;
 
 struct cotan_vec2 { cotan_real x, y; };
 struct cotan_vec3 { cotan_real x, y, z; };
+struct cotan_vec4 { cotan_real x, y, z, w; };
 
 inline cotan_vec3 operator+(cotan_vec3 a, cotan_vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline cotan_vec3 operator-(cotan_vec3 a, cotan_vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -106,6 +116,8 @@ inline cotan_vec3 operator*(cotan_vec3 a, cotan_vec3 b) { return {a.x * b.x, a.y
 inline cotan_vec3 operator*(cotan_vec3 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k}; }
 inline cotan_vec3 operator/(cotan_vec3 a, cotan_real k) { return {a.x / k, a.y / k, a.z / k}; }
 inline cotan_vec2 operator*(cotan_vec2 a, cotan_real k) { return {a.x * k, a.y * k}; }
+inline cotan_vec2 operator-(cotan_vec2 a, cotan_vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline cotan_vec4 operator*(cotan_vec4 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k, a.w * k}; }
 inline cotan_real dot(cotan_vec2 a, cotan_vec2 b) { return a.x * b.x + a.y * b.y; }
 inline cotan_real dot(cotan_vec3 a, cotan_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline cotan_vec3 cross(cotan_vec3 a, cotan_vec3 b)
@@ -140,6 +152,66 @@ inline double cotan_inverse_power_of_two(double m)
 
 )";
 
+// Two halfs in a word, for the languages that have no function of that kind.
+constexpr std::string_view kHlslHalfs = R"(uint cotan_pack_half(float2 v)
+{
+    return f32tof16(v.x) | (f32tof16(v.y) << 16u);
+}
+float2 cotan_unpack_half(uint word)
+{
+    return float2(f16tof32(word & 0xffffu), f16tof32(word >> 16u));
+}
+
+)";
+
+constexpr std::string_view kMslHalfs = R"(inline uint cotan_pack_half(float2 v) { return as_type<uint>(half2(v)); }
+inline float2 cotan_unpack_half(uint word) { return float2(as_type<half2>(word)); }
+
+)";
+
+constexpr std::string_view kCppHalfs = R"(// Rounded to the nearest, ties to even.
+inline std::uint32_t cotan_half_bits(float x)
+{
+    std::uint32_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    const std::uint32_t sign = bits >> 16 & 0x8000u;
+    std::uint32_t magnitude = bits & 0x7fffffffu;
+    if (magnitude > 0x7f800000u)
+        return sign | 0x7e00u; // NaN
+    if (magnitude >= 0x47800000u)
+        return sign | 0x7c00u; // too large: infinity
+    if (magnitude < 0x38800000u) { // subnormal: the addition rounds
+        float shifted;
+        std::memcpy(&shifted, &magnitude, sizeof shifted);
+        shifted += 0.5f;
+        std::memcpy(&magnitude, &shifted, sizeof magnitude);
+        return sign | (magnitude - 0x3f000000u);
+    }
+    return sign | (magnitude + 0xfffu + (magnitude >> 13 & 1u) - 0x38000000u) >> 13;
+}
+inline float cotan_float_of_half(std::uint32_t half)
+{
+    std::uint32_t bits = (half & 0x7fffu) << 13;
+    float x;
+    std::memcpy(&x, &bits, sizeof x);
+    x *= 5192296858534827628530496329220096.0f; // 2^112
+    std::memcpy(&bits, &x, sizeof bits);
+    bits |= (half & 0x7c00u) == 0x7c00u ? 0x7f800000u : 0u;
+    bits |= (half & 0x8000u) << 16;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+inline cotan_uint cotan_pack_half(cotan_vec2 v)
+{
+    return cotan_half_bits(float(v.x)) | cotan_half_bits(float(v.y)) << 16;
+}
+inline cotan_vec2 cotan_unpack_half(cotan_uint word)
+{
+    return {cotan_float_of_half(word & 0xffffu), cotan_float_of_half(word >> 16)};
+}
+
+)";
+
 constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp"};
 
 } // namespace
@@ -170,6 +242,17 @@ const Names& namesOf(Language language)
 std::string_view prelude(Language language)
 {
     return language == Language::msl ? kMslPrelude : language == Language::cpp ? kCppPrelude : std::string_view();
+}
+
+std::string_view halfs(Language language)
+{
+    switch (language) {
+    case Language::hlsl: return kHlslHalfs;
+    case Language::msl: return kMslHalfs;
+    case Language::cpp: return kCppHalfs;
+    default: break;
+    }
+    return {}; // GLSL and WGSL have them
 }
 
 std::string_view postlude(Language language)

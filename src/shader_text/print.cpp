@@ -178,12 +178,22 @@ private:
     std::set<std::string> changed_; // variables that are assigned to after their declaration
 };
 
+bool callsAny(const Module& module, const std::set<std::string>& names)
+{
+    bool found = false;
+    for (const Function& f : module.functions)
+        visitBody(f.body, [&](const Expression& e) { found = found || (e.kind == Kind::call && names.count(e.text)); });
+    return found;
+}
+
 } // namespace
 
 std::string print(const Module& module, Language language)
 {
     Printer printer(language);
     std::string text(prelude(language));
+    if (callsAny(module, {"cotan_pack_half", "cotan_unpack_half"}))
+        text += halfs(language);
     for (const Struct& s : module.structs)
         text += printer.structure(s) + '\n';
     for (std::size_t i = 0; i < module.functions.size(); ++i) {

@@ -23,6 +23,8 @@ const Names& namesOf(Language language);
 
 // What comes before the structs, such as C++'s vectors; and after the functions.
 std::string_view prelude(Language language);
+// What packs and unpacks halfs, where the language has no function for it.
+std::string_view halfs(Language language);
 std::string_view postlude(Language language);
 
 std::string print(const Module& module, Language language);

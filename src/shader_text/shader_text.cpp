@@ -72,7 +72,11 @@ Result<Form> formOf(const Choice& choice)
         return usageError(
             several ? std::string("the fused form has one uv set; for several, the form is total")
                     : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "), name(choice.frame)));
-    return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
+    const bool fusedByItself = !several && hasFusedForm(choice.frame) && !readsVertices(choice.frame);
+    const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
+    if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
+        return usageError("a stage: expected the frame triangle in its fused form; found another");
+    return form;
 }
 
 } // namespace
@@ -102,7 +106,7 @@ Result<ShaderText> makeShaderText(const Choice& choice)
     const Module needed = neededBy(module, rootsOf(module, choice));
     ShaderText result;
     result.form = *form;
-    result.entry = entryOf(choice.frame);
+    result.entry = entryOf(choice);
     for (const Function& f : needed.functions)
         result.functions.push_back(f.name);
     result.text = introduction(choice, *form) + print(needed, choice.language);

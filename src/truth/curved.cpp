@@ -26,7 +26,7 @@ PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
 // than.
 struct CurvedRows {
     FrameRows frames;
-    AngleCollector none, normal, gradients, blinn;
+    AngleCollector none, normal, gradients, blinn, fusedSmooth;
     Measurement names;
 
     CurvedRows(const AccuracySelection& selection, Measurement names_) : names(std::move(names_))
@@ -54,6 +54,7 @@ struct CurvedRows {
             const glm::dvec3 shaded = shade(row.frame, row.single, x, screen, isMetric ? metric : texel);
             row.angles.add(degreesBetween(shaded, row.names.truth == "E" ? e : s));
         }
+        fusedSmooth.add(degreesBetween(f64::cotan_perturb_smooth(x.n, x.unitU, x.unitV, texel), s));
         normal.add(degreesBetween(n, p.normal));
         none.add(degreesBetween(n, s));
         SurfacePoint interpolated = p; // the true gradients on the interpolated normal
@@ -72,6 +73,7 @@ struct CurvedRows {
         } controls[] = {{&none, "(no map)", "S"},
                         {&normal, "(interpolated normal)", "smooth normal"},
                         {&gradients, "(analytic gradients)", "S"},
+                        {&fusedSmooth, "(smooth, fused)", "S"},
                         {&blinn, "(Blinn, analytic)", "E"}};
         for (const auto& c : controls) {
             Measurement row = names;

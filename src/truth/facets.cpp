@@ -13,7 +13,7 @@ namespace cotan {
 namespace {
 
 constexpr int kFacetSamples = 6000;
-constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,  Frame::orthonormal,
+constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,  Frame::triangle,  Frame::orthonormal,
                              Frame::gradient,  Frame::smooth,    Frame::vertex, Frame::mikktspace};
 
 // An edge that two triangles share: for each, its number and which of its corners the ends are.

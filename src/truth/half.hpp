@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/portable.hpp"
+
 namespace cotan {
 
 // An IEEE binary16 number, held in a float. Every operation rounds to nearest even; subnormals are

@@ -1,6 +1,7 @@
 #include "cotan/truth/tessellation.hpp"
 
 #include "cotan/tangents.hpp"
+#include "cotan/triangle.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {
@@ -88,6 +89,7 @@ Tessellation tessellate(const Surface& surface, int segments, bool irregular, bo
             if (readsTangents(f.frame))
                 mesh.tangents[std::size_t(f.frame)] = generateTangents(f.frame, view);
         Cotangents cotangents = smoothCotangents(view);
+        mesh.unitCotangents = unitCotangents(cotangents);
         mesh.cotangentsU = std::move(cotangents.u);
         mesh.cotangentsV = std::move(cotangents.v);
     }
@@ -119,6 +121,8 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
         x.parameters += mesh.parameters[v] * w;
         x.uv += glm::dvec2(mesh.texcoords[v]) * w;
         x.cotangentU += corner(mesh.cotangentsU, v) * w;
+        x.unitU += corner(mesh.unitCotangents.u, v) * w;
+        x.unitV += corner(mesh.unitCotangents.v, v) * w;
         x.cotangentV += corner(mesh.cotangentsV, v) * w;
         for (std::size_t f = 0; f < mesh.tangents.size(); ++f)
             if (!mesh.tangents[f].empty()) // the sign is that of the first corner

@@ -8,14 +8,19 @@
 
 namespace cotan::cost {
 
-// What is stored at the vertices beside position, normal and uv.
+// What the vertex stage hands on beside position, normal and uv, and where it has it from.
 enum class Stored {
     nothing,
-    tangent,    // one float4, 16 bytes
-    cotangents, // two float3, 24 bytes, derived when the mesh is loaded
+    tangent,       // one float4, stored, 16 bytes
+    cotangents,    // two float3, 24 bytes, derived when the mesh is loaded
+    cotangents8,   // the same, packed into 8 bytes
+    cotangents4,   // and into 4
+    tangent2,      // a tangent packed into 2 bytes
+    triangle,      // U and V of the triangle as six floats, made from its vertices, which are read from buffers
+    triangleHalfs, // the same as six halfs
 };
 
-enum class Group { floor, stored, fused, plain, total, papers };
+enum class Group { floor, stored, triangle, fused, plain, total, papers };
 
 struct Row {
     std::string_view name; // as on the command line; "floor" is the first

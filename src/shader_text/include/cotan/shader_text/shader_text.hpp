@@ -24,12 +24,22 @@ enum class Form {
     total, // the frame as three covectors, then applied (frame.h)
 };
 
+// For which stage the fused text of `triangle` is: its pixels', or the one that makes U and V before.
+enum class Stage {
+    all,
+    fragment,
+    vertex,  // at the provoking vertex
+    mesh,    // for each primitive
+    compute, // both in one
+};
+
 struct Choice {
     Language language = Language::glsl;
     Frame frame = Frame::cotangent;
     Convention convention;          // expansion, channels and green are used
-    std::optional<Form> form;       // nothing: fused where there is one, else total
+    std::optional<Form> form;       // nothing: fused where there is one that reads no vertices, else total
     int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
+    Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
     bool gradients = false;         // add all of gradient.h
     bool blends = false;            // add all of blend.h
@@ -39,7 +49,7 @@ struct Choice {
 struct ShaderText {
     std::string text;
     Form form = Form::total;
-    std::string entry;                  // taking differences; every language has it
+    std::string entry;                  // what a caller calls; every language has it
     std::vector<std::string> functions; // in the order of the text
 };
 

@@ -7,6 +7,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "cotan/tangents.hpp"
 #include "cotan/truth/quad.hpp"
 #include "cotan/truth/random.hpp"
 #include "cotan/truth/surface.hpp"
@@ -22,6 +23,7 @@ struct Tessellation {
     std::array<std::vector<glm::vec4>, kFrameCount>
         tangents; // of the frames that read them, a corner each, as glTF has them
     std::vector<glm::vec3> cotangentsU, cotangentsV;
+    Cotangents unitCotangents; // the same for the fused form of `smooth`: the longer of the two is 1 long
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };
@@ -45,7 +47,7 @@ struct Interpolated {
     glm::dvec3 position, n; // n not normalised
     glm::dvec2 parameters, uv;
     std::array<glm::dvec4, kFrameCount> tangents{}; // of the frames that read them, as tangentAlongV
-    glm::dvec3 cotangentU, cotangentV;
+    glm::dvec3 cotangentU, cotangentV, unitU, unitV;
     Differences<double> edges; // of the triangle
     AffinePatch plane;         // the triangle's, with its gradients of uv; normal to n's side
 };

@@ -1,0 +1,102 @@
+#include "cotan/triangle.hpp"
+
+#include <cmath>
+
+#include "cotan/portable.hpp"
+#include "parallel.hpp"
+#include "tangents_mesh.hpp"
+
+namespace cotan {
+
+std::vector<TriangleVectors> triangleVectors(const MeshView& mesh, int threads)
+{
+    if (!tangents::usable(mesh))
+        return {};
+    std::vector<TriangleVectors> out(mesh.indices.size() / 3);
+    runParts(out.size(), threadsFor(out.size(), 10000, threads), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            const std::uint32_t a = mesh.indices[3 * f], b = mesh.indices[3 * f + 1], c = mesh.indices[3 * f + 2];
+            const f32::cotan_triangle t = f32::cotan_triangle_of_vertices(
+                mesh.positions[a], mesh.positions[b], mesh.positions[c], mesh.texcoords[a], mesh.texcoords[b],
+                mesh.texcoords[c], mesh.normals[a], mesh.normals[b], mesh.normals[c]);
+            out[f] = {t.u, t.v};
+        }
+    });
+    return out;
+}
+
+std::vector<std::array<std::uint32_t, 3>> packTriangles(std::span<const TriangleVectors> triangles)
+{
+    std::vector<std::array<std::uint32_t, 3>> out;
+    out.reserve(triangles.size());
+    for (const TriangleVectors& t : triangles) {
+        const f32::cotan_packed_triangle p = f32::cotan_pack_triangle(t.u, t.v);
+        out.push_back({p.a, p.b, p.c});
+    }
+    return out;
+}
+
+namespace {
+
+bool fit(std::span<const glm::vec3> normals, const Cotangents& c)
+{
+    return c.u.size() == normals.size() && c.v.size() == normals.size();
+}
+
+} // namespace
+
+Cotangents unitCotangents(const Cotangents& cotangents)
+{
+    Cotangents out = cotangents;
+    for (std::size_t i = 0; i < out.u.size() && i < out.v.size(); ++i) {
+        const float largest = std::max(f32::cotan_max_abs(out.u[i]), f32::cotan_max_abs(out.v[i]));
+        const float scale = f32::cotan_power_of_two_scale(largest);
+        const glm::vec3 u = out.u[i] * scale, v = out.v[i] * scale;
+        const float longest2 = std::max(glm::dot(u, u), glm::dot(v, v));
+        const float unit = longest2 > 1e-12f ? 1 / std::sqrt(longest2) : 0.0f;
+        out.u[i] = u * unit;
+        out.v[i] = v * unit;
+    }
+    return out;
+}
+
+std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> normals, const Cotangents& cotangents)
+{
+    if (!fit(normals, cotangents))
+        return {};
+    std::vector<std::array<std::int16_t, 4>> out;
+    out.reserve(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const glm::vec4 q = f32::cotan_pack_smooth8(normals[i], cotangents.u[i], cotangents.v[i]);
+        const auto number = [](float x) {
+            return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
+        };
+        out.push_back({number(q.x), number(q.y), number(q.z), number(q.w)});
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> packSmooth4(std::span<const glm::vec3> normals, const Cotangents& cotangents)
+{
+    if (!fit(normals, cotangents))
+        return {};
+    std::vector<std::uint32_t> out;
+    out.reserve(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        out.push_back(f32::cotan_pack_smooth4(normals[i], cotangents.u[i], cotangents.v[i]));
+    return out;
+}
+
+std::vector<std::uint16_t> packTangents2(std::span<const glm::vec3> normals, std::span<const glm::vec4> tangents)
+{
+    if (normals.size() != tangents.size())
+        return {};
+    std::vector<std::uint16_t> out;
+    out.reserve(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        out.push_back(
+            static_cast<std::uint16_t>(f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w)));
+    return out;
+}
+
+} // namespace cotan

@@ -1,0 +1,90 @@
+// examples/triangle, built and run as it is shipped: each way of delivering U and V, on the analytic sheets and on the
+// teapot.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "examples_sheets.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+#ifdef COTAN_TRIANGLE_EXAMPLE
+std::string way(const std::string& name) { return std::string(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
+
+// All normals of the teapot, empty pixels being zero.
+std::vector<Vec> teapot(const std::string& name)
+{
+    TemporaryFolder folder;
+    const std::string f = folder.path().string();
+    if (std::system((way(name) + " '" + f + "/a.ppm' '" + f + "/a.pfm' teapot >/dev/null").c_str()) != 0)
+        return {};
+    return normalsOf(f + "/a.pfm");
+}
+
+struct Difference {
+    double mean = 0, most95 = 0;
+    std::size_t pixels = 0;
+};
+Difference between(const std::vector<Vec>& a, const std::vector<Vec>& b)
+{
+    std::vector<double> degrees;
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+        if (dot(a[i], a[i]) > 0 && dot(b[i], b[i]) > 0)
+            degrees.push_back(degreesBetween(a[i], b[i]));
+    Difference d;
+    d.pixels = degrees.size();
+    std::sort(degrees.begin(), degrees.end());
+    for (const double x : degrees)
+        d.mean += x / double(d.pixels);
+    d.most95 = degrees.empty() ? 0 : degrees[d.pixels * 95 / 100];
+    return d;
+}
+
+class ExampleTriangle : public testing::TestWithParam<const char*> {};
+
+TEST_P(ExampleTriangle, normalsAreTheShearedSheetsOnBothSidesAndBothHalves)
+{
+    // Rounding U and V to halfs may turn a normal by 0.03 degrees; the rest is as for floats in a picture.
+    expectSheets(way(GetParam()), 0.03);
+}
+
+TEST_P(ExampleTriangle, drawsTheTeapotAsScreenDerivativesDo)
+{
+    const Difference d = between(teapot(GetParam()), teapot("derivatives"));
+    EXPECT_GT(d.pixels, 40000u); // of 115,200
+    // The scale is the triangle's: with 12 cells a patch normals lean by some 4 degrees from their triangle, and
+    // slopes change by 1 - cos(4 degrees) = 0.2 %, of domes 45 degrees steep 0.07 degrees. `smooth` is another frame:
+    // it is closer to the curved surface, by a fraction of a degree.
+    const bool smooth = std::string(GetParam()) == "smooth";
+    EXPECT_LT(d.mean, smooth ? 0.5 : 0.02);
+    EXPECT_LT(d.most95, smooth ? 2 : 0.1);
+    EXPECT_GT(d.mean, 0); // not the same picture
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangle, testing::Values("provoking", "read", "smooth", "visibility"),
+                         [](const auto& way) { return std::string(way.param); });
+
+TEST(ExampleTriangleMesh, drawsTheSheetsOrSaysThatTheDeviceCannot)
+{
+    TemporaryFolder folder;
+    const std::string f = folder.path().string();
+    const int status = std::system((way("mesh") + " '" + f + "/a.ppm' 2>'" + f + "/err'").c_str());
+    if (WEXITSTATUS(status) == 3) {
+        EXPECT_EQ(readWhole(folder / "err"), "triangle_example: this device has no VK_EXT_mesh_shader\n");
+        GTEST_SKIP() << "no mesh shaders here; the shaders are compiled and validated when they are built";
+    }
+    expectSheets(way("mesh"), 0.03);
+}
+
+TEST(ExampleTriangleWords, areCheckedBeforeAnythingIsDrawn)
+{
+    EXPECT_EQ(WEXITSTATUS(std::system((way("rumour a.ppm") + " 2>/dev/null").c_str())), 1);
+    EXPECT_EQ(WEXITSTATUS(std::system((way("read /tmp/a.ppm /tmp/a.pfm /no/such.glb") + " 2>/dev/null").c_str())), 2);
+}
+#endif
+
+} // namespace
+} // namespace cotan::test
