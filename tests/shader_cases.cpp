@@ -90,6 +90,8 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
     c.expected = [=](const Vectors& v) {
         const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
+        if (fused) // another formula, not the frame to rounding
+            return f64::cotan_perturb_smooth(n, x, y, decoded(v));
         const f64::cotan_frame f =
             readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
         return f64::cotan_apply(f, decoded(v));

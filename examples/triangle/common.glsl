@@ -26,8 +26,14 @@ layout(push_constant, std430) uniform Draw {
 }
 draw;
 
-vec3 positionOf(uint v) { return vec3(draw.positions.at[3u * v], draw.positions.at[3u * v + 1u], draw.positions.at[3u * v + 2u]); }
-vec3 normalOf(uint v) { return vec3(draw.normals.at[3u * v], draw.normals.at[3u * v + 1u], draw.normals.at[3u * v + 2u]); }
+vec3 positionOf(uint v)
+{
+    return vec3(draw.positions.at[3u * v], draw.positions.at[3u * v + 1u], draw.positions.at[3u * v + 2u]);
+}
+vec3 normalOf(uint v)
+{
+    return vec3(draw.normals.at[3u * v], draw.normals.at[3u * v + 1u], draw.normals.at[3u * v + 2u]);
+}
 vec2 texcoordOf(uint v) { return vec2(draw.texcoords.at[2u * v], draw.texcoords.at[2u * v + 1u]); }
 
 // Half the field of view is where x/2 or y is 1/2.2 of the depth. y runs down the target.
