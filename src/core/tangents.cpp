@@ -111,7 +111,7 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
 {
     if (!tangents::usable(mesh))
         return {};
-    const std::vector<std::uint32_t> first = tangents::weld(mesh);
+    const LargeArray<std::uint32_t> first = tangents::weld(mesh);
     const std::vector<Side> sides = cornerSides(mesh);
     std::vector<glm::vec3> sums(2 * mesh.positions.size(), glm::vec3(0));
     for (std::size_t c = 0; c < sides.size(); ++c)
@@ -135,7 +135,7 @@ Cotangents smoothCotangents(const MeshView& mesh)
 {
     if (!tangents::usable(mesh))
         return {};
-    const std::vector<std::uint32_t> first = tangents::weld(mesh);
+    const LargeArray<std::uint32_t> first = tangents::weld(mesh);
     const std::size_t count = mesh.positions.size();
     CotangentSums sums(2 * count);
     std::vector<float> share(2 * count, 0.0f); // angle by vertex as given and side

@@ -15,7 +15,7 @@ bool usable(const MeshView& mesh)
                        [count](std::uint32_t i) { return i < count; });
 }
 
-std::vector<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
 {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
