@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "cotan/bake/bake.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
-#include "cotan/bake/bake.hpp"
 
 using namespace cotan;
 
@@ -97,7 +97,7 @@ int main(int argc, char** argv)
     std::vector<LowSurface> low;
     std::vector<HighSurface> high;
     part("build", [&]() -> std::string {
-        if (auto surface = makeLowSurface(lowScene, -1, options.frame, TangentSource::stored))
+        if (auto surface = makeLowSurface(lowScene, -1, options.frame, TangentOrigin::stored))
             low.push_back(std::move(*surface));
         if (auto surface = HighSurface::make(scenes, options.threads))
             high.push_back(std::move(*surface));

@@ -12,8 +12,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/model/load.hpp"
 #include "cotan/bake/bake.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/surface/uv_raster.hpp"
 
 using namespace cotan;
@@ -50,14 +50,14 @@ struct Bare { // an Embree scene with nothing else around it
         for (const Instance& instance : model.instances) {
             const Mesh& mesh = model.meshes[std::size_t(instance.mesh)];
             RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                                                  mesh.vertexCount()));
+            auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                  RTC_FORMAT_FLOAT3, 12, mesh.vertexCount()));
             for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
                 const glm::vec3 p(instance.toWorld * glm::vec4(mesh.positions[i], 1));
                 std::copy(&p.x, &p.x + 3, v + 3 * i);
             }
-            auto* f = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                                                     mesh.triangleCount()));
+            auto* f = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                                     RTC_FORMAT_UINT3, 12, mesh.triangleCount()));
             std::copy(mesh.indices.begin(), mesh.indices.end(), f);
             rtcCommitGeometry(geometry);
             rtcAttachGeometry(scene, geometry);
@@ -95,7 +95,7 @@ std::vector<RTCRayHit> raysOf(const LowSurface& low, const HighSurface& high, co
     const float diagonal = glm::length(high.high() - high.low()), reach = 0.05f * diagonal, lift = 1e-5f * diagonal;
     std::vector<RTCRayHit> forward, back;
     for (const auto& [at, place] : texelsOf(UvRaster({low.texcoords, low.indices}, size, size), square)) {
-        const LowPoint p = pointOf(low, Frame::exact, place.triangle, place.b1, place.b2);
+        const LowPoint p = pointOf(low, place.triangle, place.b1, place.b2);
         for (float way : {1.0f, -1.0f}) {
             const glm::vec3 d = glm::vec3(p.normal) * way, o = glm::vec3(p.position) - d * lift;
             RTCRayHit r{};
@@ -162,7 +162,7 @@ int main(int argc, char** argv)
     options.frame = Frame::smooth;
     options.width = options.height = size;
     options.threads = 1;
-    const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentSource::generated);
+    const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({*highScene}, 1);
     if (!low || !high)
         return 2;
@@ -171,16 +171,23 @@ int main(int argc, char** argv)
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-    const std::vector<RTCRayHit> inRows = raysOf(*low, *high, bare, size, 1), inSquares = raysOf(*low, *high, bare, size, 4);
+    const std::vector<RTCRayHit> inRows = raysOf(*low, *high, bare, size, 1),
+                                 inSquares = raysOf(*low, *high, bare, size, 4);
     const auto packets = [&](const std::vector<RTCRayHit>& rays) {
         std::vector<RTCRayHit16> sixteen = packetsOf(rays);
-        return timed([&] { for (RTCRayHit16& r : sixteen) rtcIntersect16(valid, bare.scene, &context, &r); });
+        return timed([&] {
+            for (RTCRayHit16& r : sixteen)
+                rtcIntersect16(valid, bare.scene, &context, &r);
+        });
     };
     std::vector<double> ones, rows, squares, bakes;
     std::size_t bakedRays = 0;
     for (int run = 0; run < runs; ++run) {
         std::vector<RTCRayHit> one = inSquares;
-        ones.push_back(timed([&] { for (RTCRayHit& r : one) rtcIntersect1(bare.scene, &context, &r); }));
+        ones.push_back(timed([&] {
+            for (RTCRayHit& r : one)
+                rtcIntersect1(bare.scene, &context, &r);
+        }));
         rows.push_back(packets(inRows));
         squares.push_back(packets(inSquares));
         bakes.push_back(timed([&] { bakedRays = bake(*low, *high, options)->statistics.rays; }));
@@ -188,7 +195,8 @@ int main(int argc, char** argv)
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     const double baker = double(bakedRays) / median(bakes) / 1e6;
-    fmt::print("{} rays, {}x{}, one thread, medians of {}\nbaker {:.2f} M rays/s\n", bakedRays, size, size, runs, baker);
+    fmt::print("{} rays, {}x{}, one thread, medians of {}\nbaker {:.2f} M rays/s\n", bakedRays, size, size, runs,
+               baker);
     const auto print = [&](const char* name, const std::vector<double>& times) {
         const double rate = double(inRows.size()) / median(times) / 1e6;
         fmt::print("bare Embree, {:30} {:6.2f} M rays/s; the baker {:.2f} of it\n", name, rate, baker / rate);

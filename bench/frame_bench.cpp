@@ -49,8 +49,7 @@ void storedTangent(benchmark::State& state)
     const auto pixels = makePixels();
     for (auto _ : state)
         for (const Pixel& p : pixels)
-            benchmark::DoNotOptimize(
-                cotan_apply(f32::cotan_frame_mikktspace(p.n.raw(), p.d.dpdx.raw(), 1.0f), p.m));
+            benchmark::DoNotOptimize(cotan_apply(f32::cotan_frame_mikktspace(p.n.raw(), p.d.dpdx.raw(), 1.0f), p.m));
     state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(pixels.size()));
 }
 

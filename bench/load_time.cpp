@@ -1,5 +1,5 @@
-// What reading in a child process costs: load_time FILE... prints the best of nine loads in this process and in a child,
-// by the clock, and in processor time of both processes together.
+// What reading in a child process costs: load_time FILE... prints the best of nine loads in this process and in a
+// child, by the clock, and in processor time of both processes together.
 #include <algorithm>
 #include <chrono>
 
@@ -73,8 +73,8 @@ int main(int argc, char** argv)
     child.sandbox.program = "/proc/self/exe";
     for (int i = 1; i < argc; ++i) {
         const Cost here = best(argv[i], {}), there = best(argv[i], child);
-        fmt::print("{}: {:.0f} ms, in a child {:.0f} ms, {:.2f} times; processor {:.0f} ms, {:.0f} ms, {:.2f} times\n", argv[i],
-                   1e3 * here.wall, 1e3 * there.wall, there.wall / here.wall, 1e3 * here.processor,
+        fmt::print("{}: {:.0f} ms, in a child {:.0f} ms, {:.2f} times; processor {:.0f} ms, {:.0f} ms, {:.2f} times\n",
+                   argv[i], 1e3 * here.wall, 1e3 * there.wall, there.wall / here.wall, 1e3 * here.processor,
                    1e3 * there.processor, there.processor / here.processor);
     }
 }

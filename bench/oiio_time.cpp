@@ -57,7 +57,8 @@ void write(const std::string& file, const Picture& p)
 double noise(double x, double y, int cells, std::uint32_t seed)
 {
     const auto value = [&](int i, int j) {
-        std::uint32_t h = std::uint32_t(i % cells) * 0x9e3779b1u ^ std::uint32_t(j % cells) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
+        std::uint32_t h =
+            std::uint32_t(i % cells) * 0x9e3779b1u ^ std::uint32_t(j % cells) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
         h = (h ^ (h >> 15)) * 0x2c1b3c6du;
         h = (h ^ (h >> 12)) * 0x297a2d39u;
         return double((h ^ (h >> 15)) >> 8) / 16777216.0;
@@ -65,7 +66,8 @@ double noise(double x, double y, int cells, std::uint32_t seed)
     const double u = x * cells, v = y * cells;
     const int i = int(u), j = int(v);
     const double fx = u - i, fy = v - j, sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
-    return (value(i, j) * (1 - sx) + value(i + 1, j) * sx) * (1 - sy) + (value(i, j + 1) * (1 - sx) + value(i + 1, j + 1) * sx) * sy;
+    return (value(i, j) * (1 - sx) + value(i + 1, j) * sx) * (1 - sy)
+        + (value(i, j + 1) * (1 - sx) + value(i + 1, j + 1) * sx) * sy;
 }
 
 void make(const std::string& kind, int side, int bits, const std::string& file)
@@ -75,7 +77,8 @@ void make(const std::string& kind, int side, int bits, const std::string& file)
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x)
                 height[std::size_t(y) * std::size_t(side) + std::size_t(x)] +=
-                    float(0.5 * std::pow(0.5, octave) * noise((x + 0.5) / side, (y + 0.5) / side, cells, std::uint32_t(octave)));
+                    float(0.5 * std::pow(0.5, octave)
+                          * noise((x + 0.5) / side, (y + 0.5) / side, cells, std::uint32_t(octave)));
     Picture p{ImageSpec(side, side, kind == "normal" ? 3 : 1, bits == 8 ? TypeDesc::UINT8 : TypeDesc::UINT16), {}};
     p.data.resize(p.spec.image_bytes(true));
     const double most = bits == 8 ? 255 : 65535;
@@ -85,7 +88,9 @@ void make(const std::string& kind, int side, int bits, const std::string& file)
         std::memcpy(p.data.data() + at, &code, std::size_t(bits / 8)); // little-endian
         at += std::size_t(bits / 8);
     };
-    const auto h = [&](int x, int y) { return double(height[std::size_t((y + side) % side) * std::size_t(side) + std::size_t((x + side) % side)]); };
+    const auto h = [&](int x, int y) {
+        return double(height[std::size_t((y + side) % side) * std::size_t(side) + std::size_t((x + side) % side)]);
+    };
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             if (kind != "normal") {

@@ -15,7 +15,10 @@ template<class Generate> void generate(benchmark::State& state, Generate generat
     state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(grid.indices.size() / 3));
 }
 
-BENCHMARK_CAPTURE(generate, mikktspace, [](const MeshView& mesh) { return mikktspaceTangents(mesh); })->Arg(128)->Arg(707)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(generate, mikktspace, [](const MeshView& mesh) { return mikktspaceTangents(mesh); })
+    ->Arg(128)
+    ->Arg(707)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generate, vertex, vertexTangents)->Arg(128)->Arg(707)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generate, smooth, smoothCotangents)->Arg(128)->Arg(707)->Unit(benchmark::kMillisecond);
 

@@ -38,7 +38,8 @@ template<class Generate> void time(const char* name, int runs, std::size_t trian
     std::vector<double> wall, thread, process;
     for (int i = 0; i < runs; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        const double t = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID), p = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
+        const double t = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID),
+                     p = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
         const auto out = generate();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         wall.push_back(taken.count());
@@ -46,14 +47,13 @@ template<class Generate> void time(const char* name, int runs, std::size_t trian
         process.push_back(processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID) - p);
     }
     const auto best = [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); };
-    std::printf("%-44s %8.1f ms median, %8.1f ms best, processor %8.1f ms here, %8.1f ms in all, %6.2f M triangles/s\n", name,
-                median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
+    std::printf("%-44s %8.1f ms median, %8.1f ms best, processor %8.1f ms here, %8.1f ms in all, %6.2f M triangles/s\n",
+                name, median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
 }
 
 template<class T> void write(std::ofstream& file, const std::vector<T>& values)
 {
-    file.write(reinterpret_cast<const char*>(values.data()),
-               std::streamsize(values.size() * sizeof(T)));
+    file.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size() * sizeof(T)));
 }
 
 double peakBytes()
@@ -71,7 +71,8 @@ void memory(const char* name, const cotan::MeshView& mesh)
     if (child == 0) {
         const double before = peakBytes(), triangles = double(mesh.indices.size() / 3);
         cotan::mikktspaceTangents(mesh);
-        std::printf("cotan's memory, %-28s %3.0f bytes a triangle besides 48 for the result\n", name, (peakBytes() - before) / triangles - 48);
+        std::printf("cotan's memory, %-28s %3.0f bytes a triangle besides 48 for the result\n", name,
+                    (peakBytes() - before) / triangles - 48);
         std::fflush(stdout);
         ::_exit(0);
     }
@@ -90,8 +91,8 @@ int main(int argc, char** argv)
     const cotan::bench::Grid grid = cotan::bench::makeGrid(side);
     {
         std::ofstream file(argv[3], std::ios::binary);
-        write(file, std::vector<std::uint32_t>{std::uint32_t(grid.positions.size()),
-                                               std::uint32_t(grid.indices.size())});
+        write(file,
+              std::vector<std::uint32_t>{std::uint32_t(grid.positions.size()), std::uint32_t(grid.indices.size())});
         write(file, grid.positions);
         write(file, grid.normals);
         write(file, grid.texcoords);

@@ -34,7 +34,6 @@ cotan_optional(TBB TBB::tbb oneTBB libtbb-dev "baking, converting, maps and the 
 cotan_optional(FMT fmt::fmt "{fmt}" libfmt-dev "no files, no tool: the parts without text remain" fmt)
 cotan_optional(JSON nlohmann_json::nlohmann_json nlohmann-json nlohmann-json3-dev "no glTF, no tool" nlohmann_json)
 cotan_optional(CLI11 CLI11::CLI11 CLI11 libcli11-dev "no tool" CLI11)
-cotan_optional(TINYGLTF TinyGLTF::TinyGLTF TinyGLTF libtinygltf-dev "no glTF, no tool" TinyGLTF)
 cotan_optional(PNG PNG::PNG libpng libpng-dev "no PNG files, no tool" PNG)
 cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG)
 cotan_optional(OPENIMAGEIO OpenImageIO::OpenImageIO OpenImageIO "libopenimageio-dev openimageio-tools"

@@ -1,14 +1,14 @@
-// Command lines, one word a line, in a folder with a small model and a small map. All are parsed; those of commands that
-// take milliseconds are run. A name never leads out of the folder.
+// Command lines, one word a line, in a folder with a small model and a small map. All are parsed; those of commands
+// that take milliseconds are run. A name never leads out of the folder.
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include <fcntl.h>
 
+#include "cotan/files/account.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/shapes/shapes.hpp"
-#include "cotan/files/account.hpp"
 #include "fuzz.hpp"
 
 // The tool's own main; see CMakeLists.txt.

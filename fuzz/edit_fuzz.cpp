@@ -1,5 +1,5 @@
-// A glTF file opened, changed as `tangents` and `convert` change it, written and read again: what was not changed is equal,
-// what was set comes back.
+// A glTF file opened, changed as `tangents` and `convert` change it, written and read again: what was not changed is
+// equal, what was set comes back.
 #include <bit>
 #include <vector>
 
@@ -37,7 +37,8 @@ std::vector<Primitive> primitivesOf(const GltfDocument& document)
 
 // Equal to the bit; so NaN equals NaN.
 template<class Vector>
-bool sameCorners(const std::vector<Vector>& a, const GltfGeometry& ga, const std::vector<Vector>& b, const GltfGeometry& gb)
+bool sameCorners(const std::vector<Vector>& a, const GltfGeometry& ga, const std::vector<Vector>& b,
+                 const GltfGeometry& gb)
 {
     if (a.empty() != b.empty() || ga.indices.size() != gb.indices.size())
         return false;
@@ -95,8 +96,7 @@ void checkTangentsRead(const std::vector<GltfCornerTangents>& set, const std::ve
                 continue;
             COTAN_HOLDS(p.geometry.indices.size() == given.corners.size(), "{}", given.corners.size());
             for (std::size_t c = 0; c < given.corners.size(); ++c)
-                COTAN_HOLDS(p.geometry.tangents[p.geometry.indices[c]] == given.corners[c]
-                                || !finite(given.corners[c]),
+                COTAN_HOLDS(p.geometry.tangents[p.geometry.indices[c]] == given.corners[c] || !finite(given.corners[c]),
                             "corner {}", c);
         }
 }

@@ -1,5 +1,5 @@
-// What the harnesses share. Each harness is one file NAME_fuzz.cpp that defines LLVMFuzzerTestOneInput: with libFuzzer it
-// is called with changed inputs, with replay.cpp with those of corpus/NAME.
+// What the harnesses share. Each harness is one file NAME_fuzz.cpp that defines LLVMFuzzerTestOneInput: with libFuzzer
+// it is called with changed inputs, with replay.cpp with those of corpus/NAME.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 // Ends the program with one line where a property does not hold; libFuzzer keeps the input.
-#define COTAN_HOLDS(condition, ...)                                                                \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            cotan::fuzz::fail(__FILE__, __LINE__, #condition, fmt::format("" __VA_ARGS__));       \
+#define COTAN_HOLDS(condition, ...)                                                                                    \
+    do {                                                                                                               \
+        if (!(condition))                                                                                              \
+            cotan::fuzz::fail(__FILE__, __LINE__, #condition, fmt::format("" __VA_ARGS__));                            \
     } while (false)
 
 namespace cotan::fuzz {

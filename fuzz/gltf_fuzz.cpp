@@ -8,7 +8,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     static const Scratch scratch;
     const std::span bytes(data, size);
-    const auto scene = loadGltf(scratch.write(startsWith(bytes, "glTF") ? "model.glb" : "model.gltf", bytes), smallLimits());
+    const auto scene =
+        loadGltf(scratch.write(startsWith(bytes, "glTF") ? "model.glb" : "model.gltf", bytes), smallLimits());
     if (!scene) {
         checkError(scene.error());
         return 0;

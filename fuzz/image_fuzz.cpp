@@ -1,4 +1,5 @@
-// Pictures in memory: each format by its first bytes, anything else as TGA. What was read is written as PNG and read again.
+// Pictures in memory: each format by its first bytes, anything else as TGA. What was read is written as PNG and read
+// again.
 #include <algorithm>
 
 #include "cotan/image/file.hpp"

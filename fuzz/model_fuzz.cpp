@@ -1,6 +1,7 @@
 // Models other than glTF: OBJ with its MTL, PLY, COLLADA, STL and 3DS, all in this process. Which format it is, is told
-// from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it. FBX is left out: nothing is
-// checked in front of Assimp's reader, which can overflow the stack; the tool reads it in a process of its own.
+// from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it. FBX is left out:
+// nothing is checked in front of Assimp's reader, which can overflow the stack; the tool reads it in a process of its
+// own.
 #include <string_view>
 
 #include "scene_checks.hpp"
@@ -48,7 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     checkScene(*scene);
     const auto again = loadScene(file, smallLimits());
-    COTAN_HOLDS(again && again->meshes.size() == scene->meshes.size() && again->materials.size() == scene->materials.size());
+    COTAN_HOLDS(again && again->meshes.size() == scene->meshes.size()
+                && again->materials.size() == scene->materials.size());
     for (std::size_t i = 0; i < scene->meshes.size(); ++i)
         COTAN_HOLDS(again->meshes[i].indices == scene->meshes[i].indices, "mesh {}", i);
     return 0;

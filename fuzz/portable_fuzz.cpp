@@ -1,5 +1,5 @@
-// The portable text over random bits: the total functions give finite frames and unit normals for any input, in float and
-// in double; the fused forms give what the frames give, within the range that fused.h states.
+// The portable text over random bits: the total functions give finite frames and unit normals for any input, in float
+// and in double; the fused forms give what the frames give, within the range that fused.h states.
 #include <array>
 #include <numbers>
 
@@ -11,7 +11,10 @@ using namespace cotan::fuzz;
 
 namespace {
 
-template<class V> bool isUnit(const V& v, double tolerance = 1e-5) { return std::abs(double(glm::length(v)) - 1) < tolerance; }
+template<class V> bool isUnit(const V& v, double tolerance = 1e-5)
+{
+    return std::abs(double(glm::length(v)) - 1) < tolerance;
+}
 
 // Whether a value may stand in a promise that asks for finite input of an ordinary size.
 template<class V> bool ordinary(const V& v) { return glm::length(v) > 1e-18f && glm::length(v) < 1e18f; }
@@ -32,7 +35,7 @@ void checkTotalFrames(Values values)
     const glm::vec3 n = anyVector(values), dpdx = anyVector(values), dpdy = anyVector(values), m = anyVector(values);
     const glm::vec2 duvdx = anyPair(values), duvdy = anyPair(values);
     for (const FrameInfo& frame : frames()) {
-        if (!frame.total || frame.source == FrameSource::vertices)
+        if (!frame.total || readsVertices(frame.frame))
             continue;
         const bool metric = frame.frame == Frame::gradient;
         const auto f = evaluate(frame.frame, n, dpdx, dpdy, duvdx, duvdy);
@@ -45,7 +48,8 @@ void checkTotalFrames(Values values)
                     frame.name);
         COTAN_HOLDS(isUnit(f32::cotan_encode(f, m)), "{}: {} {} {}", frame.name, m.x, m.y, m.z);
     }
-    for (const auto& f : {f32::cotan_frame_smooth(n, dpdx, dpdy), f32::cotan_frame_vertex(n, dpdx, duvdx.x < 0 ? -1.0f : 1.0f)}) {
+    for (const auto& f :
+         {f32::cotan_frame_smooth(n, dpdx, dpdy), f32::cotan_frame_vertex(n, dpdx, duvdx.x < 0 ? -1.0f : 1.0f)}) {
         checkFrame(f, "from vertices", false);
         COTAN_HOLDS(isUnit(f32::cotan_apply(f, m)), "{} {} {}", m.x, m.y, m.z);
         // What is left of a vector almost along n is rounding, and points anywhere.
@@ -121,8 +125,9 @@ Input soundInput(Values& values, double pScale, double uvScale, double nLength)
 {
     const glm::dvec3 face = direction(values), other = direction(values);
     const glm::dvec3 crossed = glm::cross(face, other);
-    const glm::dvec3 x = glm::length(crossed) > 1e-3 ? glm::normalize(crossed)
-                                                     : glm::normalize(glm::cross(face, glm::dvec3(face.y, face.z, -face.x) + 0.1));
+    const glm::dvec3 x = glm::length(crossed) > 1e-3
+        ? glm::normalize(crossed)
+        : glm::normalize(glm::cross(face, glm::dvec3(face.y, face.z, -face.x) + 0.1));
     const glm::dvec3 y = glm::cross(face, x);
     const auto p = twoDifferences(values, values.flip() ? 1 : -1), uv = twoDifferences(values, values.flip() ? 1 : -1);
     const glm::dvec2 lean = turned(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));

@@ -1,6 +1,6 @@
 // Runs a harness over files, and over all files of folders, without libFuzzer: NAME_replay PATH...
-// A path that does not exist is said and left out. Exit code 1 where a file took over kLimitSeconds of processor time; a
-// property that does not hold ends the program at that file.
+// A path that does not exist is said and left out. Exit code 1 where a file took over kLimitSeconds of processor time;
+// a property that does not hold ends the program at that file.
 #include <algorithm>
 #include <ctime>
 #include <fstream>

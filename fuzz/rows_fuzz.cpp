@@ -1,5 +1,5 @@
-// Pictures by rows: strips of any height give the same pixels as the whole picture; what only one of the two ways accepts
-// is refused by the other for a stated limit.
+// Pictures by rows: strips of any height give the same pixels as the whole picture; what only one of the two ways
+// accepts is refused by the other for a stated limit.
 #include <algorithm>
 
 #include "cotan/image/file.hpp"

@@ -43,7 +43,8 @@ inline void checkScene(const Scene& scene)
     for (const Mesh& mesh : scene.meshes)
         checkMesh(mesh, scene);
     for (const Material& m : scene.materials)
-        for (const Texture* t : {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.occlusionMap, &m.emissiveMap})
+        for (const Texture* t :
+             {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.occlusionMap, &m.emissiveMap})
             checkTexture(*t, scene);
     for (const Image& image : scene.images)
         COTAN_HOLDS(image.data.size() == image.pixelCount() * image.bytesPerPixel(), "{}", image.name);
@@ -57,15 +58,13 @@ inline void checkScene(const Scene& scene)
         COTAN_HOLDS(finite(camera.eye) && finite(camera.target));
 }
 
-inline MeshView viewOf(const Mesh& mesh)
-{
-    return {mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices};
-}
+inline MeshView viewOf(const Mesh& mesh) { return {mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices}; }
 
 // Tangents of meshes whose coordinates floats can square and multiply: finite, one a corner.
 inline void checkTangents(const MeshView& mesh)
 {
-    const bool complete = mesh.texcoords.size() == mesh.positions.size() && mesh.normals.size() == mesh.positions.size();
+    const bool complete =
+        mesh.texcoords.size() == mesh.positions.size() && mesh.normals.size() == mesh.positions.size();
     const std::size_t corners = complete ? mesh.indices.size() : 0;
     const auto ordinary = [](const auto& v) { return glm::dot(v, v) < 1e12f; };
     const bool all = std::ranges::all_of(mesh.positions, ordinary) && std::ranges::all_of(mesh.texcoords, ordinary);

@@ -68,7 +68,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     COTAN_HOLDS(std::ranges::find(text->functions, text->entry) != text->functions.end(), "{}", text->entry);
     // Words of the portable text; C++ keeps the names of the types.
     for (const char* const left : {"COTAN_", "cotan_normal_format", "cotan_real", "cotan_vec3"})
-        COTAN_HOLDS((choice.language == shader_text::Language::cpp && left[0] == 'c') || text->text.find(left) == std::string::npos,
+        COTAN_HOLDS((choice.language == shader_text::Language::cpp && left[0] == 'c')
+                        || text->text.find(left) == std::string::npos,
                     "{}", left);
     checkBrackets(text->text);
     COTAN_HOLDS(makeShaderText(choice)->text == text->text, "the second text differs");

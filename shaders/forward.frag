@@ -11,6 +11,7 @@
 #include "cotan/lang.h"
 #include "cotan/normal.h"
 #include "cotan/frame.h"
+#include "cotan/triangle.h"
 #include "cotan/light.h"
 #include "bindings.glsl"
 #include "constants.glsl"

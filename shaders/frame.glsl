@@ -60,46 +60,33 @@ Differences triangleEdges()
 
 cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
 
-// n: safe, unit. inNormal and the other attributes: as interpolated.
-cotan_frame vertexFrame(vec3 n)
+// The frame COTAN_FRAME: one case for each row of the table of frames, by what the row is made from.
+// n: safe, unit. inNormal and the other attributes: as interpolated; a mesh without uv has none.
+cotan_frame frameOf(vec3 n, Differences d)
 {
-    if (COTAN_FRAME == 11) {
-        if ((draw.flags & COTAN_DRAW_HAS_COTANGENTS) == 0u)
-            return noFrame(n);
-        return cotan_frame_smooth(n, inCotangentU, inCotangentV);
+#ifdef COTAN_EXACT
+#define COTAN_FROM_triangle(word)        \
+    {                                    \
+        Differences e = triangleEdges(); \
+        return cotan_frame_##word(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy); \
     }
-    if ((draw.flags & COTAN_DRAW_HAS_TANGENTS) == 0u)
-        return noFrame(n);
+#else
+#define COTAN_FROM_triangle(word) break;
+#endif
+    bool hasTangents = (draw.flags & COTAN_DRAW_HAS_TANGENTS) != 0u;
+    bool hasCotangents = (draw.flags & COTAN_DRAW_HAS_COTANGENTS) != 0u;
     // A glTF tangent's w makes cross(n, t) * w point along the green of a map, which is against
     // increasing v, as v runs down the image. Our b points along increasing v: hence -w.
     float handedness = -inTangent.w;
-    if (COTAN_FRAME == 12)
-        return cotan_frame_vertex(inNormal, inTangent.xyz, handedness);
-    return cotan_frame_mikktspace(inNormal, inTangent.xyz, handedness);
-}
-
-cotan_frame frameOf(vec3 n, Differences d)
-{
+#define COTAN_FROM_differences(word) return cotan_frame_##word(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
+#define COTAN_FROM_cotangents(word) \
+    if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
+#define COTAN_FROM_tangents(word) \
+    if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, handedness); break;
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
+    case number: COTAN_FROM_##source(word)
     switch (COTAN_FRAME) {
-    case 0: return cotan_frame_cotangent(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 1: return cotan_frame_cotangent_2013(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 2: return cotan_frame_nonperspective(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 3: return cotan_frame_paper_full(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 4: return cotan_frame_paper_nodet(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 5: return cotan_frame_paper_transpose(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 6: return cotan_frame_paper_orthogonal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 7: return cotan_frame_unit(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 8: return cotan_frame_orthonormal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-    case 9: return cotan_frame_gradient(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
-#ifdef COTAN_EXACT
-    case 10: {
-        Differences e = triangleEdges();
-        return cotan_frame_exact(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy);
-    }
-#endif
-    case 11:
-    case 12:
-    case 13: return vertexFrame(n);
+#include "cotan/frames.inc"
     }
     return noFrame(n);
 }

@@ -99,7 +99,7 @@ TEST(AccuracyBarA4, everySignCombinationIsExactButForTheFrameKeptAsPrinted)
             EXPECT_LT(m.maximum, m.arithmetic == "double" ? 1e-9 : 1e-4) << m.scene << ", " << m.frame;
         }
     }
-    EXPECT_EQ(rows, 24 * 11 * 2);
+    EXPECT_EQ(rows, 24 * 12 * 2);
     EXPECT_EQ(reversed, 12 * 2);
 }
 
@@ -143,6 +143,32 @@ TEST(AccuracyBarB1, cotangentErrorIsFirstOrderInTheSegmentsAndSmall)
         const auto rows = measure("curved", {{Frame::cotangent}, surface});
         for (const char* arithmetic : kBoth)
             EXPECT_LT(only(rows, "32", "cotangent", arithmetic).mean, bar) << surface;
+    }
+}
+
+TEST(AccuracyBarB1, triangleIsWithinTwoPercentOfCotangent)
+{
+    for (const char* surface : {"sphere", "torus", "spout", "mercator"}) {
+        const auto rows = measure("curved", {{Frame::cotangent, Frame::triangle}, surface});
+        for (const char* arithmetic : kBoth)
+            for (const char* segments : {"32", "64", "128", "256"}) {
+                const double cotangent = only(rows, segments, "cotangent", arithmetic).mean;
+                EXPECT_NEAR(only(rows, segments, "triangle", arithmetic).mean, cotangent, 0.02 * cotangent)
+                    << surface << ", " << segments;
+            }
+    }
+}
+
+TEST(AccuracyBarB2, smoothFusedIsSecondOrderAndWithin40PercentOfItsTotalForm)
+{
+    for (const char* surface : {"sphere", "torus"}) {
+        const auto rows = measure("curved", {{Frame::smooth}, surface});
+        auto fused = [&](const char* segments) { return only(rows, segments, "(smooth, fused)").mean; };
+        for (const char* segments : {"16", "32", "64", "128"})
+            EXPECT_LT(fused(segments), 1.4 * only(rows, segments, "smooth").mean) << surface << ", " << segments;
+        EXPECT_GT(fused("16") / fused("32"), 3) << surface;
+        EXPECT_GT(fused("32") / fused("64"), 3) << surface;
+        EXPECT_GT(fused("64") / fused("128"), 3) << surface;
     }
 }
 
@@ -197,9 +223,7 @@ TEST(AccuracyControls, wrongFramesOnASphereAreWrongByTheirKnownAmounts)
 TEST(AccuracyBarD1, largeUvCostAboutADegreeTimesTheirRoundingOverTheFootprint)
 {
     const auto rows = measure("precision", {{Frame::cotangent}, "large uv"});
-    auto mean = [&](const char* setting) {
-        return only(rows, setting, "cotangent", "float", "exact arithmetic").mean;
-    };
+    auto mean = [&](const char* setting) { return only(rows, setting, "cotangent", "float", "exact arithmetic").mean; };
     // One degree times uv x 1e-6 / footprint, to a factor of two: rounding of a float.
     EXPECT_NEAR(mean("uv up to 16, footprint 0.0001"), 0.123, 0.06);
     EXPECT_NEAR(mean("uv up to 256, footprint 0.001"), 0.196, 0.1);
@@ -234,7 +258,7 @@ TEST(AccuracyBarD3, totalFramesAreFiniteInAll19CasesAndTheOthersAreNot)
             othersFail = othersFail || (m.scene == "constant uv" && m.invalid == 1);
         }
     }
-    EXPECT_EQ(total, 19u * 4u);
+    EXPECT_EQ(total, 19u * 5u);
     EXPECT_TRUE(othersFail);
 }
 
@@ -243,8 +267,8 @@ TEST(AccuracyBarD4, proceduralUvCostUnderADegreeWhereAWarpSpans64Pixels)
     const auto fine = measure("procedural", scene("fine derivatives"));
     EXPECT_LT(only(fine, "64 pixels a wave", "cotangent").mean, 0.9);
     // First order in the footprint: a quarter of the pixels, four times the error.
-    EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean,
-                4, 0.2);
+    EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean, 4,
+                0.2);
     const auto analytic = measure("procedural", scene("analytic Jacobian"));
     for (const char* setting : {"64 pixels a wave", "4 pixels a wave"})
         EXPECT_LT(only(analytic, setting, "cotangent").maximum, 1e-6);

@@ -13,7 +13,8 @@ namespace {
 TEST(AccuracyCommand, printsTheTablesAskedFor)
 {
     TemporaryFolder folder;
-    const ToolRun r = runTool({"accuracy", "--tables", "foreshortening", "--frames", "cotangent,nonperspective"}, folder.path());
+    const ToolRun r =
+        runTool({"accuracy", "--tables", "foreshortening", "--frames", "cotangent,nonperspective"}, folder.path());
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_NE(r.out.find("## foreshortening"), std::string::npos);
     EXPECT_NE(r.out.find("| nonperspective |"), std::string::npos);
@@ -26,7 +27,8 @@ TEST(AccuracyCommand, sameFiguresForAnyNumberOfThreads)
     TemporaryFolder folder;
     for (const char* threads : {"1", "3"}) {
         const ToolRun r = runTool({"accuracy", "--tables", "views,signs,half", "--threads", threads, "--csv",
-                                   std::string(threads) + ".csv", "--quiet"}, folder.path());
+                                   std::string(threads) + ".csv", "--quiet"},
+                                  folder.path());
         ASSERT_EQ(r.code, 0) << r.err;
     }
     EXPECT_GT(readWhole(folder / "1.csv").size(), 1000u);

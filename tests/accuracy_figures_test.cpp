@@ -16,7 +16,8 @@ std::vector<Measurement> committed()
 
 Measurement row(double mean, double invalid = 0, const char* arithmetic = "double")
 {
-    return {"flat", "a, \"quoted\" scene", "setting", "cotangent", "S", arithmetic, 100, mean, 2 * mean, 3 * mean, invalid};
+    return {"flat", "a, \"quoted\" scene", "setting", "cotangent", "S", arithmetic, 100, mean, 2 * mean, 3 * mean,
+            invalid};
 }
 
 TEST(AccuracyFigures, noCommittedFigureHasBecomeWorse)
@@ -71,9 +72,9 @@ TEST(AccuracyFigures, worseMeansMoreThanSamplingAndRoundingExplain)
     EXPECT_EQ(compared, 1u);
     EXPECT_EQ(worsenings({row(1)}, {row(1.03)}, compared).size(), 1u);
     EXPECT_TRUE(worsenings({row(1)}, {row(0.5)}, compared).empty());
-    EXPECT_TRUE(worsenings({row(1e-12)}, {row(5e-10)}, compared).empty());  // rounding of double
+    EXPECT_TRUE(worsenings({row(1e-12)}, {row(5e-10)}, compared).empty()); // rounding of double
     EXPECT_EQ(worsenings({row(1e-12)}, {row(5e-9)}, compared).size(), 1u);
-    EXPECT_EQ(worsenings({row(1)}, {row(1, 0.01)}, compared).size(), 1u);   // results that are not finite
+    EXPECT_EQ(worsenings({row(1)}, {row(1, 0.01)}, compared).size(), 1u);      // results that are not finite
     EXPECT_TRUE(worsenings({row(1)}, {row(9, 0, "float")}, compared).empty()); // not the same figure
     EXPECT_EQ(compared, 0u);
 }

@@ -21,7 +21,7 @@ class BakedRelief {
 public:
     BakedRelief(Frame frame)
         : surface_(surfaces().front()), mesh_(tessellate(surface_, 12, false)), frame_(frame),
-          low_(*makeLowSurface(sceneOf(mesh_), -1, frame, TangentSource::generated)),
+          low_(*makeLowSurface(sceneOf(mesh_), -1, frame, TangentOrigin::generated)),
           raster_({low_.texcoords, low_.indices}, kTexels, kTexels)
     {
     }
@@ -48,7 +48,7 @@ public:
             return false;
         const double b1 = place->b1, b2 = place->b2;
         normal = target(interpolate(mesh_, {place->triangle, {1 - b1 - b2, b1, b2}}));
-        m = encode(pointOf(low_, frame_, place->triangle, b1, b2).frame, Covector3d(normal));
+        m = encode(pointOf(low_, place->triangle, b1, b2).frame, Covector3d(normal));
         for (int k = 0; k < 3; ++k)
             m[k] = std::round((m[k] + 1) * 32767.5) / 32767.5 - 1;
         return true;
@@ -139,7 +139,7 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
         for (Frame frame : {Frame::cotangent, Frame::unit, Frame::orthonormal, Frame::gradient, Frame::exact,
                             Frame::smooth, Frame::vertex, Frame::mikktspace}) {
             const Tessellation mesh = tessellate(surface, 16, true);
-            const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentSource::generated);
+            const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentOrigin::generated);
             ASSERT_TRUE(low);
             Random random(20);
             LowPoints points;
@@ -152,11 +152,11 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
                         places.push_back({std::uint32_t(at.triangle), 0.25f, 0.5f, true});
                 }
                 places.resize(std::min(places.size(), kLanes));
-                pointsOf(*low, frame, places, points);
+                pointsOf(*low, places, points);
                 std::vector<glm::dvec3> expected;
                 Lanes3 targets, texels;
                 for (std::size_t k = 0; k < places.size(); ++k) {
-                    const LowPoint exact = pointOf(*low, frame, places[k].triangle, places[k].b1, places[k].b2);
+                    const LowPoint exact = pointOf(*low, places[k].triangle, places[k].b1, places[k].b2);
                     EXPECT_LT(glm::length(glm::dvec3(points.position.at(k)) - exact.position), 1e-5); // float near 1
                     EXPECT_LT(glm::length(glm::dvec3(points.normal.at(k)) - exact.normal), 1e-6);
                     const glm::dvec3 target = glm::normalize(exact.normal + 0.6 * random.direction());

@@ -20,7 +20,8 @@ const std::filesystem::path kWaves = COTAN_SHARED_DATA "/bake/synthetic_waves";
 glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
 {
     auto component = [&](std::size_t k) {
-        return image.type == PixelType::unorm16 ? (image.words()[4 * i + k] - 32768.0) / 32767 : (image.bytes8()[4 * i + k] - 128.0) / 127;
+        return image.type == PixelType::unorm16 ? (image.words()[4 * i + k] - 32768.0) / 32767
+                                                : (image.bytes8()[4 * i + k] - 128.0) / 127;
     };
     return {component(0), component(1) * (green ? 1 : -1), component(2)};
 }
@@ -40,9 +41,10 @@ TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
     TemporaryFolder folder;
     for (const char* convention : {"opengl", "directx"})
         for (const char* bits : {"8", "16"}) {
-            const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(),
-                                       "--size", "64x64", "--bits", bits, "--convention", convention, "--frame", "cotangent",
-                                       "-o", "map.png", "--quiet"}, folder.path());
+            const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low",
+                                       (kWaves / "low.obj").string(), "--size", "64x64", "--bits", bits, "--convention",
+                                       convention, "--frame", "cotangent", "-o", "map.png", "--quiet"},
+                                      folder.path());
             ASSERT_EQ(r.code, 0) << r.err;
             const auto map = readImage(folder / "map.png");
             ASSERT_TRUE(map);
@@ -50,7 +52,8 @@ TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
             for (std::size_t j = 0; j < 64; ++j)
                 for (std::size_t i = 0; i < 64; ++i)
                     mean += degreesBetween(decoded(*map, j * 64 + i, convention == std::string("opengl")),
-                                           normals[(128 - (2 * j + 1)) * 129 + 2 * i + 1]) / 4096;
+                                           normals[(128 - (2 * j + 1)) * 129 + 2 * i + 1])
+                        / 4096;
             EXPECT_LT(mean, bits == std::string("8") ? 0.2 : 0.01) << convention << ", " << bits;
         }
 }
@@ -60,9 +63,10 @@ double degreesFromWaves(const char* normals, const char* convention, const char*
 {
     const auto truth = readImage(kWaves / "normal_gl16.png");
     TemporaryFolder folder;
-    const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(), "--size",
-                               "256x256", "--bits", bits, "--convention", convention, "--high-normals", normals, "-o", "map.png",
-                               "--quiet"}, folder.path());
+    const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(),
+                               "--size", "256x256", "--bits", bits, "--convention", convention, "--high-normals",
+                               normals, "-o", "map.png", "--quiet"},
+                              folder.path());
     EXPECT_EQ(r.code, 0) << r.err;
     const auto map = readImage(folder / "map.png");
     if (!truth || !map || map->pixelCount() != truth->pixelCount())
@@ -94,9 +98,10 @@ TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
     if (!std::filesystem::exists(bunny / "bunny_high.obj"))
         GTEST_SKIP() << "no " << bunny;
     TemporaryFolder folder;
-    const ToolRun r = runTool({"bake", "--high", (bunny / "bunny_high.obj").string(), "--low", (bunny / "bunny_low.obj").string(),
-                               "--size", "1024x1024", "--frame", "smooth", "-o", "map.png", "--verify", "views", "--json", "r.json",
-                               "--quiet"}, folder.path(), 240);
+    const ToolRun r = runTool({"bake", "--high", (bunny / "bunny_high.obj").string(), "--low",
+                               (bunny / "bunny_low.obj").string(), "--size", "1024x1024", "--frame", "smooth", "-o",
+                               "map.png", "--verify", "views", "--json", "r.json", "--quiet"},
+                              folder.path(), 240);
     ASSERT_EQ(r.code, 0) << r.err;
     const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
     // Measured 0.6 mean at this size: the map's filtering; where rays of neighbours diverge, more.
@@ -123,10 +128,10 @@ TEST(BakeCommand, badInputGetsOneLineAndItsExitCode)
 {
     Files files;
     const std::pair<std::vector<std::string>, int> runs[] = {
-        {{"--high", "bare.obj", "--low", "bare.obj", "-o", "m.png"}, 2},                      // no uv
-        {{"--high", "empty.obj", "--low", "low.obj", "-o", "m.png"}, 2},                      // nothing to hit
+        {{"--high", "bare.obj", "--low", "bare.obj", "-o", "m.png"}, 2}, // no uv
+        {{"--high", "empty.obj", "--low", "low.obj", "-o", "m.png"}, 2}, // nothing to hit
         {{"--high", "missing.obj", "--low", "low.obj", "-o", "m.png"}, 2},
-        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--cage", "one.obj"}, 2},  // another topology
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--cage", "one.obj"}, 2}, // another topology
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "no/folder/m.png"}, 4},
         {{"--high", "bare.obj", "--low", "low.obj"}, 1},
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "100000x100000"}, 1},
@@ -147,8 +152,9 @@ TEST(BakeCommand, badInputGetsOneLineAndItsExitCode)
 TEST(BakeCommand, flatOnFlatIsFlatAndACreaseIsWarnedOf)
 {
     Files files;
-    const ToolRun r = runTool({"bake", "--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "5x3", "--frame",
-                               "cotangent", "--mask", "mask.png"}, files.folder.path());
+    const ToolRun r = runTool({"bake", "--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "5x3",
+                               "--frame", "cotangent", "--mask", "mask.png"},
+                              files.folder.path());
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_NE(r.err.find("bake and draw with smooth"), std::string::npos);
     const auto map = readImage(files.folder / "m.png");

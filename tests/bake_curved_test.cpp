@@ -12,7 +12,10 @@ namespace cotan {
 namespace {
 
 // A relief of a few waves with slopes up to 0.7, and its normal.
-double height(double x, double y) { return 0.1 * std::sin(5 * x + 1) * std::cos(4 * y) + 0.05 * std::sin(3 * x - 2 * y); }
+double height(double x, double y)
+{
+    return 0.1 * std::sin(5 * x + 1) * std::cos(4 * y) + 0.05 * std::sin(3 * x - 2 * y);
+}
 glm::dvec3 normalAt(double x, double y)
 {
     const double hx = 0.5 * std::cos(5 * x + 1) * std::cos(4 * y) + 0.15 * std::cos(3 * x - 2 * y);
@@ -64,7 +67,10 @@ glm::dvec3 truthAlong(glm::dvec3 origin, glm::dvec3 direction)
     return normalAt(p.x, p.y);
 }
 
-double degrees(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232; }
+double degrees(glm::dvec3 a, glm::dvec3 b)
+{
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232;
+}
 
 struct Errors {
     double interpolated = 0, curved = 0; // mean degrees
@@ -79,7 +85,8 @@ Errors errorsOf(const Scene& scene)
     Random random(11);
     const int rays = 4000;
     for (int i = 0; i < rays; ++i) {
-        const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5 * random.range(-1, 1), 0.5 * random.range(-1, 1), -1));
+        const glm::dvec3 direction =
+            glm::normalize(glm::dvec3(0.5 * random.range(-1, 1), 0.5 * random.range(-1, 1), -1));
         const glm::dvec3 target(random.range(0.2, 0.8), random.range(0.2, 0.8), 0);
         const glm::vec3 origin(target - direction * (0.5 / -direction.z)), towards(direction);
         const Hit hit = surface->trace({origin, towards, 0, 10});
@@ -131,7 +138,8 @@ TEST(Curved, flatFacesStayFlat)
     Mesh flat;
     const Mesh& mesh = scene.meshes[0];
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+        const glm::vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                        c = mesh.positions[mesh.indices[i + 2]];
         for (const glm::vec3& p : {a, b, c}) {
             flat.indices.push_back(std::uint32_t(flat.positions.size()));
             flat.positions.push_back(p);
@@ -144,10 +152,13 @@ TEST(Curved, flatFacesStayFlat)
     surface->curve(1);
     Random random(5);
     for (int i = 0; i < 300; ++i) {
-        const Hit hit = surface->trace({{float(random.range(0.1, 0.9)), float(random.range(0.1, 0.9)), 1}, {0, 0, -1}, 0, 10});
+        const Hit hit =
+            surface->trace({{float(random.range(0.1, 0.9)), float(random.range(0.1, 0.9)), 1}, {0, 0, -1}, 0, 10});
         ASSERT_TRUE(hit.found);
         // Positions of a face lie in its plane but for their rounding, 6e-8, over edges of a sixth: 2e-5 degrees.
-        EXPECT_LT(degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, {0, 0, -1})), glm::dvec3(hit.faceNormal)), 1e-3);
+        EXPECT_LT(
+            degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, {0, 0, -1})), glm::dvec3(hit.faceNormal)),
+            1e-3);
     }
 }
 

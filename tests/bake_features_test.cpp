@@ -60,8 +60,8 @@ TEST_F(BakeFeatures, heightIsTheDisplacementInModelUnits)
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     for (double height : {0.25, -0.125}) { // both exact in float
         write("high.obj", square(-1, -1, height, 3) + kFaces);
-        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--max-distance", "1", "--bits", "32",
-                                "--size", "8x8", "-o", "h.exr"});
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--max-distance", "1",
+                                "--bits", "32", "--size", "8x8", "-o", "h.exr"});
         ASSERT_EQ(r.code, 0) << r.err;
         const Image image = picture("h.exr");
         ASSERT_EQ(image.type, PixelType::float32);
@@ -75,7 +75,8 @@ TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
 {
     std::string text;
     // Narrower above: rays along a side's normal are not parallel to its neighbours.
-    const glm::vec3 corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3f, 0.3f, 0.3f}, {0.7f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.3f}, {0.3f, 0.7f, 0.3f}};
+    const glm::vec3 corners[8] = {{0, 0, 0},          {1, 0, 0},          {1, 1, 0},          {0, 1, 0},
+                                  {0.3f, 0.3f, 0.3f}, {0.7f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.3f}, {0.3f, 0.7f, 0.3f}};
     for (const glm::vec3& c : corners)
         text += fmt::format("v {} {} {}\n", c.x, c.y, c.z);
     const int sides[6][4] = {{4, 5, 6, 7}, {1, 0, 3, 2}, {5, 1, 2, 6}, {0, 4, 7, 3}, {7, 6, 2, 3}, {0, 1, 5, 4}};
@@ -88,10 +89,12 @@ TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
     }
     for (int k = 0; k < 6; ++k) {
         auto corner = [&](int i) { return fmt::format("{}/{}/{}", sides[k][i] + 1, 4 * k + i + 1, k + 1); };
-        text += fmt::format("f {} {} {}\nf {} {} {}\n", corner(0), corner(1), corner(2), corner(0), corner(2), corner(3));
+        text +=
+            fmt::format("f {} {} {}\nf {} {} {}\n", corner(0), corner(1), corner(2), corner(0), corner(2), corner(3));
     }
     write("block.obj", text);
-    const ToolRun r = bake({"--high", "block.obj", "--low", "block.obj", "--size", "61x47", "--max-distance", "0.1", "-o", "n.png"});
+    const ToolRun r =
+        bake({"--high", "block.obj", "--low", "block.obj", "--size", "61x47", "--max-distance", "0.1", "-o", "n.png"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(statistics()["missed"], 0);
     EXPECT_GT(statistics()["touched"], 100); // the rims: six charts of some 16 x 19 texels
@@ -106,8 +109,8 @@ TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("high.obj", square(-1, -1, -0.75, 3, 0.75) + kFaces); // the plane z = 0.75 x: normal (-3, 0, 4) / 5
-    const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "object-normal", "--max-distance", "2", "--bits", "16",
-                            "--size", "4x4", "-o", "n.png"});
+    const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "object-normal", "--max-distance", "2",
+                            "--bits", "16", "--size", "4x4", "-o", "n.png"});
     ASSERT_EQ(r.code, 0) << r.err;
     const Image image = picture("n.png");
     const double expected[3] = {-0.6, 0, 0.8};
@@ -122,11 +125,13 @@ TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)
     write("low.obj", square(0, 0, 0, 0.001) + kFaces);
     const std::string ground = square(-1, -1, 0, 3) + kFaces;
     write("open.obj", ground);
-    write("wall.obj", ground + "v -0.0001 -1000 0\nv -0.0001 1000 0\nv -0.0001 1000 1000\nv -0.0001 -1000 1000\n"
-                               "vt 0 0\nf 5/5 6/5 7/5\nf 5/5 7/5 8/5\n");
+    write("wall.obj",
+          ground
+              + "v -0.0001 -1000 0\nv -0.0001 1000 0\nv -0.0001 1000 1000\nv -0.0001 -1000 1000\n"
+                "vt 0 0\nf 5/5 6/5 7/5\nf 5/5 7/5 8/5\n");
     for (const auto& [file, expected, tolerance] : {std::tuple("open.obj", 1.0, 0.0), {"wall.obj", 0.5, 0.02}}) {
-        const ToolRun r = bake({"--high", file, "--low", "low.obj", "--kind", "ao", "--ao-rays", "1024", "--max-distance", "0.1",
-                                "--bits", "32", "--size", "2x2", "-o", "ao.exr"});
+        const ToolRun r = bake({"--high", file, "--low", "low.obj", "--kind", "ao", "--ao-rays", "1024",
+                                "--max-distance", "0.1", "--bits", "32", "--size", "2x2", "-o", "ao.exr"});
         ASSERT_EQ(r.code, 0) << r.err;
         const Image image = picture("ao.exr");
         for (std::size_t i = 0; i < 4; ++i) // 1024 directions: 1 / sqrt(4 * 1024) = 0.016 if they were random
@@ -142,8 +147,8 @@ TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
     write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.1, 3) + square(-1, -1, 0.3, 3) + faces(1) + faces(5));
     for (const auto& [cage, height] : {std::pair(false, 0.1), {true, 0.3}}) {
-        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
-                                       "--max-distance", "1", "-o", "h.exr"};
+        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj",        "--kind", "height", "--bits",
+                                       "32",     "--size",   "4x4",   "--max-distance", "1",      "-o",     "h.exr"};
         if (cage)
             words.insert(words.end(), {"--cage", "cage.obj"});
         const ToolRun r = bake(words);
@@ -156,12 +161,12 @@ TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
 
 TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
 {
-    // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher. 
+    // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher.
     write("low.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1, 0, 0, 1) + faces(1) + faces(5));
     write("high.obj", square(-1, -1, 0.1, 3) + square(4, -1, 0.2, 3) + faces(1) + faces(5));
     for (const auto& [tile, height, covered] : {std::tuple("1001", 0.1, 16), {"1011", 0.2, 16}}) {
-        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
-                                "--max-distance", "1", "--udim", tile, "-o", "h.exr"});
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size",
+                                "4x4", "--max-distance", "1", "--udim", tile, "-o", "h.exr"});
         ASSERT_EQ(r.code, 0) << tile << r.err;
         EXPECT_EQ(statistics()["covered"], covered) << tile;
         const Image image = picture("h.exr");
@@ -187,8 +192,10 @@ TEST_F(BakeFeatures, whatCannotBeWrittenIsRefusedBeforeTheBake)
         std::vector<std::string> arguments;
         int code;
     };
-    for (const Case& c : {Case{{"--kind", "ao", "--verify", "views", "-o", "a.png"}, 1}, {{"--bits", "32", "-o", "b.png"}, 1},
-                          {{"--mask", "none/m.png", "-o", "c.png"}, 4}, {{"-o", "none/d.png"}, 4}}) {
+    for (const Case& c : {Case{{"--kind", "ao", "--verify", "views", "-o", "a.png"}, 1},
+                          {{"--bits", "32", "-o", "b.png"}, 1},
+                          {{"--mask", "none/m.png", "-o", "c.png"}, 4},
+                          {{"-o", "none/d.png"}, 4}}) {
         std::vector<std::string> arguments{"--high", "high.obj", "--low", "low.obj"};
         arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
         const ToolRun r = bake(arguments);
@@ -201,10 +208,10 @@ TEST_F(BakeFeatures, whatCannotBeWrittenIsRefusedBeforeTheBake)
 TEST_F(BakeFeatures, severalHighMeshesAreOneSurface)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
-    write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces);  // x < 0.5
-    write("right.obj", square(0.5, -1, 0.2, 2) + kFaces);  // x > 0.5
-    const ToolRun r = bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height", "--bits", "32",
-                            "--size", "4x1", "--max-distance", "1", "-o", "h.exr"});
+    write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces); // x < 0.5
+    write("right.obj", square(0.5, -1, 0.2, 2) + kFaces); // x > 0.5
+    const ToolRun r = bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height",
+                            "--bits", "32", "--size", "4x1", "--max-distance", "1", "-o", "h.exr"});
     ASSERT_EQ(r.code, 0) << r.err;
     const Image image = picture("h.exr");
     for (std::size_t i = 0; i < 4; ++i)
@@ -215,10 +222,11 @@ TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
 {
     // The partner of the low mesh is at 0.3; a stranger at 0.1 is nearer.
     write("low.obj", "o door_low\n" + square(0, 0, 0, 1) + kFaces);
-    write("high.obj", "o wall_high\n" + square(-1, -1, 0.1, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.3, 3) + faces(5));
+    write("high.obj",
+          "o wall_high\n" + square(-1, -1, 0.1, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.3, 3) + faces(5));
     for (const auto& [match, height] : {std::pair(false, 0.1), {true, 0.3}}) {
-        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4",
-                                       "--max-distance", "1", "-o", "h.exr"};
+        std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj",        "--kind", "height", "--bits",
+                                       "32",     "--size",   "4x4",   "--max-distance", "1",      "-o",     "h.exr"};
         if (match)
             words.push_back("--match-by-name");
         const ToolRun r = bake(words);
@@ -236,18 +244,22 @@ TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("half.obj", square(-1.5, -1, 0.1, 2) + kFaces); // only over x < 0.5
-    ASSERT_EQ(bake({"--high", "half.obj", "--low", "low.obj", "--size", "8x8", "--max-distance", "1", "--mask", "mask.png",
-                    "-o", "m.png"}).code, 0);
+    ASSERT_EQ(bake({"--high", "half.obj", "--low", "low.obj", "--size", "8x8", "--max-distance", "1", "--mask",
+                    "mask.png", "-o", "m.png"})
+                  .code,
+              0);
     EXPECT_EQ(statistics()["missed"], 32);
     const Image mask = picture("mask.png");
     for (std::size_t i = 0; i < 64; ++i) {
-        EXPECT_EQ(int(mask.bytes8()[4 * i]), i % 8 < 4 ? 0 : 255); // red where missed
+        EXPECT_EQ(int(mask.bytes8()[4 * i]), i % 8 < 4 ? 0 : 255);     // red where missed
         EXPECT_EQ(int(mask.bytes8()[4 * i + 1]), i % 8 < 4 ? 179 : 0); // green 0.7 where found
     }
     write("twice.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1) + faces(1) + faces(5)); // one layout for both
     write("wide.obj", square(-1, -1, 0.1, 9) + kFaces);
-    ASSERT_EQ(bake({"--high", "wide.obj", "--low", "twice.obj", "--size", "8x8", "--max-distance", "1", "--mask", "mask.png",
-                    "-o", "m.png"}).code, 0);
+    ASSERT_EQ(bake({"--high", "wide.obj", "--low", "twice.obj", "--size", "8x8", "--max-distance", "1", "--mask",
+                    "mask.png", "-o", "m.png"})
+                  .code,
+              0);
     EXPECT_EQ(statistics()["claimed_twice"], 64);
     const Image yellow = picture("mask.png");
     for (std::size_t i = 0; i < 64; ++i) {
@@ -263,8 +275,10 @@ TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
     // normals (-1, 0, 1) and (4, 0, -1), more than 90 degrees apart.
     write("low.obj", square(0, 0, 0, 1, 1) + kFaces);
     write("wall.obj", "v 0.4 -9 -1.6\nv 1.4 -9 2.4\nv 1.4 9 2.4\nv 0.4 9 -1.6\nvt 0 0\nf 1/1 4/1 3/1\nf 1/1 3/1 2/1\n");
-    ASSERT_EQ(bake({"--high", "wall.obj", "--low", "low.obj", "--size", "4x4", "--max-distance", "9", "--mask", "mask.png", "-o",
-                    "m.png"}).code, 0);
+    ASSERT_EQ(bake({"--high", "wall.obj", "--low", "low.obj", "--size", "4x4", "--max-distance", "9", "--mask",
+                    "mask.png", "-o", "m.png"})
+                  .code,
+              0);
     EXPECT_EQ(statistics()["negative_z"], 16);
     const Image blue = picture("mask.png");
     for (std::size_t i = 0; i < 16; ++i) {
@@ -273,16 +287,23 @@ TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
     }
     // uv from 0 to 0.3: of the image's four texels a side the first has its centre (1/8) covered, the second (3/8) has
     // it 0.3 texels off an edge, within half a diagonal; the others are further away.
-    write("part.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.3 0\nvt 0.3 0.3\nvt 0 0.3\n" + std::string(kFaces));
-    ASSERT_EQ(bake({"--high", "part.obj", "--low", "part.obj", "--size", "4x4", "--max-distance", "1", "--mask", "mask.png", "-o",
-                    "m.png"}).code, 0);
+    write("part.obj",
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.3 0\nvt 0.3 0.3\nvt 0 0.3\n" + std::string(kFaces));
+    ASSERT_EQ(bake({"--high", "part.obj", "--low", "part.obj", "--size", "4x4", "--max-distance", "1", "--mask",
+                    "mask.png", "-o", "m.png"})
+                  .code,
+              0);
     EXPECT_EQ(statistics()["covered"], 1);
     EXPECT_EQ(statistics()["touched"], 3);
     const Image green = picture("mask.png");
     for (std::size_t y = 0; y < 4; ++y)
         for (std::size_t x = 0; x < 4; ++x) {
             const bool near = x < 2 && y > 1, covered = x == 0 && y == 3;
-            EXPECT_EQ(int(green.bytes8()[4 * (4 * y + x) + 1]), covered ? 179 : near ? 89 : 0) << x << " " << y; // 0.7, 0.35
+            EXPECT_EQ(int(green.bytes8()[4 * (4 * y + x) + 1]),
+                      covered    ? 179
+                          : near ? 89
+                                 : 0)
+                << x << " " << y; // 0.7, 0.35
         }
 }
 
@@ -292,8 +313,8 @@ TEST_F(BakeFeatures, aCageFindsWhatTheDefaultDistanceMisses)
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.4, 3) + kFaces);
-    std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size", "4x4", "-o",
-                                   "h.exr"};
+    std::vector<std::string> words{"--high", "high.obj", "--low",  "low.obj", "--kind", "height",
+                                   "--bits", "32",       "--size", "4x4",     "-o",     "h.exr"};
     ASSERT_EQ(bake(words).code, 0);
     EXPECT_EQ(statistics()["missed"], 16);
     words.insert(words.end(), {"--cage", "cage.obj"});
@@ -310,8 +331,10 @@ TEST_F(BakeFeatures, supersamplesAverageWhatOneSampleMisses)
     write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces);
     write("right.obj", square(0.5, -1, 0.3, 2) + kFaces);
     for (const char* samples : {"4", "16"}) {
-        ASSERT_EQ(bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height", "--bits", "32", "--size",
-                        "1x1", "--samples", samples, "--max-distance", "1", "-o", "h.exr"}).code, 0);
+        ASSERT_EQ(bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height", "--bits",
+                        "32", "--size", "1x1", "--samples", samples, "--max-distance", "1", "-o", "h.exr"})
+                      .code,
+                  0);
         EXPECT_NEAR(double(picture("h.exr").floats()[0]), 0.2, 1e-4) << samples;
     }
 }
@@ -320,7 +343,8 @@ TEST_F(BakeFeatures, hugeSizesAreRefusedWithoutMemory)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     for (const char* size : {"1000000x1000000", "99999999999x8", "16385x1", "-4x4", "8", "8x", "x8"}) {
-        const ToolRun r = bake({"--high", "low.obj", "--low", "low.obj", fmt::format("--size={}", size), "-o", "m.png"});
+        const ToolRun r =
+            bake({"--high", "low.obj", "--low", "low.obj", fmt::format("--size={}", size), "-o", "m.png"});
         EXPECT_EQ(r.code, 1) << size;
         EXPECT_EQ(lines(r.err), 1) << size << r.err;
         EXPECT_LT(r.megabytes, 300) << size; // the program and its libraries; a map of that size has terabytes
@@ -348,8 +372,8 @@ TEST_F(BakeFeatures, interruptedBakesLeaveNoFile)
     if (child == 0) {
         // Some 2 million texels of 65536 rays: hours, so the signal always comes in the middle.
         if (::chdir(folder.path().c_str()) == 0)
-            ::execl(COTAN_TOOL, COTAN_TOOL, "bake", "--quiet", "--high", "low.obj", "--low", "low.obj", "--kind", "ao", "--ao-rays",
-                    "65536", "--size", "2048x1024", "-o", "m.png", static_cast<char*>(nullptr));
+            ::execl(COTAN_TOOL, COTAN_TOOL, "bake", "--quiet", "--high", "low.obj", "--low", "low.obj", "--kind", "ao",
+                    "--ao-rays", "65536", "--size", "2048x1024", "-o", "m.png", static_cast<char*>(nullptr));
         ::_exit(127);
     }
     ASSERT_GT(child, 0);

@@ -51,7 +51,8 @@ protected:
     void writeSquares()
     {
         const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-        std::ofstream(folder / "square.obj") << square << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+        std::ofstream(folder / "square.obj")
+            << square << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
         std::ofstream(folder / "bare.obj") << square << "f 1 2 3\nf 1 3 4\n";
     }
 };
@@ -60,8 +61,8 @@ protected:
 TEST_F(BakeHighMapCommand, aGltfModelBakedOntoItselfGivesItsMapBack)
 {
     write(quad(1), folder.path());
-    const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--frame", "mikktspace", "--size",
-                            "128x128", "--quiet", "--json", "r.json"});
+    const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--frame",
+                            "mikktspace", "--size", "128x128", "--quiet", "--json", "r.json"});
     ASSERT_EQ(r.code, 0) << r.err;
     expectSame(picture("m.png"), picture("waves.png"), "glTF");
     EXPECT_EQ(json::parse(readWhole(folder / "r.json"))["high_normals"], "map");
@@ -72,8 +73,9 @@ TEST_F(BakeHighMapCommand, anImageForAMeshWithoutMaterialIsReadByItsConvention)
     writeSquares();
     const Image map = makeReliefMap(Relief::waves, 64);
     ASSERT_TRUE(writeImage(folder / "map.png", map));
-    const std::vector<std::string> words{"--high", "square.obj", "--low", "square.obj", "--high-normals", "map", "--high-map",
-                                         "map.png", "--size", "64x64", "--frame", "orthonormal", "--quiet"};
+    const std::vector<std::string> words{"--high",  "square.obj",  "--low",   "square.obj", "--high-normals",
+                                         "map",     "--high-map",  "map.png", "--size",     "64x64",
+                                         "--frame", "orthonormal", "--quiet"};
     ASSERT_EQ(bake(words).code, 0);
     expectSame(picture("m.png"), map, "opengl");
     Image flipped = map; // read as DirectX and stored as OpenGL, green turns over about 128
@@ -91,15 +93,15 @@ TEST_F(BakeHighMapCommand, theFrameOfTheMapIsTheOneNamed)
     write(quad(2), folder.path());
     const Image map = picture("waves.png");
     for (const char* frame : {"cotangent", "mikktspace"}) {
-        const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--high-frame", frame, "--kind",
-                                "object-normal", "--size", "128x128", "--quiet"});
+        const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--high-frame",
+                                frame, "--kind", "object-normal", "--size", "128x128", "--quiet"});
         ASSERT_EQ(r.code, 0) << r.err;
         const Image baked = picture("m.png");
         const double u = frame == std::string("cotangent") ? 0.5 : 1;
         for (std::size_t i = 0; i < map.pixelCount(); ++i) {
-            const glm::dvec3 m = decodedAt(map, i); // green up is +y here
+            const glm::dvec3 m = decodedAt(map, i);                                            // green up is +y here
             ASSERT_LT(degreesBetween(decodedAt(baked, i), glm::dvec3(m.x * u, m.y, m.z)), 0.4) // half a step of 1/127
-                << frame;                                                                     // in three components
+                << frame;                                                                      // in three components
         }
     }
 }
@@ -111,11 +113,13 @@ TEST_F(BakeHighMapCommand, flatNormalsAreThoseOfTheTriangles)
     std::ofstream(folder / "roof.obj") << "v 0 0 0\nv 0.5 0 0.05\nv 0.5 1 0.05\nv 0 1 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\n"
                                           "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\nf 2//1 5//1 6//1\nf 2//1 6//1 3//1\n";
     for (const char* kind : {"smooth", "face"}) {
-        ASSERT_EQ(bake({"--high", "roof.obj", "--low", "square.obj", "--high-normals", kind, "--kind", "object-normal", "--size", "8x8",
-                        "--quiet", "--max-distance", "1"}).code, 0);
+        ASSERT_EQ(bake({"--high", "roof.obj", "--low", "square.obj", "--high-normals", kind, "--kind", "object-normal",
+                        "--size", "8x8", "--quiet", "--max-distance", "1"})
+                      .code,
+                  0);
         const Image baked = picture("m.png");
         for (std::size_t i = 0; i < 64; ++i) {
-            const double slope = kind == std::string("smooth") ? 0 : i % 8 < 4 ? -0.1 : 0.1; // 0.05 over 0.5
+            const double slope = kind == std::string("smooth") ? 0 : i % 8 < 4 ? -0.1 : 0.1;      // 0.05 over 0.5
             EXPECT_LT(degreesBetween(decodedAt(baked, i), glm::dvec3(slope, 0, 1)), 0.4) << kind; // as above
         }
     }
@@ -125,10 +129,12 @@ TEST_F(BakeHighMapCommand, meshesWithoutMapAreCountedAndSmooth)
 {
     write(quad(1), folder.path());
     writeSquares();
-    const ToolRun r = bake({"--high", "quad.gltf", "--high", "bare.obj", "--low", "square.obj", "--high-normals", "map", "--size", "8x8"});
+    const ToolRun r = bake(
+        {"--high", "quad.gltf", "--high", "bare.obj", "--low", "square.obj", "--high-normals", "map", "--size", "8x8"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_NE(r.err.find("1 of 2 high meshes"), std::string::npos) << r.err;
-    const ToolRun ao = bake({"--high", "quad.gltf", "--low", "square.obj", "--high-normals", "map", "--kind", "ao", "--size", "2x2"});
+    const ToolRun ao =
+        bake({"--high", "quad.gltf", "--low", "square.obj", "--high-normals", "map", "--kind", "ao", "--size", "2x2"});
     ASSERT_EQ(ao.code, 0) << ao.err;
     EXPECT_NE(ao.err.find("changes nothing"), std::string::npos) << ao.err;
 }
@@ -139,13 +145,14 @@ TEST_F(BakeHighMapCommand, badInputGetsOneLineAndItsExitCode)
     writeSquares();
     std::ofstream(folder / "text.png") << "no image";
     const std::pair<std::vector<std::string>, int> runs[] = {
-        {{"--high", "square.obj", "--high-normals", "map"}, 2},                                   // no map anywhere
-        {{"--high", "bare.obj", "--high-normals", "map", "--high-map", "waves.png"}, 2},          // no uv
+        {{"--high", "square.obj", "--high-normals", "map"}, 2},                          // no map anywhere
+        {{"--high", "bare.obj", "--high-normals", "map", "--high-map", "waves.png"}, 2}, // no uv
         {{"--high", "square.obj", "--high-normals", "map", "--high-map", "text.png"}, 2},
         {{"--high", "square.obj", "--high-normals", "map", "--high-map", "missing.png"}, 2},
-        {{"--high", "square.obj", "--high-normals", "map", "--high-map", "waves.png", "--high-map", "waves.png"}, 1}, // for one
+        {{"--high", "square.obj", "--high-normals", "map", "--high-map", "waves.png", "--high-map", "waves.png"},
+         1}, // for one
         {{"--high", "quad.gltf", "--high-normals", "bumps"}, 1},
-        {{"--high", "quad.gltf", "--high-map", "waves.png"}, 1},                                  // without map
+        {{"--high", "quad.gltf", "--high-map", "waves.png"}, 1}, // without map
         {{"--high", "quad.gltf", "--high-normals", "face", "--high-frame", "cotangent"}, 1},
         {{"--high", "quad.gltf", "--high-normals", "map", "--high-frame", "nonsense"}, 1},
         {{"--high", "quad.gltf", "--high-normals", "map", "--high-frame", "nonperspective"}, 1},
@@ -164,8 +171,9 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
 {
     if (!std::filesystem::exists(kBoomBox))
         GTEST_SKIP() << kBoomBox << " is missing";
-    const ToolRun r = bake({"--high", kBoomBox.string(), "--low", kBoomBox.string(), "--high-normals", "map", "--frame", "mikktspace",
-                            "--size", "512x512", "--mask", "mask.png", "--max-distance", "1e-5", "--quiet"});
+    const ToolRun r =
+        bake({"--high", kBoomBox.string(), "--low", kBoomBox.string(), "--high-normals", "map", "--frame", "mikktspace",
+              "--size", "512x512", "--mask", "mask.png", "--max-distance", "1e-5", "--quiet"});
     ASSERT_EQ(r.code, 0) << r.err;
     const auto map = readImage(kBoomBox.parent_path() / "BoomBox_normal.png");
     ASSERT_TRUE(map);
@@ -177,7 +185,8 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
     for (std::size_t y = 0; y < 512; ++y)
         for (std::size_t x = 0; x < 512; ++x) {
             const std::uint8_t* state = mask.bytes8() + 4 * (512 * y + x);
-            if (state[0] != 0 || state[1] != 179 || state[2] != 0) // plain green: one triangle, found, above the horizon
+            if (state[0] != 0 || state[1] != 179
+                || state[2] != 0) // plain green: one triangle, found, above the horizon
                 continue;
             glm::dvec3 m(0);
             for (std::size_t k = 0; k < 4; ++k)
@@ -188,7 +197,7 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
             ++compared;
         }
     ASSERT_GT(compared, 100000u);
-    EXPECT_LT(mean / double(compared), 0.25); // 8 bits: see docs/baking.md, below 0.20
+    EXPECT_LT(mean / double(compared), 0.25);         // 8 bits: see docs/baking.md, below 0.20
     EXPECT_LT(double(off), 0.002 * double(compared)); // where two parts of the model lie within 1e-5 of one another
 }
 

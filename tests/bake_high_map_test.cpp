@@ -50,7 +50,8 @@ struct Layout2 {
 constexpr Layout2 kPlain{{0, 1}, {1, 0}, {0, -1}}; // v down
 
 // A height field over the unit square, `cells` wide, with a normal map if it has pixels.
-Scene sheet(const Layout2& uv, Image map, int cells = 1, const std::function<glm::dvec3(double, double)>& heightAndSlopes = {})
+Scene sheet(const Layout2& uv, Image map, int cells = 1,
+            const std::function<glm::dvec3(double, double)>& heightAndSlopes = {})
 {
     Scene scene;
     scene.name = "sheet";
@@ -83,7 +84,7 @@ Baked bakeWithMap(const Scene& low, Scene high, BakeOptions options, Frame highF
 {
     std::vector<Scene> scenes;
     scenes.push_back(std::move(high));
-    const auto lowSurface = makeLowSurface(low, -1, options.frame, TangentSource::stored);
+    const auto lowSurface = makeLowSurface(low, -1, options.frame, TangentOrigin::stored);
     const auto surface = HighSurface::make(scenes, 1);
     auto maps = HighNormalMaps::make(scenes, highFrame);
     EXPECT_TRUE(lowSurface && surface && maps);
@@ -120,8 +121,8 @@ TEST(BakeHighMap, onTheSameFlatQuadTheMapComesBack)
 struct Case {
     const char* name;
     Layout2 uv;
-    int width = kSide, height = kSide;       // such that centres of the baked texels are centres of the map's
-    double alongU = 1, alongV = 1;           // factors on the slopes that the frame gives
+    int width = kSide, height = kSide; // such that centres of the baked texels are centres of the map's
+    double alongU = 1, alongV = 1;     // factors on the slopes that the frame gives
     std::vector<Frame> frames = {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::mikktspace, Frame::vertex};
     std::function<void(Scene&)> change = {}; // of the high scene
     double scale = 1;
@@ -139,17 +140,41 @@ TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
         {"beyond the unit square", {{-3.5, 7.5}, {1, 0}, {0, -1}}},
         // gradU = 1/2, gradV = 1: the longer has length one.
         {"stretched", {{0, 1}, {0.5, 0}, {0, -1}}, 2 * kSide, kSide, 0.5, 1, {Frame::cotangent, Frame::smooth}},
-        {"stretched, orthonormal", {{0, 1}, {0.5, 0}, {0, -1}}, 2 * kSide, kSide, 1, 1,
+        {"stretched, orthonormal",
+         {{0, 1}, {0.5, 0}, {0, -1}},
+         2 * kSide,
+         kSide,
+         1,
+         1,
          {Frame::orthonormal, Frame::mikktspace, Frame::vertex}},
-        {"scale of the material", kPlain, kSide, kSide, 1, 1, {Frame::cotangent, Frame::mikktspace},
-         [](Scene& s) { s.materials[0].normalScale = 2; }, 2},
-        {"by uv set 1", {{1, 0}, {-1, 0}, {0, 1}}, kSide, kSide, 1, 1, {Frame::cotangent, Frame::mikktspace},
+        {"scale of the material",
+         kPlain,
+         kSide,
+         kSide,
+         1,
+         1,
+         {Frame::cotangent, Frame::mikktspace},
+         [](Scene& s) { s.materials[0].normalScale = 2; },
+         2},
+        {"by uv set 1",
+         {{1, 0}, {-1, 0}, {0, 1}},
+         kSide,
+         kSide,
+         1,
+         1,
+         {Frame::cotangent, Frame::mikktspace},
          [](Scene& s) {
              s.materials[0].normalMap.texcoord = 1;
              s.meshes[0].texcoords[1] = s.meshes[0].texcoords[0];
              s.meshes[0].texcoords[0].assign(4, glm::vec2(0.25f));
          }},
-        {"by a texture transform", {{0, 0}, {0, 1}, {1, 0}}, kSide, kSide, 1, 1, {Frame::cotangent, Frame::mikktspace},
+        {"by a texture transform",
+         {{0, 0}, {0, 1}, {1, 0}},
+         kSide,
+         kSide,
+         1,
+         1,
+         {Frame::cotangent, Frame::mikktspace},
          [](Scene& s) { // from kPlain: u' = 1 - v, v' = u
              for (glm::vec2& uv : s.meshes[0].texcoords[0])
                  uv = {uv.y, 1 - uv.x};
@@ -157,33 +182,44 @@ TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
              s.materials[0].normalMap.vRow = {1, 0, 0};
          }},
         // TANGENT counts, not uv: along y here, though u runs along x.
-        {"stored tangents", kPlain, kSide, kSide, 1, 1, {Frame::mikktspace, Frame::vertex},
+        {"stored tangents",
+         kPlain,
+         kSide,
+         kSide,
+         1,
+         1,
+         {Frame::mikktspace, Frame::vertex},
          [](Scene& s) { s.meshes[0].tangents.assign(4, glm::vec4(0, 1, 0, 1)); }},
     };
     for (const Case& c : cases)
         for (Frame frame : c.frames)
             for (const glm::mat4& place : {glm::mat4(1), turned, mirrored}) {
-                Scene high = sheet(c.uv, storedMap(c.width, c.height, PixelType::float32, relief)), low = sheet(kPlain, {});
+                Scene high = sheet(c.uv, storedMap(c.width, c.height, PixelType::float32, relief)),
+                      low = sheet(kPlain, {});
                 if (c.change)
                     c.change(high);
                 high.instances[0].toWorld = low.instances[0].toWorld = place;
                 const Baked baked = bakeWithMap(low, high, square(BakeKind::objectNormal), frame);
                 const bool stored = !high.meshes[0].tangents.empty();
-                const double length = 1 / std::max(glm::length(c.uv.x), glm::length(c.uv.y)); // of the axes of uv, to unit
-                const glm::dvec3 u = stored ? glm::dvec3(0, 1, 0)
-                    : glm::normalize(glm::dvec3(c.uv.x.x, c.uv.y.x, 0) * length);
+                const double length =
+                    1 / std::max(glm::length(c.uv.x), glm::length(c.uv.y)); // of the axes of uv, to unit
+                const glm::dvec3 u =
+                    stored ? glm::dvec3(0, 1, 0) : glm::normalize(glm::dvec3(c.uv.x.x, c.uv.y.x, 0) * length);
                 const glm::dvec3 v = stored ? glm::dvec3(1, 0, 0) // against glTF's bitangent n x t = -x
-                    : glm::normalize(glm::dvec3(c.uv.x.y, c.uv.y.y, 0) * length);
+                                            : glm::normalize(glm::dvec3(c.uv.x.y, c.uv.y.y, 0) * length);
                 const glm::dmat3 world{glm::mat3(place)};
                 double worst = 0;
                 for (int j = 0; j < kSide; ++j)
                     for (int i = 0; i < kSide; ++i) {
                         const glm::dvec2 uv = c.uv((i + 0.5) / kSide, 1 - (j + 0.5) / kSide);
                         const glm::dvec3 m = relief(uv.x, uv.y) * glm::dvec3(c.scale, c.scale, 1);
-                        const glm::dvec3 n = world * (u * (m.x * c.alongU) + v * (m.y * c.alongV) + glm::dvec3(0, 0, m.z));
-                        worst = std::max(worst, degreesBetween(glm::dvec3(baked.values[std::size_t(j * kSide + i)]), n));
+                        const glm::dvec3 n =
+                            world * (u * (m.x * c.alongU) + v * (m.y * c.alongV) + glm::dvec3(0, 0, m.z));
+                        worst =
+                            std::max(worst, degreesBetween(glm::dvec3(baked.values[std::size_t(j * kSide + i)]), n));
                     }
-                EXPECT_LT(worst, 0.002) << c.name << ", " << name(frame); // floats: uv known to some 1e-6, a slope of 4 a uv
+                EXPECT_LT(worst, 0.002) << c.name << ", "
+                                        << name(frame); // floats: uv known to some 1e-6, a slope of 4 a uv
             }
 }
 
@@ -197,7 +233,8 @@ TEST(BakeHighMap, onAWavySheetTheNormalIsThatOfTheMapOnTheWaves)
     // triangle has its gradients from a place up to a cell away: 9 / 200 of a slope of 0.18 turns them by 0.46
     // degrees at most, and 0.7 of the texel lies along them; `smooth` interpolates, second order again.
     for (const auto& [frame, most] : {std::pair(Frame::smooth, 0.02), {Frame::cotangent, 0.33}}) {
-        const Baked baked = bakeWithMap(sheet(kPlain, {}), sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief), 200, waves),
+        const Baked baked = bakeWithMap(sheet(kPlain, {}),
+                                        sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief), 200, waves),
                                         square(BakeKind::objectNormal), frame);
         double worst = 0;
         for (int j = 0; j < kSide; ++j)
@@ -220,8 +257,10 @@ TEST(BakeHighMap, whatTheMapCannotSayIsTheSmoothNormal)
 {
     auto slope = [](double x, double) { return glm::dvec3(0.05 * x, 0.05, 0); };
     const glm::dvec3 smooth(-0.05, 0, 1);
-    Scene zero = sheet(kPlain, storedMap(4, 4, PixelType::float32, [](double, double) { return glm::dvec3(0); }), 1, slope);
-    Scene nan = sheet(kPlain, storedMap(4, 4, PixelType::float32, [](double, double) { return glm::dvec3(NAN); }), 1, slope);
+    Scene zero =
+        sheet(kPlain, storedMap(4, 4, PixelType::float32, [](double, double) { return glm::dvec3(0); }), 1, slope);
+    Scene nan =
+        sheet(kPlain, storedMap(4, 4, PixelType::float32, [](double, double) { return glm::dvec3(NAN); }), 1, slope);
     Scene noArea = sheet({{0, 0}, {1, 0}, {1, 0}}, storedMap(4, 4, PixelType::float32, relief), 1, slope);
     Scene notFinite = sheet({{0, 0}, {INFINITY, 0}, {0, 1}}, storedMap(4, 4, PixelType::float32, relief), 1, slope);
     Scene partly = sheet(kPlain, storedMap(4, 4, PixelType::float32, relief), 1, slope);
@@ -231,7 +270,8 @@ TEST(BakeHighMap, whatTheMapCannotSayIsTheSmoothNormal)
     partly.instances.push_back({"far", 1, glm::translate(glm::mat4(1), glm::vec3(5, 0, 0))});
     for (Scene* high : {&zero, &nan, &noArea, &notFinite, &partly})
         for (Frame frame : {Frame::cotangent, Frame::mikktspace, Frame::smooth})
-            for (const glm::vec3& n : bakeWithMap(sheet(kPlain, {}), *high, square(BakeKind::objectNormal), frame).values)
+            for (const glm::vec3& n :
+                 bakeWithMap(sheet(kPlain, {}), *high, square(BakeKind::objectNormal), frame).values)
                 ASSERT_LT(degreesBetween(glm::dvec3(n), smooth), 1e-4) << name(frame); // float
 }
 
@@ -239,7 +279,7 @@ TEST(BakeHighMap, heightsAndOcclusionTakeNoNotice)
 {
     for (BakeKind kind : {BakeKind::height, BakeKind::occlusion}) {
         const Scene low = sheet(kPlain, {}), high = sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief));
-        const auto surface = makeLowSurface(low, -1, Frame::cotangent, TangentSource::stored);
+        const auto surface = makeLowSurface(low, -1, Frame::cotangent, TangentOrigin::stored);
         const auto plain = HighSurface::make({high}, 1);
         ASSERT_TRUE(surface && plain);
         BakeOptions options = square(kind);
@@ -255,7 +295,7 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.3, -0.2, 1));
     std::vector<Scene> high;
     high.push_back(sheet(kPlain, storedMap(4, 4, PixelType::float32, [&](double, double) { return m; })));
-    const auto low = makeLowSurface(sheet(kPlain, {}), -1, Frame::cotangent, TangentSource::stored);
+    const auto low = makeLowSurface(sheet(kPlain, {}), -1, Frame::cotangent, TangentOrigin::stored);
     const auto surface = HighSurface::make(high, 1);
     auto maps = HighNormalMaps::make(high, Frame::mikktspace);
     ASSERT_TRUE(low && surface && maps);
@@ -272,7 +312,8 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     for (std::size_t i = 0; i < seen.pixelCount(); ++i)
         if (const float* p = seen.floats() + 4 * i; p[3] > 0) {
             ++found;
-            EXPECT_LT(degreesBetween(glm::dvec3(p[0], p[1], p[2]), glm::dvec3(m.x, -m.y, m.z)), 1e-3); // v runs down; float
+            EXPECT_LT(degreesBetween(glm::dvec3(p[0], p[1], p[2]), glm::dvec3(m.x, -m.y, m.z)),
+                      1e-3); // v runs down; float
         }
     EXPECT_GT(found, 16); // the square fills 0.4 of the picture's height
 }

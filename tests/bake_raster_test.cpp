@@ -66,7 +66,8 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
             ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
             const UvPlace& p = row.places[row.first[std::size_t(x)]];
             const std::uint32_t* v = &l.indices[3 * std::size_t(p.triangle)];
-            const glm::vec2 uv = l.texcoords[v[0]] * (1 - p.b1 - p.b2) + l.texcoords[v[1]] * p.b1 + l.texcoords[v[2]] * p.b2;
+            const glm::vec2 uv =
+                l.texcoords[v[0]] * (1 - p.b1 - p.b2) + l.texcoords[v[1]] * p.b1 + l.texcoords[v[2]] * p.b2;
             EXPECT_NEAR(uv.x * 37, float(x) + 0.5f, 1e-4f);
             EXPECT_NEAR(uv.y * 23, float(y) + 0.5f, 1e-4f);
         }

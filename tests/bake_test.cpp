@@ -29,7 +29,7 @@ RoundTrip roundTrip(Frame frame, int levels)
     RoundTrip result;
     const Surface& surface = surfaces().front(); // the sphere
     const Tessellation mesh = tessellate(surface, 12, false);
-    const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentSource::generated);
+    const auto low = makeLowSurface(sceneOf(mesh), -1, frame, TangentOrigin::generated);
     EXPECT_TRUE(low);
     Random random(17);
     constexpr int kSamples = 6000;
@@ -38,7 +38,7 @@ RoundTrip roundTrip(Frame frame, int levels)
         const Interpolated x = interpolate(mesh, at);
         const SurfacePoint p = surface.at(x.parameters);
         const glm::dvec3 target = truthS(p, texelOf(Waves{1.2, 12}.at(x.uv.x, x.uv.y)));
-        const LowPoint point = pointOf(*low, frame, std::uint32_t(at.triangle), at.weights[1], at.weights[2]);
+        const LowPoint point = pointOf(*low, std::uint32_t(at.triangle), at.weights[1], at.weights[2]);
         glm::dvec3 m = encode(point.frame, Covector3d(target));
         result.negative = result.negative || (m.z < 0 && glm::dot(target, x.n) > 0);
         result.unit = result.unit && std::abs(glm::length(m) - 1) < 1e-12;
@@ -80,12 +80,14 @@ TEST(BakeBarC4, encodedTexelsAreUnitAndAboveTheHorizonWhereTheTargetIs)
 
 TEST(BakeBarC2, aMapForAnotherFrameIsOffByDegrees)
 {
-    // Made for MikkTSpace, drawn with cotangent: over 3 degrees mean; with orthonormal little more than faceting. 32 segments.
+    // Made for MikkTSpace, drawn with cotangent: over 3 degrees mean; with orthonormal little more than faceting. 32
+    // segments.
     for (const auto& [which, most] : {std::pair("sphere", 1.1), {"spout", 0.35}}) {
         const auto all = surfaces();
-        const Surface& surface = *std::find_if(all.begin(), all.end(), [&](const Surface& s) { return s.name == which; });
+        const Surface& surface =
+            *std::find_if(all.begin(), all.end(), [&](const Surface& s) { return s.name == which; });
         const Tessellation mesh = tessellate(surface, 32, false);
-        const auto low = makeLowSurface(sceneOf(mesh), -1, Frame::mikktspace, TangentSource::generated);
+        const auto low = makeLowSurface(sceneOf(mesh), -1, Frame::mikktspace, TangentOrigin::generated);
         Random random(18);
         double toCotangent = 0, toOrthonormal = 0;
         constexpr int kSamples = 6000;
@@ -93,7 +95,7 @@ TEST(BakeBarC2, aMapForAnotherFrameIsOffByDegrees)
             const TrianglePoint at = randomPoint(random, mesh);
             const Interpolated x = interpolate(mesh, at);
             const glm::dvec3 target = truthS(surface.at(x.parameters), texelOf(Waves{1.2, 12}.at(x.uv.x, x.uv.y)));
-            const LowPoint point = pointOf(*low, Frame::mikktspace, std::uint32_t(at.triangle), at.weights[1], at.weights[2]);
+            const LowPoint point = pointOf(*low, std::uint32_t(at.triangle), at.weights[1], at.weights[2]);
             const glm::dvec3 m = encode(point.frame, Covector3d(target));
             toCotangent += degreesBetween(shade(Frame::cotangent, false, x, x.edges, m), target) / kSamples;
             toOrthonormal += degreesBetween(shade(Frame::orthonormal, false, x, x.edges, m), target) / kSamples;
@@ -123,7 +125,8 @@ Waves2 wavyPair(int segments)
                 const double hx = 0.18 * std::cos(9 * x + 1) * std::cos(7 * y);
                 const double hy = -0.14 * std::sin(9 * x + 1) * std::sin(7 * y);
                 mesh.positions.emplace_back(float(x), float(y), n == 1 ? 0.0f : float(waveHeight(x, y)));
-                mesh.normals.push_back(n == 1 ? glm::vec3(0, 0, 1) : glm::normalize(glm::vec3(float(-hx), float(-hy), 1)));
+                mesh.normals.push_back(n == 1 ? glm::vec3(0, 0, 1)
+                                              : glm::normalize(glm::vec3(float(-hx), float(-hy), 1)));
                 mesh.texcoords[0].emplace_back(float(x), float(1 - y)); // v down
             }
         for (int j = 0; j < n; ++j)
@@ -143,7 +146,7 @@ Waves2 wavyPair(int segments)
 Baked bakeWaves(const BakeOptions& options, int segments = 200)
 {
     const Waves2 pair = wavyPair(segments);
-    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentSource::generated);
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({pair.high}, 1);
     EXPECT_TRUE(low && high);
     const auto baked = bake(*low, *high, options);
@@ -185,8 +188,8 @@ TEST(Bake, heightIsTheDistanceAlongTheLowNormal)
     const Baked baked = bakeWaves(options);
     for (int j = 0; j < 32; ++j)
         for (int i = 0; i < 32; ++i)
-            EXPECT_NEAR(double(baked.values[std::size_t(j * 32 + i)].x),
-                        waveHeight((i + 0.5) / 32, 1 - (j + 0.5) / 32), 2e-5); // chords of 200 cells
+            EXPECT_NEAR(double(baked.values[std::size_t(j * 32 + i)].x), waveHeight((i + 0.5) / 32, 1 - (j + 0.5) / 32),
+                        2e-5); // chords of 200 cells
 }
 
 TEST(Bake, anOpenSheetIsAlmostUnoccluded)
@@ -230,7 +233,7 @@ TEST(Bake, frameThatDependsOnTheViewIsRefused)
 {
     const Waves2 pair = wavyPair(4);
     for (Frame frame : {Frame::nonperspective, Frame::paperOrthogonal, Frame::cotangent2013}) {
-        const auto low = makeLowSurface(pair.low, -1, frame, TangentSource::generated);
+        const auto low = makeLowSurface(pair.low, -1, frame, TangentOrigin::generated);
         ASSERT_FALSE(low);
         EXPECT_EQ(low.error().kind, ErrorKind::usage);
     }
@@ -268,9 +271,9 @@ TEST(Store, greenGoesWhereTheFormatSays)
     baked.values = {glm::vec3(0, 0.6f, 0.8f)}; // along +v
     baked.states = {texelCovered};
     StoredAs as;
-    as.format.greenAlongV = true;
+    as.format.greenUp = false;
     EXPECT_EQ(int(storeBaked(baked, BakeKind::normal, as).bytes8()[1]), 128 + 76); // 0.6 * 127
-    as.format.greenAlongV = false;
+    as.format.greenUp = true;
     EXPECT_EQ(int(storeBaked(baked, BakeKind::normal, as).bytes8()[1]), 128 - 76);
 }
 

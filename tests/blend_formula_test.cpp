@@ -47,7 +47,8 @@ TEST(BlendFormula, reorientedTurnsTheDetailAsTheBaseIsTurnedFromFlat)
 {
     // The turn from z to the base, by Rodrigues' formula: axis z x base, cosine base.z.
     const glm::dvec3 axis(-kBase.y, kBase.x, 0);
-    const glm::dvec3 turned = kDetail * kBase.z + glm::cross(axis, kDetail) + axis * (glm::dot(axis, kDetail) / (1 + kBase.z));
+    const glm::dvec3 turned =
+        kDetail * kBase.z + glm::cross(axis, kDetail) + axis * (glm::dot(axis, kDetail) / (1 + kBase.z));
     expectDirection(cotan_blend_reoriented(kBase, kDetail), turned);
     expectDirection(cotan_blend_reoriented({0, 0, 1}, kDetail), kDetail);
 }
@@ -82,7 +83,10 @@ TEST(GradientFormula, aSlopeIsTakenAlongTAndB)
     EXPECT_EQ(g, glm::dvec3(1, -0.75, 0.25));
 }
 
-TEST(GradientFormula, resolvingSubtracts) { expectDirection(cotan_resolve_gradient({0, 0.6, 0.8}, {0.5, 0.25, -0.125}), {-0.5, 0.35, 0.925}); }
+TEST(GradientFormula, resolvingSubtracts)
+{
+    expectDirection(cotan_resolve_gradient({0, 0.6, 0.8}, {0.5, 0.25, -0.125}), {-0.5, 0.35, 0.925});
+}
 
 TEST(GradientFormula, aNormalBehindCountsWithTheSizeOfItsCosine)
 {

@@ -163,7 +163,9 @@ TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
             continue;
         }
         EXPECT_EQ(run.code, 2);
-        EXPECT_EQ(run.err, "cotan: error: million_instances: 1000000 instances draw 3900000000 triangles: expected at most 100000000\n");
+        EXPECT_EQ(run.err,
+                  "cotan: error: million_instances: 1000000 instances draw 3900000000 triangles: expected at most "
+                  "100000000\n");
         EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     }
 }

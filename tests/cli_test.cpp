@@ -130,7 +130,8 @@ TEST(CommandLine, sameInputGivesTheSameBytesForAnyNumberOfThreads)
 {
     TemporaryFolder folder;
     for (const char* n : {"1", "2", "5"})
-        ASSERT_EQ(runTool(with({"render", "-o", std::string(n) + ".png", "--threads", n}, kSmall), folder.path()).code, 0);
+        ASSERT_EQ(runTool(with({"render", "-o", std::string(n) + ".png", "--threads", n}, kSmall), folder.path()).code,
+                  0);
     EXPECT_EQ(readWhole(folder / "1.png"), readWhole(folder / "2.png"));
     EXPECT_EQ(readWhole(folder / "1.png"), readWhole(folder / "5.png"));
 }
@@ -156,9 +157,9 @@ TEST(CommandLine, exrKeepsUnitNormalsAsFloats)
 TEST(CommandLine, everyFrameAndViewDraws)
 {
     TemporaryFolder folder;
-    for (const char* frame : {"cotangent", "cotangent-2013", "nonperspective", "paper-full", "paper-nodet",
-                              "paper-transpose", "paper-orthogonal", "unit", "orthonormal", "gradient", "exact",
-                              "smooth", "vertex", "mikktspace"})
+    for (const char* frame :
+         {"cotangent", "cotangent-2013", "nonperspective", "paper-full", "paper-nodet", "paper-transpose",
+          "paper-orthogonal", "unit", "orthonormal", "gradient", "exact", "smooth", "vertex", "mikktspace"})
         EXPECT_EQ(runTool(with({"render", "-o", "f.png", "--frame", frame}, kSmall), folder.path()).code, 0) << frame;
     for (const char* view : {"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
         EXPECT_EQ(runTool(with({"render", "-o", "v.png", "--view", view}, kSmall), folder.path()).code, 0) << view;
@@ -167,7 +168,8 @@ TEST(CommandLine, everyFrameAndViewDraws)
 TEST(CommandLine, compareOfAFrameWithItselfIsZeroDegrees)
 {
     TemporaryFolder folder;
-    const ToolRun run = runTool(with({"compare", "-o", "d", "--frames", "cotangent,cotangent", "--json", "r.json"}, kSmall), folder.path());
+    const ToolRun run = runTool(
+        with({"compare", "-o", "d", "--frames", "cotangent,cotangent", "--json", "r.json"}, kSmall), folder.path());
     ASSERT_EQ(run.code, 0) << run.err;
     const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
     EXPECT_EQ(report["normals"]["max_degrees"], 0);

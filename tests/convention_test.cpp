@@ -43,9 +43,9 @@ TEST(Convention, theFormatTurnsGreenByVAndNotByThePicture)
 
 TEST(Convention, knownEnginesPointGreenTheirWay)
 {
-    EXPECT_FALSE(greenAlongV(*conventionFromName("gltf")));    // green up, v down
-    EXPECT_TRUE(greenAlongV(*conventionFromName("opengl")));   // green up, v up
-    EXPECT_TRUE(greenAlongV(*conventionFromName("directx")));  // green down, v down
+    EXPECT_FALSE(greenAlongV(*conventionFromName("gltf")));   // green up, v down
+    EXPECT_TRUE(greenAlongV(*conventionFromName("opengl")));  // green up, v up
+    EXPECT_TRUE(greenAlongV(*conventionFromName("directx"))); // green down, v down
     EXPECT_TRUE(greenAlongV(*conventionFromName("unreal")));
     EXPECT_TRUE(greenAlongV(*conventionFromName("unity")));
 }
@@ -60,8 +60,8 @@ TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
             EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << p.name << " " << bits;
             EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
         }
-    EXPECT_EQ(expansionFor(COTAN_EXPAND_BIASED, 16), COTAN_EXPAND_BIASED);
-    EXPECT_EQ(expansionFor(COTAN_EXPAND_SIGNED, 32), COTAN_EXPAND_SIGNED);
+    EXPECT_EQ(expansionFor(Expansion::biased, 16), COTAN_EXPAND_BIASED);
+    EXPECT_EQ(expansionFor(Expansion::signedValues, 32), COTAN_EXPAND_SIGNED);
 }
 
 TEST(Convention, descriptionNamesEveryChoice)
@@ -94,11 +94,16 @@ TEST(Convention, presetsStoreAsTheirEnginesDo)
     using enum VDirection;
     // By each program's own documentation: which way green is drawn, where v = 0 is, what is left after import.
     const Expected table[] = {
-        {"gltf", true, down, Channels::xyz},           {"opengl", true, up, Channels::xyz},
-        {"directx", false, down, Channels::xyz},       {"unity", true, up, Channels::orthographic},
-        {"unreal", false, down, Channels::orthographic}, {"blender", true, up, Channels::xyz},
-        {"godot", true, down, Channels::orthographic}, {"maya", true, up, Channels::xyz},
-        {"3dsmax", false, up, Channels::xyz},          {"source", false, down, Channels::xyz},
+        {"gltf", true, down, Channels::xyz},
+        {"opengl", true, up, Channels::xyz},
+        {"directx", false, down, Channels::xyz},
+        {"unity", true, up, Channels::orthographic},
+        {"unreal", false, down, Channels::orthographic},
+        {"blender", true, up, Channels::xyz},
+        {"godot", true, down, Channels::orthographic},
+        {"maya", true, up, Channels::xyz},
+        {"3dsmax", false, up, Channels::xyz},
+        {"source", false, down, Channels::xyz},
     };
     EXPECT_EQ(conventionPresets().size(), std::size(table));
     for (const Expected& e : table) {

@@ -54,7 +54,8 @@ TEST(ConvertCommand, aStretchedQuadLooksTheSameAfterwardsWithinRounding)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
-    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "reference"});
+    const json r = convertJson(
+        folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "reference"});
     // 8 bits: 0.17 mean; filtering two texels is not the same in the two frames: a little more.
     EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25);
     EXPECT_LT(r["verify"]["degrees"]["max_degrees"].get<double>(), 1.5);
@@ -91,7 +92,8 @@ TEST(ConvertCommand, towardsMikktspaceWritesTangents)
     TemporaryFolder folder;
     write(quad(2), folder.path());
     convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "there.glb"});
-    convertJson(folder.path(), {"there.glb", "--from", "cotangent", "--to", "mikktspace", "--bits", "8", "-o", "back.glb"});
+    convertJson(folder.path(),
+                {"there.glb", "--from", "cotangent", "--to", "mikktspace", "--bits", "8", "-o", "back.glb"});
     EXPECT_TRUE(jsonOfGlb(folder / "back.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
     EXPECT_EQ(normalMapOf(folder / "there.glb").type, PixelType::unorm16);
     const Image before = normalMapOf(folder / "quad.gltf"), after = normalMapOf(folder / "back.glb");
@@ -113,7 +115,10 @@ TEST(ConvertCommand, aTextureTransformDoesWhatTheSameUvInTheVerticesDo)
     convertJson(one.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     convertJson(other.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     EXPECT_EQ(normalMapOf(one / "out.glb").data, normalMapOf(other / "out.glb").data);
-    EXPECT_EQ(jsonOfGlb(other / "out.glb")["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"][0], 0.5);
+    EXPECT_EQ(
+        jsonOfGlb(other
+                  / "out.glb")["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"][0],
+        0.5);
 }
 
 TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
@@ -205,7 +210,9 @@ TEST(ConvertCommand, aMapThatFitsAsItIsStaysToTheByte)
     ASSERT_TRUE(before && after);
     EXPECT_EQ(*gltfImageBytes(*before, 0), *gltfImageBytes(*after, 0));
     EXPECT_FALSE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
-    EXPECT_FALSE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "16.glb"})["maps"][0]["kept"].get<bool>());
+    EXPECT_FALSE(convertJson(folder.path(),
+                             {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "16.glb"})["maps"][0]["kept"]
+                     .get<bool>());
 }
 
 TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
@@ -213,12 +220,14 @@ TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
     TemporaryFolder folder;
     Made m = quad(1);
     write(m, folder.path());
-    EXPECT_EQ(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "one.glb"})["notes"].dump().find("no one map"),
+    EXPECT_EQ(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "one.glb"})["notes"].dump().find(
+                  "no one map"),
               std::string::npos);
     m.root["nodes"].push_back({{"mesh", 0}, {"scale", {4, 1, 1}}}); // the same texels, stretched here
     m.root["scenes"][0]["nodes"] = {0, 1};
     write(m, folder.path());
-    EXPECT_NE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "two.glb"})["notes"].dump().find("no one map"),
+    EXPECT_NE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "two.glb"})["notes"].dump().find(
+                  "no one map"),
               std::string::npos);
 }
 
@@ -251,10 +260,14 @@ TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
         if (!std::filesystem::exists(shared(model.file)))
             GTEST_SKIP() << model.file << " is missing";
         TemporaryFolder folder;
-        const json r = convertJson(folder.path(), {shared(model.file), "--to", "smooth", "-o", "out.glb", "--verify", "v"});
+        const json r =
+            convertJson(folder.path(), {shared(model.file), "--to", "smooth", "-o", "out.glb", "--verify", "v"});
         EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), model.mean) << model.file;
         EXPECT_GT(r["tangents"]["bytes"].get<std::size_t>(), 10000u);
-        EXPECT_EQ(runTool({"render", "out.glb", "-o", "out.png", "--frame", "smooth", "--size", "64x64", "--quiet"}, folder.path()).code, 0);
+        EXPECT_EQ(runTool({"render", "out.glb", "-o", "out.png", "--frame", "smooth", "--size", "64x64", "--quiet"},
+                          folder.path())
+                      .code,
+                  0);
     }
 }
 

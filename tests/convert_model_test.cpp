@@ -1,5 +1,5 @@
-// A whole glTF document for another frame, by one call and without files: texels that are known by hand, what the report
-// says, and what is refused.
+// A whole glTF document for another frame, by one call and without files: texels that are known by hand, what the
+// report says, and what is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +13,13 @@
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr f64::cotan_normal_format kStored{0, 0, -1, 1}; // glTF: green against +v
+const auto kStored = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"));
 
 Image mapOf(glm::dvec3 m)
 {
@@ -64,8 +65,7 @@ Image normalMapIn(const GltfDocument& document, std::size_t image = 0)
 
 glm::dvec3 directionAt(const Image& image, int x, int y)
 {
-    f64::cotan_normal_format format = kStored;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    const auto format = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"), image.type);
     return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 
@@ -171,14 +171,17 @@ TEST(ConvertModel, progressRunsToOneAndEachMapIsToldOfOnce)
     std::mutex mutex;
     double last = 0, most = 0;
     std::size_t told = 0;
-    const auto report = convertModel(document, {.frames = kThere, .threads = 2,
-                                                .progress = [&](double share) {
-                                                    const std::lock_guard lock(mutex);
-                                                    last = share;
-                                                    most = std::max(most, share);
-                                                    return true;
-                                                },
-                                                .mapDone = [&](const ConvertedMap& map) { told += map.image == 0; }});
+    const auto report = convertModel(document,
+                                     {.frames = kThere,
+                                      .threads = 2,
+                                      .progress =
+                                          [&](double share) {
+                                              const std::lock_guard lock(mutex);
+                                              last = share;
+                                              most = std::max(most, share);
+                                              return true;
+                                          },
+                                      .mapDone = [&](const ConvertedMap& map) { told += map.image == 0; }});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(last, 1);
     EXPECT_EQ(most, 1);
@@ -190,7 +193,8 @@ TEST(ConvertModel, stoppedByItsProgressItChangesNothing)
     for (const double limit : {0.0, 0.5, 0.999}) {
         GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
         const auto before = document.root;
-        const auto done = convertModel(document, {.frames = kThere, .progress = [=](double share) { return share <= limit; }});
+        const auto done =
+            convertModel(document, {.frames = kThere, .progress = [=](double share) { return share <= limit; }});
         ASSERT_FALSE(done) << limit;
         EXPECT_EQ(done.error().kind, ErrorKind::stopped);
         EXPECT_EQ(done.error().message, stoppedError().message);
@@ -210,7 +214,8 @@ TEST(GiveTangents, stoppedByTheirProgressTheyChangeNothing)
 
 TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
 {
-    const auto refused = [](GltfDocument document, const ConvertModelOptions& options, ErrorKind kind, const char* word) {
+    const auto refused = [](GltfDocument document, const ConvertModelOptions& options, ErrorKind kind,
+                            const char* word) {
         const auto before = document.root;
         const auto result = convertModel(document, options);
         ASSERT_FALSE(result) << word;
@@ -222,8 +227,10 @@ TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
     const Image map = mapOf({0.3, 0.2, 1});
     for (const FrameInfo& f : frames())
         if (f.dependsOnView) {
-            refused(documentOf(2, map), {.frames = {Frame::mikktspace, f.frame}}, ErrorKind::usage, "depends on the view");
-            refused(documentOf(2, map), {.frames = {f.frame, Frame::cotangent}}, ErrorKind::usage, "depends on the view");
+            refused(documentOf(2, map), {.frames = {Frame::mikktspace, f.frame}}, ErrorKind::usage,
+                    "depends on the view");
+            refused(documentOf(2, map), {.frames = {f.frame, Frame::cotangent}}, ErrorKind::usage,
+                    "depends on the view");
         }
     refused(documentOf(2, map), {.frames = kThere, .bits = 12}, ErrorKind::usage, "found 12");
     refused(documentOf(2, map, 1e5f), {.frames = kThere}, ErrorKind::input, "repeat the map");

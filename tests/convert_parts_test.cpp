@@ -69,9 +69,10 @@ TEST(SolveTexel, theLeastSumOfSquaresIsNotTheSumOfTheTexels)
 
 TEST(SolveTexel, throughSkewFramesNoNeighbourIsBetter)
 {
-    const Demand demands[] = {{glm::dmat3({1, 0.8, 0}, {-0.1, 0.5, 0.2}, {0, 0, 1}), glm::normalize(glm::dvec3(0.5, 0.2, 1))},
-                              {glm::dmat3({0.3, 0, 0.1}, {0.9, 1, 0}, {0.2, 0, 1}), glm::normalize(glm::dvec3(-0.3, 0.6, 1))},
-                              {glm::dmat3({0.2, 1, 0}, {1, 0.1, -0.3}, {0, 0.1, 1}), glm::normalize(glm::dvec3(0.1, -0.4, 1))}};
+    const Demand demands[] = {
+        {glm::dmat3({1, 0.8, 0}, {-0.1, 0.5, 0.2}, {0, 0, 1}), glm::normalize(glm::dvec3(0.5, 0.2, 1))},
+        {glm::dmat3({0.3, 0, 0.1}, {0.9, 1, 0}, {0.2, 0, 1}), glm::normalize(glm::dvec3(-0.3, 0.6, 1))},
+        {glm::dmat3({0.2, 1, 0}, {1, 0.1, -0.3}, {0, 0.1, 1}), glm::normalize(glm::dvec3(0.1, -0.4, 1))}};
     const auto cost = [&](glm::dvec3 m) { return costOf(demands, m); };
     const glm::dvec3 solved = solveTexel(demands, {0, 0, 1});
     constexpr double kStep = 1e-5; // 0.0006 degrees; the cost rises by its square, 1e-10, and is good to 1e-15
@@ -208,7 +209,7 @@ TEST(Tally, ofNothingIsNotZeroAndOfZerosIs)
 // A map of 4 by 2 under a rectangle, one unit of space per unit of uv; where on it a texel's first place lies.
 std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, Wrap wrapU, Wrap wrapV, int row)
 {
-    MapUse use{surfaceOf(rectangle({low.x, -high.y}, high - low, low, high)), kAsMeant, wrapU, wrapV};
+    MapUse use{surfaceOf(rectangle({low.x, -high.y}, high - low, low, high)), kAsMeant, 1, wrapU, wrapV};
     const convert::UseRaster raster(use, 4, 2);
     std::vector<std::vector<convert::Place>> texels(4);
     raster.addRow(row, 7, texels);
@@ -262,10 +263,11 @@ TEST(UseRaster, beyondAClampedAxisThereIsNothing)
 
 // ---- whole maps -----------------------------------------------------------------------------
 
-constexpr FramePair kPartsToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated, TangentOrigin::generated};
+constexpr FramePair kPartsToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated,
+                                      TangentOrigin::generated};
 // As glTF has it, but for green, which runs along v here.
-constexpr f64::cotan_normal_format kUnorm{0, 0, 1, 1};   // of a use, as for 8 bits
-constexpr f64::cotan_normal_format kUnorm16{expansionFor(0, 16), 0, 1, 1}; // what that is in pictures of 16
+constexpr Convention kUnorm{.greenUp = false};
+const auto kUnorm16 = toFormat<f64::cotan_normal_format>(kUnorm, 1, 16);
 
 Image unormMap(int width, int height, const std::function<glm::dvec3(int, int)>& texel)
 {
@@ -319,7 +321,7 @@ TEST(Reencode, greenAgainstVStaysAgainstV)
 {
     const Image map = unormMap(4, 2, [](int, int) { return glm::dvec3(0.1, 0.3, 1); });
     MapUse use = unormUse(rectangle({0, 0}, {1, 2}, {0, 0}, {1, 1}));
-    use.format.green = -1;
+    use.stored.greenUp = true;
     const Reencoded r = reencode(map, {&use, 1}, kPartsToCotangent, 16);
     EXPECT_LT(angleBetween(unormTexel(r.image, 1, 1), {0.1, 0.6, 1}), 0.01);
     EXPECT_LT(r.error.maximum, 0.01);
@@ -328,7 +330,7 @@ TEST(Reencode, greenAgainstVStaysAgainstV)
     for (Corner& c : sheared)
         c.position.x += 0.5f * c.position.y;
     MapUse leaning = unormUse(sheared);
-    leaning.format.green = -1;
+    leaning.stored.greenUp = true;
     EXPECT_LT(reencode(map, {&leaning, 1}, kPartsToCotangent, 16).error.maximum, 0.02);
 }
 
@@ -338,7 +340,8 @@ TEST(Reencode, placesDisagreeFromHalfADegreeOn)
     // for angles apart by about (f - 1) * 0.5 / 1.25 radians, and each is off by half of that.
     const Image map = unormMap(4, 4, [](int, int) { return glm::dvec3(0.0, 0.5, 1); });
     const auto off = [&](float factor) {
-        const MapUse uses[] = {unormUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})), unormUse(rectangle({0, 0}, {1, factor}, {0, 0}, {1, 1}))};
+        const MapUse uses[] = {unormUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
+                               unormUse(rectangle({0, 0}, {1, factor}, {0, 0}, {1, 1}))};
         return reencode(map, uses, kPartsToCotangent, 16);
     };
     const Reencoded little = off(1.035f), more = off(1.055f); // 0.4 and 0.63 degrees
@@ -366,21 +369,25 @@ TEST(Reencode, texelsThatPointBelowTheHorizonAreCounted)
 {
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     const Image map = unormMap(2, 2, [](int x, int) { return glm::dvec3(x == 0 ? 0.9 : 0.1, 0.0, x == 0 ? -0.4 : 1); });
-    const MapUse use{makeSurface(mesh, Texture{}), kUnorm, Wrap::repeat, Wrap::repeat};
+    const MapUse use{makeSurface(mesh, Texture{}), kUnorm, 1, Wrap::repeat, Wrap::repeat};
     EXPECT_EQ(reencode(map, {&use, 1}, kPartsToCotangent, 8).belowHorizon, 2u);
 }
 
 TEST(Reencode, paddingTakesTheNearestPlaceAndEmptyTexelsStay)
 {
-    // Left half: u stretched by two; lowest row of the right half: v by two. The texel at the right end of each row is empty.
-    const Image map = unormMap(8, 8, [](int x, int) { return x == 7 ? glm::dvec3(0.5, 0.5, -1) : glm::dvec3(0.2, 0.3, 1); });
-    const MapUse use = unormUse(rectangle({0, 0}, {1, 1}, {0, 0}, {0.25f, 0.5f}) + rectangle({4, 0}, {1, 4}, {0.5f, 0.75f}, {0.75f, 1}));
+    // Left half: u stretched by two; lowest row of the right half: v by two. The texel at the right end of each row is
+    // empty.
+    const Image map =
+        unormMap(8, 8, [](int x, int) { return x == 7 ? glm::dvec3(0.5, 0.5, -1) : glm::dvec3(0.2, 0.3, 1); });
+    const MapUse use = unormUse(rectangle({0, 0}, {1, 1}, {0, 0}, {0.25f, 0.5f})
+                                + rectangle({4, 0}, {1, 4}, {0.5f, 0.75f}, {0.75f, 1}));
     const Reencoded r = reencode(map, {&use, 1}, kPartsToCotangent, 16);
     EXPECT_EQ(r.covered, 2u * 4u + 2u * 2u);
-    // Left chart: gradients u 1/4... a unit square holds a quarter of u and half of v: u is half as dense, slopes double.
+    // Left chart: gradients u 1/4... a unit square holds a quarter of u and half of v: u is half as dense, slopes
+    // double.
     const glm::dvec3 left(0.4, 0.3, 1), right(0.2, 0.3 * 4, 1);
     EXPECT_LT(angleBetween(unormTexel(r.image, 0, 0), left), 0.02);
-    EXPECT_LT(angleBetween(unormTexel(r.image, 0, 5), left), 0.02);  // padding below it
+    EXPECT_LT(angleBetween(unormTexel(r.image, 0, 5), left), 0.02); // padding below it
     EXPECT_LT(angleBetween(unormTexel(r.image, 4, 6), right), 0.02);
     EXPECT_LT(angleBetween(unormTexel(r.image, 6, 3), right), 0.02); // padding above it
     for (int k = 0; k < 4; ++k)

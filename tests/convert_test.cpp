@@ -7,16 +7,17 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/normal_format.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr f64::cotan_normal_format kGltf{0, 0, -1, 1};
+const auto kGltf = toFormat<f64::cotan_normal_format>(Convention{});
 
 // An 8-bit map with the same texel everywhere; m along (+u, +v, outwards).
 Image constantMap(glm::dvec3 m, int side = 32)
@@ -33,12 +34,14 @@ Image constantMap(glm::dvec3 m, int side = 32)
 
 glm::dvec3 texelOf(const Image& image, int x, int y)
 {
-    f64::cotan_normal_format format = kGltf;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(image.type));
+    const auto format = toFormat<f64::cotan_normal_format>(Convention{}, image.type);
     return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 
-MapUse useOf(const Mesh& mesh, double scale = 1) { return {makeSurface(mesh, Texture{}), {0, 0, -1, scale}, Wrap::repeat, Wrap::repeat}; }
+MapUse useOf(const Mesh& mesh, double scale = 1)
+{
+    return {makeSurface(mesh, Texture{}), Convention{}, scale, Wrap::repeat, Wrap::repeat};
+}
 
 // A patch whose uv fill the unit square.
 Mesh patch(float stretch, bool mirrored = false)
@@ -56,14 +59,19 @@ Mesh patch(float stretch, bool mirrored = false)
     return mesh;
 }
 
-constexpr FramePair kToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated, TangentOrigin::generated};
-constexpr FramePair kToOrthonormal{Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated, TangentOrigin::generated};
+constexpr FramePair kToCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated,
+                                 TangentOrigin::generated};
+constexpr FramePair kToOrthonormal{Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated,
+                                   TangentOrigin::generated};
 
 // Rounding to 8 bits: half a step of 1/127 along each axis is 0.37 degrees at most for unit vectors of an
 // orthonormal frame; stretching the texel by two at most doubles it.
 constexpr double k8Bits = 0.8;
 
-double degrees(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))); }
+double degrees(glm::dvec3 a, glm::dvec3 b)
+{
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
 
 TEST(Convert, onAPatchStretchedTwoToOneCotangentNeedsTwiceTheSlopeAlongU)
 {
@@ -250,7 +258,8 @@ TEST(Convert, aNodeThatStretchesIsPartOfThePlace)
 {
     const Image map = constantMap({0.3, 0.2, 1});
     const MapUse straight[] = {useOf(patch(2))};
-    const MapUse byNode[] = {{makeSurface(patch(1), Texture{}, glm::dmat3(2, 0, 0, 0, 1, 0, 0, 0, 1)), kGltf, Wrap::repeat, Wrap::repeat}};
+    const MapUse byNode[] = {{makeSurface(patch(1), Texture{}, glm::dmat3(2, 0, 0, 0, 1, 0, 0, 0, 1)), Convention{}, 1,
+                              Wrap::repeat, Wrap::repeat}};
     EXPECT_EQ(reencode(map, straight, kToCotangent, 8).image.data, reencode(map, byNode, kToCotangent, 8).image.data);
 }
 

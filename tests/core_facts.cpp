@@ -1,5 +1,5 @@
-// Facts of src/core in a program by itself, for where there is no test library: core_32bit.cmake builds it where size_t has
-// 32 bits, scripts/try-smallest against an installed core. Returns the number of facts that do not hold.
+// Facts of src/core in a program by itself, for where there is no test library: core_32bit.cmake builds it where size_t
+// has 32 bits, scripts/try-smallest against an installed core. Returns the number of facts that do not hold.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -43,7 +43,8 @@ void tangentsAreThoseOfTheLayout()
     const cotan::Cotangents gradients = cotan::smoothCotangents(mirrored.view());
     bool right = gradients.u.size() == mirrored.positions.size();
     for (std::size_t i = 0; right && i < gradients.u.size(); ++i) // uv differences of 1/160, rounded at 6e-8
-        right = glm::length(gradients.u[i] - glm::vec3(-2, 0, 0)) < 1e-3f && glm::length(gradients.v[i] - glm::vec3(0, -1, 0)) < 1e-3f;
+        right = glm::length(gradients.u[i] - glm::vec3(-2, 0, 0)) < 1e-3f
+            && glm::length(gradients.v[i] - glm::vec3(0, -1, 0)) < 1e-3f;
     expect(right, "smooth");
 }
 
@@ -58,21 +59,21 @@ void equalVerticesAreOne()
     expect(same, "indexed or not, on one thread or three");
     bool east = true;
     for (std::size_t c = 0; c < a.size(); ++c) // off by less than the turn of east over a cell
-        east &= degreesBetween(glm::vec3(a[c]), glm::cross(glm::vec3(0, 1, 0), shared.normals[shared.indices[c]])) < 1.1;
+        east &=
+            degreesBetween(glm::vec3(a[c]), glm::cross(glm::vec3(0, 1, 0), shared.normals[shared.indices[c]])) < 1.1;
     expect(east, "tangents of a sphere point east");
 }
 
 void verticesAreSplit()
 {
-    const Arrays a = gridOf(8, [](float x, float y) {
-        return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}};
-    });
+    const Arrays a = gridOf(8, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     expect(cotan::splitMirrored(a.view()).sources.size() == 81 + 9, "a mirror line of nine vertices");
 }
 
 void framesAndParts()
 {
-    const cotan::Differences<float> d{cotan::Vector3f(0.01f, 0, 0), cotan::Vector3f(0, 0.02f, 0), {0.03f, 0}, {0, 0.03f}};
+    const cotan::Differences<float> d{
+        cotan::Vector3f(0.01f, 0, 0), cotan::Vector3f(0, 0.02f, 0), {0.03f, 0}, {0, 0.03f}};
     const auto f = cotan::makeFrame(cotan::Frame::cotangent, cotan::Covector3f(0, 0, 2), d);
     expect(near(f.t.raw(), {1, 0, 0}) && near(f.b.raw(), {0, 0.5f, 0}), "cotangent frame");
     expect(cotan::partBegin(4000000000u, 63, 64) == 3937500000u, "parts of four billion items");

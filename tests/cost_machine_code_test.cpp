@@ -37,11 +37,11 @@ double overFloor(std::string_view name)
 }
 
 // The bars were set with Mesa 22.3. Another compiler moves them all; the floor and mikktspace tell.
-#define COTAN_NEEDS_NAVI21()                                                                       \
-    if (!navi21().silence.empty())                                                                 \
-        GTEST_SKIP() << "NAVI21: " << navi21().silence;                                            \
-    if (navi21().driver.find("Mesa 22.3") == std::string::npos                                     \
-        && (navi21().rows[0].fragment.instructions != 45 || overFloor("mikktspace") != 18))        \
+#define COTAN_NEEDS_NAVI21()                                                                                           \
+    if (!navi21().silence.empty())                                                                                     \
+        GTEST_SKIP() << "NAVI21: " << navi21().silence;                                                                \
+    if (navi21().driver.find("Mesa 22.3") == std::string::npos                                                         \
+        && (navi21().rows[0].fragment.instructions != 45 || overFloor("mikktspace") != 18))                            \
     GTEST_SKIP() << "the bars hold for compilers like Mesa 22.3's; this is " << navi21().driver
 
 TEST(CostNavi21, theRigGivesWhatWasMeasuredBefore)
@@ -85,9 +85,8 @@ TEST(CostMachineCode, aTangentCostsInstructionsAtTheVertices)
 TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
 {
     // On the processor too: the way is the same. What the times are is not tested.
-    const std::vector<const Row*> some = {rowFromName("floor"), rowFromName("mikktspace"),
-                                          rowFromName("smooth"), rowFromName("exact"),
-                                          rowFromName("cotangent-fused")};
+    const std::vector<const Row*> some = {rowFromName("floor"), rowFromName("mikktspace"), rowFromName("smooth"),
+                                          rowFromName("exact"), rowFromName("cotangent-fused")};
     const auto timed = timeRows(some, {{}, true, 1});
     if (!timed || timed->empty())
         GTEST_SKIP() << "no Vulkan device";
@@ -106,9 +105,9 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
 TEST(CostCommand, withoutAnyDriverTheCountsAreReportedAndTheExitCodeIsThree)
 {
     const test::TemporaryFolder folder;
-    const test::ToolRun run = test::runTool({"cost", "--family", "NO_SUCH_FAMILY", "--json",
-                                             "report.json", "-o", "cost.md", "--csv", "cost.csv"},
-                                            folder.path());
+    const test::ToolRun run = test::runTool(
+        {"cost", "--family", "NO_SUCH_FAMILY", "--json", "report.json", "-o", "cost.md", "--csv", "cost.csv"},
+        folder.path());
     EXPECT_EQ(run.code, 3);
     EXPECT_NE(run.err.find("no driver"), std::string::npos) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -116,8 +115,7 @@ TEST(CostCommand, withoutAnyDriverTheCountsAreReportedAndTheExitCodeIsThree)
     ASSERT_EQ(report["rows"].size(), rows().size());
     EXPECT_EQ(report["rows"][0]["scalar"]["total"], 21); // as by hand, cost_test.cpp
     EXPECT_NE(test::readWhole(folder / "cost.md").find("| paper-full"), std::string::npos);
-    EXPECT_NE(test::readWhole(folder / "cost.csv").find("floor,scalar,,,total,21"),
-              std::string::npos);
+    EXPECT_NE(test::readWhole(folder / "cost.csv").find("floor,scalar,,,total,21"), std::string::npos);
 }
 
 TEST(CostCommand, onlyWhatIsBetweenTheMarksIsReplaced)
@@ -127,8 +125,7 @@ TEST(CostCommand, onlyWhatIsBetweenTheMarksIsReplaced)
         << "before\n<!-- cotan cost: from here to the end mark written by the tool -->\nold\n<!-- "
            "cotan cost: end -->\nafter\n";
     for (int again = 0; again < 2; ++again) // the second time leaves the same
-        test::runTool({"cost", "--no-timing", "--frames", "cotangent-fused", "-o", "doc.md"},
-                      folder.path());
+        test::runTool({"cost", "--no-timing", "--frames", "cotangent-fused", "-o", "doc.md"}, folder.path());
     const std::string text = test::readWhole(folder / "doc.md");
     EXPECT_EQ(text.rfind("before\n", 0), 0u);
     EXPECT_EQ(text.find("old"), std::string::npos);
@@ -141,8 +138,7 @@ TEST(CostCommand, onlyWhatIsBetweenTheMarksIsReplaced)
 TEST(CostCommand, anUnknownRowIsAUsageError)
 {
     const test::TemporaryFolder folder;
-    const test::ToolRun run =
-        test::runTool({"cost", "--frames", "cotangent,nonsense"}, folder.path());
+    const test::ToolRun run = test::runTool({"cost", "--frames", "cotangent,nonsense"}, folder.path());
     EXPECT_EQ(run.code, 1);
     EXPECT_NE(run.err.find("found 'nonsense'"), std::string::npos) << run.err;
 }

@@ -52,12 +52,11 @@ TEST(CostScalar, fusedFormsKeepTheBarsOfTheFramesTheyStandFor)
 
 TEST(CostScalar, fusedFormsCostLessThanPlainOnes)
 {
-    for (const auto& [fused, plain] : {std::pair("cotangent-fused", "cotangent-plain"),
-                                       std::pair("gradient-fused", "gradient-plain"),
-                                       std::pair("orthonormal-fused", "orthonormal-plain")})
+    for (const auto& [fused, plain] :
+         {std::pair("cotangent-fused", "cotangent-plain"), std::pair("gradient-fused", "gradient-plain"),
+          std::pair("orthonormal-fused", "orthonormal-plain")})
         EXPECT_LT(operationsOfRow(fused).total(), operationsOfRow(plain).total()) << fused;
-    EXPECT_LT(operationsOfRow("cotangent-area-fused").total(),
-              operationsOfRow("cotangent-fused").total());
+    EXPECT_LT(operationsOfRow("cotangent-area-fused").total(), operationsOfRow("cotangent-fused").total());
 }
 
 TEST(CostScalar, everyRowIsCountedAndCountsTheSameTwice)

@@ -21,8 +21,7 @@ TEST(SmoothCotangents, areTheGradientsOfAFlatLayout)
     // Texcoords are linear in position: the gradients are their rows, y turned up, stretch and
     // shear and mirroring included.
     const glm::vec2 layouts[][2] = {
-        {{1, 0}, {0, 1}},  {{2, 0}, {0, 1}},        {{1, 0.7f}, {0, 1}},
-        {{-1, 0}, {0, 3}}, {{0.6f, 0.8f}, {-4, 3}},
+        {{1, 0}, {0, 1}}, {{2, 0}, {0, 1}}, {{1, 0.7f}, {0, 1}}, {{-1, 0}, {0, 3}}, {{0.6f, 0.8f}, {-4, 3}},
     };
     for (const auto& rows : layouts) {
         const Arrays a = flatGrid(5, rows[0], rows[1]);
@@ -119,9 +118,7 @@ TEST(SmoothCotangents, degenerateTrianglesAddNothing)
 
 TEST(SmoothCotangents, sidesOfAMirrorLineDoNotCancelOnceSplit)
 {
-    Arrays a = gridOf(4, [](float x, float y) {
-        return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}};
-    });
+    Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     const cotan::VertexSplit split = cotan::splitMirrored(a.view());
     Arrays b;
     for (const std::uint32_t i : split.sources)

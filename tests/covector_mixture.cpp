@@ -8,10 +8,7 @@ Covector3d normal;
 
 #if defined(COTAN_MIX_SUM)
 // The function of the 2013 follow-up: a tangent frame with a normal in it is ill-formed.
-Covector3d perturbNormal(double a, double b, double c)
-{
-    return a * tangent + b * bitangent + c * normal;
-}
+Covector3d perturbNormal(double a, double b, double c) { return a * tangent + b * bitangent + c * normal; }
 #elif defined(COTAN_MIX_ASSIGN)
 Covector3d assigned = tangent;
 #elif defined(COTAN_MIX_FRAME)
@@ -20,10 +17,7 @@ CotangentFrame<double> frame{tangent, bitangent, normal};
 double number = dot(normal, normal);
 #else
 Covector3d cotangent, cobitangent;
-Covector3d perturbNormal(double a, double b, double c)
-{
-    return a * cotangent + b * cobitangent + c * normal;
-}
+Covector3d perturbNormal(double a, double b, double c) { return a * cotangent + b * cobitangent + c * normal; }
 double pairing = dot(normal, tangent);
 Covector3d plane = cross(tangent, bitangent);
 CotangentFrame<double> frame{cotangent, cobitangent, normal};

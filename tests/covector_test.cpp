@@ -9,7 +9,6 @@
 namespace cotan {
 namespace {
 
-
 glm::dmat3 randomMatrix(Random& random)
 {
     return glm::dmat3(random.direction() * random.range(0.5, 2), random.direction() * random.range(0.5, 2),
@@ -89,8 +88,8 @@ TEST(NormalTransform, undoingTheScaleIsRightForScaleAlongTheAxesMirroredOrNot)
     Random random(35);
     for (double sign : {1.0, -1.0})
         for (int i = 0; i < 50; ++i)
-            EXPECT_LT(disagreement(NormalTransform::undoScale, rotation() * scale(sign, 2, 4),
-                                   random.direction()), 1e-10);
+            EXPECT_LT(disagreement(NormalTransform::undoScale, rotation() * scale(sign, 2, 4), random.direction()),
+                      1e-10);
 }
 
 TEST(NormalTransform, undoingTheScaleIsWrongForAScaleAfterTheRotation)
@@ -102,8 +101,9 @@ TEST(NormalTransform, rotationOnlyIsWrongByAtMost36Point9DegreesForOneToFour)
 {
     double worst = 0;
     for (double a = 0; a < 90; a += 0.01)
-        worst = std::max(worst, disagreement(NormalTransform::rotationOnly, scale(1, 1, 4),
-                                             {std::sin(a * kDegree), 0, std::cos(a * kDegree)}));
+        worst = std::max(worst,
+                         disagreement(NormalTransform::rotationOnly, scale(1, 1, 4),
+                                      {std::sin(a * kDegree), 0, std::cos(a * kDegree)}));
     EXPECT_NEAR(worst, 36.87, 0.01); // atan((4-1)/(2 sqrt 4))
 }
 
@@ -117,8 +117,8 @@ TEST(CotangentFrame, uniformScaleAndRotationCarryTheFrameWithTheNormal)
 {
     Random random(36);
     const AffinePatch p = randomPatch(random, false);
-    const auto d = screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p,
-                                     {0, 0, 0});
+    const auto d =
+        screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
     const auto f = makeFrame(Frame::cotangent, Covector3d(p.normal), d);
     const auto g = transform(LinearMap<double>(rotation() * 3.0), f);
     const glm::dvec3 m = tiltedTexel(random, 30);
@@ -186,7 +186,8 @@ TEST(NormalTransform, formulasOfAMirroredScaleInARotation)
     EXPECT_LT(glm::length(transformNormal(NormalTransform::rotationOnly, m, Covector3d(n)).raw() - r * n), 1e-12);
     // A scale of zero leaves n, at unit length.
     const glm::dmat3 flat(r[0], r[1], r[2] * 0.0);
-    for (const NormalTransform way : {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
+    for (const NormalTransform way :
+         {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
         EXPECT_LT(glm::length(transformNormal(way, flat, Covector3d(n * 3.0)).raw() - n), 1e-12);
 }
 

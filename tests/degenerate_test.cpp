@@ -103,15 +103,15 @@ TEST(Frame, noFiniteOrNonFiniteBitPatternGivesANan)
         float f;
         std::uint32_t bits = std::uint32_t(random.bits());
         if ((bits & 7) == 0) // one in eight: zero, infinity, NaN, largest, smallest
-            bits = std::array{0u, 0x7f800000u, 0x7fc00000u, 0x7f7fffffu, 0x00000001u, 0x80000000u,
-                              0xff800000u, 0xff7fffffu}[(bits >> 8) & 7];
+            bits = std::array{0u,          0x7f800000u, 0x7fc00000u, 0x7f7fffffu,
+                              0x00000001u, 0x80000000u, 0xff800000u, 0xff7fffffu}[(bits >> 8) & 7];
         std::memcpy(&f, &bits, 4);
         return f;
     };
     auto anyVector = [&] { return glm::vec3(anyFloat(), anyFloat(), anyFloat()); };
     for (int i = 0; i < 200000; ++i) {
-        Differences<float> d{Vector3f(anyVector()), Vector3f(anyVector()), {anyFloat(), anyFloat()},
-                             {anyFloat(), anyFloat()}};
+        Differences<float> d{
+            Vector3f(anyVector()), Vector3f(anyVector()), {anyFloat(), anyFloat()}, {anyFloat(), anyFloat()}};
         const Covector3f n(anyVector());
         const glm::vec3 m = tiltedTexel(random, 60);
         const glm::vec3 t = anyVector(), b = anyVector();

@@ -102,8 +102,8 @@ std::string wholeSource()
     std::string all;
     for (const char* folder : {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench", "fuzz"})
         for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
-            if (entry.is_regular_file() && entry.path().extension() != ".md" && entry.path().filename() != "docs_test.cpp"
-                && entry.file_size() < (1u << 20))
+            if (entry.is_regular_file() && entry.path().extension() != ".md"
+                && entry.path().filename() != "docs_test.cpp" && entry.file_size() < (1u << 20))
                 all += readWhole(entry.path());
     return all;
 }
@@ -114,7 +114,8 @@ TEST(Documents, everyNameInThemIsInTheSources)
     const std::string sources = wholeSource();
     const std::regex name(R"(`([A-Z][a-z0-9]+[A-Z][A-Za-z0-9]*|cotan_[a-z0-9_]+|COTAN_[A-Z0-9_]+)[(`])");
     // Words of other programs and formats.
-    const std::set<std::string> foreign = {"UpperCamel", "GLTFLoader", "UnpackNormal", "WebGLRenderer", "Cotan_half", "ShaderMaterial", "COTAN_BENCHMARKS"};
+    const std::set<std::string> foreign = {"UpperCamel", "GLTFLoader",     "UnpackNormal",    "WebGLRenderer",
+                                           "Cotan_half", "ShaderMaterial", "COTAN_BENCHMARKS"};
     std::size_t checked = 0;
     for (const fs::path& file : documents())
         for (const std::string& word : matches(readWhole(file), name, 1)) {
@@ -178,7 +179,8 @@ TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
     std::set<std::string> folders, rows;
     for (const auto& entry : fs::directory_iterator(kSources / "src"))
         folders.insert(entry.path().filename().string());
-    const std::string plan = readWhole(kSources / "docs/architecture.md"), picture = readWhole(kSources / "docs/architecture.svg");
+    const std::string plan = readWhole(kSources / "docs/architecture.md"),
+                      picture = readWhole(kSources / "docs/architecture.svg");
     for (const std::string& row : matches(plan, std::regex("\\n\\| `([a-z_]+)` \\|"), 1))
         rows.insert(row);
     EXPECT_EQ(rows, folders);
@@ -243,7 +245,8 @@ TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
             for (const std::string& word : words)
                 if (word.starts_with("--") && word.size() > 2 && !help.empty()) {
                     const std::string option = word.substr(0, word.find('='));
-                    EXPECT_TRUE(std::regex_search(help, std::regex(option + "\\b"))) << shortName(file) << ": " << option << " in cotan " << call;
+                    EXPECT_TRUE(std::regex_search(help, std::regex(option + "\\b")))
+                        << shortName(file) << ": " << option << " in cotan " << call;
                     ++checked;
                 }
         }
@@ -282,7 +285,8 @@ double fromCost(const std::string& row, const std::string& column)
             if (heads.empty())
                 heads = cells;
             const auto at = std::find(heads.begin(), heads.end(), column);
-            if (at != heads.end() && cells[0] == row && cells[std::size_t(at - heads.begin())].find_first_of("0123456789") != std::string::npos)
+            if (at != heads.end() && cells[0] == row
+                && cells[std::size_t(at - heads.begin())].find_first_of("0123456789") != std::string::npos)
                 return std::stod(cells[std::size_t(at - heads.begin())]);
         }
     }
@@ -297,7 +301,10 @@ std::string flat(const char* layout, const char* frame)
     return fmt::format("flat,{},\"domes, frontal\",{},S,double", layout, frame);
 }
 
-std::string sphere(int segments, const char* frame) { return fmt::format("curved,sphere,{},{},S,double", segments, frame); }
+std::string sphere(int segments, const char* frame)
+{
+    return fmt::format("curved,sphere,{},{},S,double", segments, frame);
+}
 
 // A phrase of a document whose numbers come from tables: {} stands for each.
 struct Claim {
@@ -324,22 +331,41 @@ TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
 {
     auto over = [](const char* row) { return fromCost(row, "NAVI21"); };
     const Claim claims[] = {
-        {"README.md", "| square texels | {} degrees | {} degrees |",
-         {fromAccuracy(flat("square", "cotangent"), kMean), fromAccuracy(flat("square", "orthonormal"), kMean)}, 2},
-        {"README.md", "| stretched 2:1 | 0.00 | {} mean, {} at most |",
-         {fromAccuracy(flat("stretch 2:1", "orthonormal"), kMean), fromAccuracy(flat("stretch 2:1", "orthonormal"), kMaximum)}, 1},
-        {"README.md", "| sheared by 45 degrees | 0.00 | {} mean, {} at most |",
-         {fromAccuracy(flat("shear 45", "orthonormal"), kMean), fromAccuracy(flat("shear 45", "orthonormal"), kMaximum)}, 1},
-        {"README.md", "{} instructions on a NAVI21 over normalising the normal (a plain port of the published code {}, the total form above {}, "
-                      "stored tangents {} a pixel and {} a vertex)",
+        {"README.md",
+         "| square texels | {} degrees | {} degrees |",
+         {fromAccuracy(flat("square", "cotangent"), kMean), fromAccuracy(flat("square", "orthonormal"), kMean)},
+         2},
+        {"README.md",
+         "| stretched 2:1 | 0.00 | {} mean, {} at most |",
+         {fromAccuracy(flat("stretch 2:1", "orthonormal"), kMean),
+          fromAccuracy(flat("stretch 2:1", "orthonormal"), kMaximum)},
+         1},
+        {"README.md",
+         "| sheared by 45 degrees | 0.00 | {} mean, {} at most |",
+         {fromAccuracy(flat("shear 45", "orthonormal"), kMean),
+          fromAccuracy(flat("shear 45", "orthonormal"), kMaximum)},
+         1},
+        {"README.md",
+         "{} instructions on a NAVI21 over normalising the normal (a plain port of the published code {}, the total "
+         "form above {}, "
+         "stored tangents {} a pixel and {} a vertex)",
          {over("cotangent-fused"), over("cotangent-plain"), over("cotangent"), over("mikktspace"), over("tangent")}},
-        {"docs/cost.md", "On NAVI21 totality costs {} instructions more than the fused form", {over("cotangent") - over("cotangent-fused")}},
-        {"docs/baking.md", "second order: {} degrees on a sphere of 32 segments where `cotangent` has {}",
-         {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean)}, 2},
-        {"docs/testing.md", "{}/{}/{}/{};",
+        {"docs/cost.md",
+         "On NAVI21 totality costs {} instructions more than the fused form",
+         {over("cotangent") - over("cotangent-fused")}},
+        {"docs/baking.md",
+         "second order: {} degrees on a sphere of 32 segments where `cotangent` has {}",
+         {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean)},
+         2},
+        {"docs/testing.md",
+         "{}/{}/{}/{};",
          {fromAccuracy(sphere(16, "cotangent"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean),
-          fromAccuracy(sphere(64, "cotangent"), kMean), fromAccuracy(sphere(128, "cotangent"), kMean)}, 2},
-        {"docs/testing.md", "| {}/{}; 0 | `AccuracyBarB2`", {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(64, "smooth"), kMean)}, 2},
+          fromAccuracy(sphere(64, "cotangent"), kMean), fromAccuracy(sphere(128, "cotangent"), kMean)},
+         2},
+        {"docs/testing.md",
+         "| {}/{}; 0 | `AccuracyBarB2`",
+         {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(64, "smooth"), kMean)},
+         2},
     };
     for (const Claim& claim : claims) {
         const std::string expected = filled(claim);

@@ -5,6 +5,7 @@
 
 #include "cotan/draw/draw.hpp"
 #include "cotan/draw/painter.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan {
 namespace {
@@ -70,10 +71,32 @@ TEST(DrawView, unknownDevicesAndFramesAreRefused)
     EXPECT_EQ(device.error().kind, ErrorKind::unavailable);
     for (int frame : {-1, kFrameCount}) {
         View view = viewOf(Output::normal);
-        view.frame = frame;
+        view.frame = Frame(frame);
         const auto image = drawView(mappedQuad(), view, "reference");
         ASSERT_FALSE(image);
         EXPECT_EQ(image.error().kind, ErrorKind::usage);
+    }
+}
+
+TEST(Painter, aSceneThatWasNotMadeReadyForTheFrameIsRefusedOnEveryDevice)
+{
+    for (const char* device : {"reference", "auto"}) {
+        const auto painter = openPainter(device);
+        ASSERT_TRUE(painter);
+        Scene scene = mappedQuad();
+        ASSERT_TRUE((*painter)->load(scene));
+        for (const Frame frame : {Frame::smooth, Frame::vertex, Frame::mikktspace}) {
+            const auto bare = (*painter)->draw(viewOf(Output::normal, frame));
+            ASSERT_FALSE(bare) << device << ", " << name(frame);
+            EXPECT_EQ(bare.error().kind, ErrorKind::usage) << bare.error().message;
+            deriveVertexFrames(scene, frame, TangentOrigin::generated);
+            ASSERT_TRUE((*painter)->load(scene));
+            const auto ready = (*painter)->draw(viewOf(Output::normal, frame));
+            EXPECT_TRUE(ready) << ready.error().message;
+            scene = mappedQuad();
+            ASSERT_TRUE((*painter)->load(scene));
+        }
+        EXPECT_TRUE((*painter)->draw(viewOf(Output::normal, Frame::cotangent)));
     }
 }
 

@@ -83,7 +83,8 @@ float4 main(float3 n : A, float3 p : B, float2 uv : C) : SV_Target
 TEST(Engines, unrealsCustomNodeCompilesInBothStages)
 {
     const std::string code = replaced(block("Unreal", "hlsl"), "    // the text of cotan.ush\n", printed("Unreal"));
-    // Unreal puts all of it into a function. glslang takes functions of a struct only outside; HLSL's own compiler both.
+    // Unreal puts all of it into a function. glslang takes functions of a struct only outside; HLSL's own compiler
+    // both.
     const std::string end = "} cotan;\n";
     const std::size_t body = code.find(end);
     ASSERT_NE(body, std::string::npos);
@@ -100,8 +101,9 @@ TEST(Engines, godotsShaderCompilesOnceItsOwnWordsAreTakenAway)
     code = replaced(code, "shader_type spatial;\n", "");
     code = std::regex_replace(code, std::regex(" : hint[^;]*;"), ";");
     code = replaced(code, "#include \"cotan.gdshaderinc\"\n", printed("Godot 4"));
-    const std::string text = "#version 300 es\nprecision highp float;\nprecision highp int;\nin vec3 VERTEX;\nin vec2 UV;\n"
-                             "vec3 NORMAL;\nin vec3 given;\nout vec4 colour;\n"
+    const std::string text =
+        "#version 300 es\nprecision highp float;\nprecision highp int;\nin vec3 VERTEX;\nin vec2 UV;\n"
+        "vec3 NORMAL;\nin vec3 given;\nout vec4 colour;\n"
         + code + "\nvoid main() { NORMAL = given; fragment(); colour = vec4(NORMAL, 1.0); }\n";
     EXPECT_EQ(complaints(text, "", ".frag"), "");
 }

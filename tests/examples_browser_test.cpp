@@ -40,8 +40,8 @@ std::string rowsFromTheBottom(const Image& image)
     return bytes;
 }
 
-// The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet with
-// stored tangents.
+// The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet
+// with stored tangents.
 void writeOwnNormals(const TemporaryFolder& folder)
 {
     const Image map = makeReliefMap(Relief::domes, 128);
@@ -49,8 +49,10 @@ void writeOwnNormals(const TemporaryFolder& folder)
     for (const auto& [side, angle] : {std::pair{"front", 0.4}, std::pair{"back", 3.14159265358979 - 0.4}}) {
         const std::string name = side;
         writeSheet(folder.path(), name, angle, map);
-        const ToolRun drawn = runTool({"render", name + ".gltf", "-o", name + ".exr", "--view", "normal", "--size", "256x256", "--camera",
-                                       "0", "--device", "reference", "--point-sampled", "--quiet"}, folder.path());
+        const ToolRun drawn =
+            runTool({"render", name + ".gltf", "-o", name + ".exr", "--view", "normal", "--size", "256x256", "--camera",
+                     "0", "--device", "reference", "--point-sampled", "--quiet"},
+                    folder.path());
         ASSERT_EQ(drawn.code, 0) << drawn.err;
         const ToolRun stored = runTool({"tangents", name + ".gltf", "-o", name + "_tangents.glb"}, folder.path());
         ASSERT_EQ(stored.code, 0) << stored.err;
@@ -62,7 +64,8 @@ void writeOwnNormals(const TemporaryFolder& folder)
 }
 
 // tests/examples_NAME.html.in with its addresses put in, about an example that takes an npm package.
-void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const std::string& example, const std::string& library)
+void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const std::string& example,
+                  const std::string& library)
 {
     std::string page = readWhole(kSources + "/tests/examples_" + name + ".html.in");
     put(page, "COTAN;", json(readWhole(kSources + "/examples/" + example + "/cotan.glsl")).dump() + ";");
@@ -80,7 +83,8 @@ json measure()
     if (std::system("command -v chromium > /dev/null 2>&1") != 0)
         return "no chromium";
     TemporaryFolder folder;
-    write(folder / "webgl2.html", readWhole(kSources + "/examples/webgl2/index.html") + "<script>\n"
+    write(folder / "webgl2.html",
+          readWhole(kSources + "/examples/webgl2/index.html") + "<script>\n"
               + readWhole(kSources + "/tests/examples_webgl2.js") + "</script>\n");
     json pages = json::array({"webgl2.html"});
     const std::string three = COTAN_NPM "/node_modules/three/build/three.module.js";
@@ -99,9 +103,10 @@ json measure()
     put(harness, "PAGES", pages.dump());
     write(folder / "all.html", harness);
     const std::string f = folder.path().string();
-    const std::string line = "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='"
-        + f + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --dump-dom 'file://" + f + "/all.html' > '"
-        + f + "/dom' 2> '" + f + "/log'";
+    const std::string line =
+        "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
+        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
+        + "/dom' 2> '" + f + "/log'";
     const int code = std::system(line.c_str());
     const std::string dom = readWhole(folder / "dom");
     const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
@@ -173,9 +178,9 @@ void expectRightWhereTheirsIsAndFlipped(const json& page)
     for (const auto& [scene, ours] : page["cotan"].items()) {
         expectRight(scene, ours);
         const json& stock = page["stock"][scene];
-        // Their frames have no sign of their own, so they reverse t and b where y runs down; in mirrors Babylon turns its
-        // frame round twice. The domes' mean slope is some twenty degrees, and the error twice that. Should they mend
-        // it, the page and this line can go.
+        // Their frames have no sign of their own, so they reverse t and b where y runs down; in mirrors Babylon turns
+        // its frame round twice. The domes' mean slope is some twenty degrees, and the error twice that. Should they
+        // mend it, the page and this line can go.
         if (scene.starts_with("flipped"))
             EXPECT_GT(stock["mean"].get<double>(), 20) << scene;
         else
@@ -183,10 +188,7 @@ void expectRightWhereTheirsIsAndFlipped(const json& page)
     }
 }
 
-TEST(ExampleThree, thePastedTextIsWhatTheToolPrintsToday)
-{
-    expectPrintedToday("three");
-}
+TEST(ExampleThree, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("three"); }
 
 TEST(ExampleThree, cotansFrameIsRightWhereverThreesOwnIsAndInFlippedTargetsToo)
 {
@@ -213,9 +215,11 @@ TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTar
         ASSERT_TRUE(found.contains(side)) << found;
         const json& page = found[side];
         const auto worst = [&](const char* what) { return page[what]["worst"].get<double>(); };
-        EXPECT_GT(page["stock and cotan"]["count"].get<int>(), 30000) << side; // the sheet covers more than half of 256 x 256
+        EXPECT_GT(page["stock and cotan"]["count"].get<int>(), 30000)
+            << side;                                    // the sheet covers more than half of 256 x 256
         EXPECT_LE(worst("stock and cotan"), 1) << side; // a colour may lie at the edge between two steps
-        EXPECT_LE(worst("cotan upright and y down"), 2) << side; // so may it in both; interpolation rounds otherwise there
+        EXPECT_LE(worst("cotan upright and y down"), 2)
+            << side; // so may it in both; interpolation rounds otherwise there
         // The domes are lit from the other side, or are dents; between them nothing changes.
         EXPECT_GT(page["stock upright and y down"]["mean"].get<double>(), 15) << side;
         EXPECT_GT(page["stock and broken"]["mean"].get<double>(), 3) << side; // less light falls on the back
@@ -227,10 +231,7 @@ TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTar
     }
 }
 
-TEST(ExampleBabylon, thePastedTextIsWhatTheToolPrintsToday)
-{
-    expectPrintedToday("babylon");
-}
+TEST(ExampleBabylon, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("babylon"); }
 
 TEST(ExampleBabylon, cotansFrameIsRightWhereverBabylonsOwnIsAndInFlippedTargetsAndMirrorsToo)
 {

@@ -14,8 +14,9 @@
 
 namespace cotan::test {
 
-// Writes NAME.gltf with its parts: two by two units, the left half with mirrored uv, turned about y by `angle` (radians)
-// and moved to (0.1, -0.05, -3.5) before a camera of 40 degrees in the origin; double-sided; `map` repeats twice in v.
+// Writes NAME.gltf with its parts: two by two units, the left half with mirrored uv, turned about y by `angle`
+// (radians) and moved to (0.1, -0.05, -3.5) before a camera of 40 degrees in the origin; double-sided; `map` repeats
+// twice in v.
 inline void writeSheet(const std::filesystem::path& folder, const std::string& name, double angle, const Image& map)
 {
     using nlohmann::json;
@@ -31,8 +32,10 @@ inline void writeSheet(const std::filesystem::path& folder, const std::string& n
     std::string bytes;
     const auto add = [&](const std::vector<float>& values, const char* type, std::size_t width) {
         root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", values.size() * 4}});
-        root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1}, {"componentType", 5126},
-                                     {"type", type}, {"count", values.size() / width}});
+        root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
+                                     {"componentType", 5126},
+                                     {"type", type},
+                                     {"count", values.size() / width}});
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * 4);
         return root["accessors"].size() - 1;
     };
@@ -41,11 +44,13 @@ inline void writeSheet(const std::filesystem::path& folder, const std::string& n
     root["accessors"][p]["max"] = {1, 1, 0};
     const json attributes = {{"POSITION", p}, {"NORMAL", n}, {"TEXCOORD_0", t}};
     root["meshes"].push_back({{"primitives", json::array({{{"attributes", attributes}, {"material", 0}}})}});
-    root["nodes"].push_back({{"mesh", 0}, {"translation", {0.1, -0.05, -3.5}},
+    root["nodes"].push_back({{"mesh", 0},
+                             {"translation", {0.1, -0.05, -3.5}},
                              {"rotation", {0, std::sin(angle / 2), 0, std::cos(angle / 2)}}});
     root["nodes"].push_back({{"camera", 0}});
-    root["cameras"].push_back({{"type", "perspective"},
-                               {"perspective", {{"yfov", 40 * 3.14159265358979 / 180}, {"aspectRatio", 1}, {"znear", 0.1}}}});
+    root["cameras"].push_back(
+        {{"type", "perspective"},
+         {"perspective", {{"yfov", 40 * 3.14159265358979 / 180}, {"aspectRatio", 1}, {"znear", 0.1}}}});
     root["materials"].push_back({{"doubleSided", true}, {"normalTexture", {{"index", 0}}}});
     root["textures"].push_back({{"source", 0}});
     root["images"].push_back({{"uri", name + ".png"}});

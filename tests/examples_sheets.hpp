@@ -79,7 +79,8 @@ inline void expectSheets(const std::string& program, double most)
     int counts[2] = {0, 0};
     for (std::size_t row = 0; row < 240; ++row) // from the bottom
         for (std::size_t column = 0; column < 480; ++column) {
-            const Vec ray{((2 * (double(column) + 0.5) / 480) - 1) * 2 / 2.2, ((2 * (double(row) + 0.5) / 240) - 1) / 2.2, -1};
+            const Vec ray{((2 * (double(column) + 0.5) / 480) - 1) * 2 / 2.2,
+                          ((2 * (double(row) + 0.5) / 240) - 1) / 2.2, -1};
             const bool right = column >= 240;
             const Vec expected = right ? truth(ray, 1.2, M_PI - 0.4) : truth(ray, -1.2, 0.4);
             if (dot(expected, expected) == 0)

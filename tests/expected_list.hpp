@@ -25,8 +25,7 @@ inline std::vector<Expected> expectedFor(const std::string& extension)
         for (std::string line; std::getline(list, line);) {
             std::istringstream fields(line);
             std::string file, verdict;
-            if (line.starts_with('#') || !std::getline(fields, file, '\t')
-                || !std::getline(fields, verdict, '\t'))
+            if (line.starts_with('#') || !std::getline(fields, file, '\t') || !std::getline(fields, verdict, '\t'))
                 continue;
             if (std::filesystem::path(file).extension() == extension)
                 rows.push_back({folder / file, verdict});

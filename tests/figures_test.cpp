@@ -19,7 +19,8 @@ namespace {
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3", "2.6.4", "2.6.5", "tutorial", "normal-matrices", "mirrored", "targets", "decode", "faceting"};
+const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",  "tutorial", "normal-matrices",
+                              "mirrored", "targets", "decode", "faceting"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -37,7 +38,8 @@ nlohmann::json report(const std::string& only, const std::string& size)
     return nlohmann::json::parse(run.out, nullptr, false);
 }
 
-double angle(const nlohmann::json& report, std::size_t figure, const std::string& name, const char* key = "mean_degrees")
+double angle(const nlohmann::json& report, std::size_t figure, const std::string& name,
+             const char* key = "mean_degrees")
 {
     const auto& angles = report["figures"][figure]["angles"];
     EXPECT_TRUE(angles.contains(name)) << name;
@@ -114,7 +116,10 @@ TEST(Figures, squarePatchErrorsAreThoseOfTheDomesMathematics)
     const struct {
         const char* layout;
         double stretch, shear;
-    } layouts[] = {{"stretched 2:1", 2, 0}, {"stretched 4:1", 4, 0}, {"sheared 45 degrees", 1, 1}, {"stretched 2:1 and sheared", 2, 1}};
+    } layouts[] = {{"stretched 2:1", 2, 0},
+                   {"stretched 4:1", 4, 0},
+                   {"sheared 45 degrees", 1, 1},
+                   {"stretched 2:1 and sheared", 2, 1}};
     for (const auto& l : layouts) {
         const std::string name = l.layout;
         // Pixels sample the domes on a grid of their own: sixteen to a radius, a hundredth of the mean.
@@ -162,7 +167,8 @@ TEST(Figures, decodingNormalMatricesAndTargetsHaveTheirKnownErrors)
     EXPECT_NEAR(angle(r, 2, "flat texel 128, biased"), std::atan(std::sqrt(2) / 255) * 180 / std::numbers::pi, 1e-3);
     EXPECT_LT(angle(r, 2, "flat texel 128, exact", "max_degrees"), 1e-4);
     // A slope of 0.92 at most: turned over in v it is off by at most twice its tilt of 42.6 degrees.
-    EXPECT_NEAR(angle(r, 2, "green the wrong way", "max_degrees"), 2 * std::atan(2.4 * 2 / (3 * std::sqrt(3))) * 180 / std::numbers::pi, 1);
+    EXPECT_NEAR(angle(r, 2, "green the wrong way", "max_degrees"),
+                2 * std::atan(2.4 * 2 / (3 * std::sqrt(3))) * 180 / std::numbers::pi, 1);
 }
 
 TEST(Figures, curvedMeshesConvergeWithTheFramesThatFollowTheTexture)
@@ -214,15 +220,18 @@ TEST(Figures, wrongWordsExitOneAndAnUnwritableFolderExitsFour)
 TEST(Lighting, inTangentSpaceIsDrawnByTheReferenceAndAsksForTangents)
 {
     TemporaryFolder folder;
-    const ToolRun run = runTool({"render", "-o", "a.png", "--size", "32x24", "--samples", "1", "--lighting", "tangent-vertex",
-                                 "--frame", "mikktspace", "--json", "-"}, folder.path());
+    const ToolRun run = runTool({"render", "-o", "a.png", "--size", "32x24", "--samples", "1", "--lighting",
+                                 "tangent-vertex", "--frame", "mikktspace", "--json", "-"},
+                                folder.path());
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
     const ToolRun wrong = runTool({"render", "-o", "b.png", "--lighting", "tangent-vertex"}, folder.path());
     EXPECT_EQ(wrong.code, 1);
     EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
     // No Vulkan device does it, and where there is none the code is the same.
-    EXPECT_EQ(runTool({"render", "-o", "b.png", "--lighting", "tangent-pixel", "--device", "llvmpipe"}, folder.path()).code, 3);
+    EXPECT_EQ(
+        runTool({"render", "-o", "b.png", "--lighting", "tangent-pixel", "--device", "llvmpipe"}, folder.path()).code,
+        3);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
 }
 

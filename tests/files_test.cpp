@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/image/file.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/image/file.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {
@@ -33,8 +33,9 @@ protected:
 
     TemporaryFolder folder;
     // Names of one file.
-    const std::vector<std::string> spellings = {"real/in.png", "real/./in.png", "real/deep/../in.png", "link/in.png",
-                                                "link/deep/../in.png", "hard.png", "soft.png"};
+    const std::vector<std::string> spellings = {"real/in.png", "real/./in.png",       "real/deep/../in.png",
+                                                "link/in.png", "link/deep/../in.png", "hard.png",
+                                                "soft.png"};
 };
 
 TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
@@ -65,8 +66,10 @@ TEST_F(FileAccount, readingIsRefusedByEveryNameOfAPlannedOutput)
 
 TEST_F(FileAccount, twoOutputsAreRefusedInOnePlaceThatDoesNotExistYet)
 {
-    for (const auto& [a, b] : {std::pair("new.png", "./new.png"), {"real/new.png", "link/deep/../new.png"},
-                               {"no/such/new.png", "no/other/../such/./new.png"}, {"hard.png", "soft.png"}}) {
+    for (const auto& [a, b] : {std::pair("new.png", "./new.png"),
+                               {"real/new.png", "link/deep/../new.png"},
+                               {"no/such/new.png", "no/other/../such/./new.png"},
+                               {"hard.png", "soft.png"}}) {
         guardInputs(false);
         ASSERT_TRUE(planOutput("-o", folder / a));
         const Status second = planOutput("--json", folder / b);

@@ -92,10 +92,7 @@ RangeInput anyInput(Random& random, const InputRange& range)
     return i;
 }
 
-double apart(glm::dvec3 a, glm::dvec3 b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree;
-}
+double apart(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree; }
 
 using Shade = glm::vec3 (*)(const RangeInput&);
 using Truth = f64::cotan_frame (*)(glm::dvec3, glm::dvec3, glm::dvec3, glm::dvec2, glm::dvec2);
@@ -119,9 +116,8 @@ struct RangedForm {
 
 bool any(const RangeInput&) { return true; }
 
-#define COTAN_FUSED(NAME) \
-    [](const RangeInput& i) { return f32::NAME(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m); }
-#define COTAN_TOTAL(NAME) \
+#define COTAN_FUSED(NAME) [](const RangeInput& i) { return f32::NAME(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m); }
+#define COTAN_TOTAL(NAME)                                                                                              \
     [](const RangeInput& i) { return f32::cotan_apply(f32::NAME(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m); }
 
 const RangedForm kFusedForms[] = {
@@ -141,7 +137,9 @@ const RangedForm kTotalForms[] = {
     {"orthonormal", COTAN_TOTAL(cotan_frame_orthonormal), f64::cotan_frame_orthonormal, any},
     // Slopes whose squares floats hold.
     {"gradient", COTAN_TOTAL(cotan_frame_gradient), f64::cotan_frame_gradient,
-     [](const RangeInput& i) { return isWithin(i.slope(), {1e-17, 1e17}); }},
+     [](const RangeInput& i) {
+         return isWithin(i.slope(), {1e-17, 1e17});
+     }},
     {"exact", COTAN_TOTAL(cotan_frame_exact), f64::cotan_frame_exact, any},
 };
 

@@ -10,19 +10,17 @@
 namespace cotan {
 namespace {
 
-
 constexpr std::array kDifferenceFrames = {
-    Frame::cotangent,      Frame::cotangent2013,   Frame::nonperspective, Frame::paperFull,
-    Frame::paperNodet,     Frame::paperTranspose,  Frame::paperOrthogonal, Frame::unit,
-    Frame::orthonormal,    Frame::gradient,        Frame::exact,
+    Frame::cotangent,   Frame::cotangent2013,  Frame::nonperspective,  Frame::paperFull,
+    Frame::paperNodet,  Frame::paperTranspose, Frame::paperOrthogonal, Frame::unit,
+    Frame::orthonormal, Frame::gradient,       Frame::exact,
 };
 
 // Frames that are right for both y directions, all facings and mirrored uv: all but the one that
 // is kept as printed.
 constexpr std::array kSignCorrectFrames = {
-    Frame::cotangent,  Frame::nonperspective,  Frame::paperFull, Frame::paperNodet,
-    Frame::paperTranspose, Frame::paperOrthogonal, Frame::unit, Frame::orthonormal,
-    Frame::gradient,   Frame::exact,
+    Frame::cotangent,       Frame::nonperspective, Frame::paperFull,   Frame::paperNodet, Frame::paperTranspose,
+    Frame::paperOrthogonal, Frame::unit,           Frame::orthonormal, Frame::gradient,   Frame::exact,
 };
 
 TEST(Frame, everyNameIsFoundAgainAndNamesAreDistinct)
@@ -44,8 +42,8 @@ TEST(Frame, flatTexelChangesNothing)
     for (Frame frame : kDifferenceFrames)
         for (int i = 0; i < 50; ++i) {
             const AffinePatch p = randomPatch(random, i & 1);
-            const PixelCamera c = PixelCamera::lookAt(p.normal * 3.0 + random.direction(), {0, 0, 0},
-                                                      random.direction(), 800);
+            const PixelCamera c =
+                PixelCamera::lookAt(p.normal * 3.0 + random.direction(), {0, 0, 0}, random.direction(), 800);
             const auto d = screenDifferences(c, p, {0, 0, 0});
             EXPECT_LT(degreesBetween(shade(frame, p.normal, d, {0, 0, 1}), p.normal), 1e-12)
                 << name(frame); // a product with one and a normalisation
@@ -69,8 +67,7 @@ TEST(Frame, uniformScaleOfTheObjectChangesOnlyTheMetricFrame)
     Random random(2);
     for (Frame frame : kDifferenceFrames) {
         const AffinePatch p = randomPatch(random, false);
-        const PixelCamera c =
-            PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800, true);
+        const PixelCamera c = PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800, true);
         auto d = screenDifferences(c, p, {0, 0, 0});
         const glm::dvec3 m = tiltedTexel(random, 35);
         const glm::dvec3 before = shade(frame, p.normal, d, m);
@@ -91,14 +88,14 @@ TEST(Frame, rotatingTheSceneRotatesTheNormal)
     const glm::dmat3 r(glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0));
     for (Frame frame : kDifferenceFrames) {
         const AffinePatch p = randomPatch(random, true);
-        const auto d = screenDifferences(
-            PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
+        const auto d =
+            screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         auto turned = d;
         turned.dpdx = Vector3d(r * d.dpdx.raw());
         turned.dpdy = Vector3d(r * d.dpdy.raw());
         const glm::dvec3 m = tiltedTexel(random, 40);
-        EXPECT_LT(degreesBetween(r * shade(frame, p.normal, d, m), shade(frame, r * p.normal, turned, m)),
-                  1e-11) << name(frame);
+        EXPECT_LT(degreesBetween(r * shade(frame, p.normal, d, m), shade(frame, r * p.normal, turned, m)), 1e-11)
+            << name(frame);
     }
 }
 
@@ -107,8 +104,8 @@ TEST(Frame, mirroredUFlipsTheTangentOnly)
     Random random(4);
     for (Frame frame : kSignCorrectFrames) {
         const AffinePatch p = randomPatch(random, false);
-        auto d = screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800),
-                                   p, {0, 0, 0});
+        auto d =
+            screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         const auto f = makeFrame(frame, Covector3d(p.normal), d);
         d.duvdx.x = -d.duvdx.x;
         d.duvdy.x = -d.duvdy.x;
@@ -123,8 +120,8 @@ TEST(Frame, turningTheNormalRoundLeavesTheCotangentsAlone)
     Random random(5);
     for (Frame frame : {Frame::cotangent, Frame::gradient, Frame::exact}) {
         const AffinePatch p = randomPatch(random, false);
-        const auto d = screenDifferences(
-            PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
+        const auto d =
+            screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         const Covector3d n(glm::normalize(p.normal + random.direction() * 0.2));
         const auto f = makeFrame(frame, n, d);
         const auto g = makeFrame(frame, -n, d);
@@ -138,12 +135,12 @@ TEST(Frame, twoOptimisedPaperFormsAreTheSame)
     for (int i = 0; i < 200; ++i) {
         const AffinePatch p = randomPatch(random, i & 1);
         const auto d = screenDifferences(
-            PixelCamera::lookAt(p.normal * 3.0 + random.direction(), {0, 0, 0}, random.direction(), 800),
-            p, {0, 0, 0});
+            PixelCamera::lookAt(p.normal * 3.0 + random.direction(), {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         const glm::dvec3 m = tiltedTexel(random, 35);
         // The same products summed in the same order, except for terms multiplied by zero.
-        EXPECT_LT(degreesBetween(shade(Frame::paperNodet, p.normal, d, m),
-                                 shade(Frame::paperTranspose, p.normal, d, m)), 1e-12);
+        EXPECT_LT(
+            degreesBetween(shade(Frame::paperNodet, p.normal, d, m), shade(Frame::paperTranspose, p.normal, d, m)),
+            1e-12);
     }
 }
 
@@ -155,8 +152,8 @@ TEST(Frame, cotangentsArePerpendicularToTheInterpolatedNormal)
     for (Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact})
         for (int i = 0; i < 100; ++i) {
             const AffinePatch p = randomPatch(random, i & 1);
-            const auto d = screenDifferences(
-                PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
+            const auto d = screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p,
+                                             {0, 0, 0});
             const glm::dvec3 n = glm::normalize(p.normal + random.direction() * 0.9);
             const auto f = makeFrame(frame, Covector3d(n), d);
             EXPECT_LT(std::abs(glm::dot(f.t.raw(), n)), 1e-10) << name(frame);
@@ -171,8 +168,8 @@ TEST(Frame, encodeIsTheInverseOfApplyForSkewedFrames)
     for (Frame frame : kDifferenceFrames)
         for (int i = 0; i < 300; ++i) {
             const AffinePatch p = randomPatch(random, i & 1);
-            const auto d = screenDifferences(
-                PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
+            const auto d = screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p,
+                                             {0, 0, 0});
             const auto f = makeFrame(frame, Covector3d(p.normal), d);
             const glm::dvec3 m = tiltedTexel(random, random.range(0, 80));
             worst = std::max(worst, degreesBetween(encode(f, perturb(f, m)), m));
@@ -184,13 +181,12 @@ TEST(Frame, encodeIsTheInverseOfApplyForSkewedFrames)
 TEST(Frame, transposeIsNotTheInverseOfASkewedFrame)
 {
     const AffinePatch p = patchOf(kLayouts[3]);
-    const auto d = screenDifferences(
-        PixelCamera::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 200, true), p, {0, 0, 0});
+    const auto d = screenDifferences(PixelCamera::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 200, true), p, {0, 0, 0});
     const auto f = makeFrame(Frame::cotangent, Covector3d(p.normal), d);
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.5, 0.3, 1));
     const glm::dvec3 n = perturb(f, m).raw();
-    const glm::dvec3 byTranspose = glm::normalize(
-        glm::dvec3(glm::dot(f.t.raw(), n), glm::dot(f.b.raw(), n), glm::dot(f.n.raw(), n)));
+    const glm::dvec3 byTranspose =
+        glm::normalize(glm::dvec3(glm::dot(f.t.raw(), n), glm::dot(f.b.raw(), n), glm::dot(f.n.raw(), n)));
     EXPECT_GT(degreesBetween(byTranspose, m), 5);
 }
 
@@ -203,27 +199,25 @@ TEST(FrameBarA1, exactOnFlatPatchesFromEveryView)
         bool metric;
         double worst = 0, worstFloat = 0;
     };
-    std::array rows = {Row{Frame::paperFull, false}, Row{Frame::cotangent, false},
-                       Row{Frame::exact, false}, Row{Frame::gradient, true}};
+    std::array rows = {Row{Frame::paperFull, false}, Row{Frame::cotangent, false}, Row{Frame::exact, false},
+                       Row{Frame::gradient, true}};
     Random random(4);
     for (const Layout& layout : kLayouts)
         for (double tilt = 0; tilt <= 80; tilt += 5)
             for (int i = 0; i < 200; ++i) {
                 const AffinePatch p = patchOf(layout);
                 const PixelCamera c = viewAt(random, tilt, i & 1);
-                const auto d = screenDifferences(
-                    c, p, {random.range(-0.5, 0.5), random.range(-0.5, 0.5), 0});
+                const auto d = screenDifferences(c, p, {random.range(-0.5, 0.5), random.range(-0.5, 0.5), 0});
                 const glm::dvec3 m = tiltedTexel(random, 35);
                 for (Row& r : rows) {
                     const glm::dvec3 truth = r.metric ? truthE(p, m) : truthS(p, m);
                     r.worst = std::max(r.worst, degreesBetween(shade(r.frame, p.normal, d, m), truth));
-                    r.worstFloat = std::max(
-                        r.worstFloat, degreesBetween(shadeFloat(r.frame, p.normal, d, m), truth));
+                    r.worstFloat = std::max(r.worstFloat, degreesBetween(shadeFloat(r.frame, p.normal, d, m), truth));
                 }
             }
     for (const Row& r : rows) {
-        EXPECT_LT(r.worst, 1e-9) << name(r.frame);       // measured 1.2e-11
-        EXPECT_LT(r.worstFloat, 1e-4) << name(r.frame);  // measured 8.5e-6
+        EXPECT_LT(r.worst, 1e-9) << name(r.frame);      // measured 1.2e-11
+        EXPECT_LT(r.worstFloat, 1e-4) << name(r.frame); // measured 8.5e-6
     }
 }
 
@@ -242,8 +236,7 @@ TEST(FrameBarA2, squarePatchFramesMissStretchedUvByTheKnownAmount)
                 const glm::dvec3 truth = truthS(p, m);
                 if (degreesBetween(truth, p.normal) < 5)
                     continue;
-                const auto d = screenDifferences(
-                    c, p, {layout.a * u + layout.b * v, layout.c * u + layout.d * v, 0});
+                const auto d = screenDifferences(c, p, {layout.a * u + layout.b * v, layout.c * u + layout.d * v, 0});
                 sum += degreesBetween(shade(frame, p.normal, d, m), truth);
                 ++count;
             }
@@ -308,7 +301,8 @@ TEST(FrameBarA3, cotangentIsTheSameForAnyTwoSourcesOfDifferences)
     EXPECT_LT(worstFloat, 5e-4); // measured 1.3e-5
 }
 
-// The largest angle between what a frame makes of a texel from two eyes, the rows of the second picture running either way.
+// The largest angle between what a frame makes of a texel from two eyes, the rows of the second picture running either
+// way.
 double changeWithTheView(Frame frame)
 {
     Random random(21);
@@ -322,7 +316,8 @@ double changeWithTheView(Frame frame)
             do
                 eye = random.direction();
             while (glm::dot(eye, p.normal) < 0.2);
-            Differences<double> d = screenDifferences(PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800), p, {0, 0, 0});
+            Differences<double> d =
+                screenDifferences(PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800), p, {0, 0, 0});
             if (&s != seen && i % 2 == 1) {
                 d.dpdy = Vector3d(-d.dpdy.raw());
                 d.duvdy = -d.duvdy;
@@ -337,7 +332,7 @@ double changeWithTheView(Frame frame)
 TEST(FrameTable, saysWhichFramesDependOnTheView)
 {
     for (const FrameInfo& f : frames()) {
-        if (f.source == FrameSource::vertices) {
+        if (readsVertices(f.frame)) {
             EXPECT_FALSE(f.dependsOnView) << f.name; // no difference goes in
         } else if (f.dependsOnView) {
             EXPECT_GT(changeWithTheView(f.frame), 30) << f.name;
@@ -360,9 +355,10 @@ TEST(FrameBarA3, nonperspectiveDependsOnTheView)
             do
                 eye = random.direction();
             while (glm::dot(eye, p.normal) < 0.2);
-            r = shade(Frame::nonperspective, p.normal,
-                      screenDifferences(PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800), p,
-                                        {0, 0, 0}), m);
+            r = shade(
+                Frame::nonperspective, p.normal,
+                screenDifferences(PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800), p, {0, 0, 0}),
+                m);
         }
         sum += degreesBetween(result[0], result[1]);
     }
@@ -387,8 +383,7 @@ TEST(FrameBarA4, all24SignCombinationsAreRightForEverySignCorrectFrame)
     ASSERT_EQ(signCases().size(), 24u);
     for (Frame frame : kSignCorrectFrames)
         for (const SignCase& c : signCases())
-            EXPECT_EQ(shareRight(frame, c), 1)
-                << name(frame) << ", " << c.name();
+            EXPECT_EQ(shareRight(frame, c), 1) << name(frame) << ", " << c.name();
 }
 
 TEST(FrameBarA4, cotangent2013IsReversedInExactlyHalfOfThem)

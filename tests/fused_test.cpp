@@ -8,13 +8,11 @@
 namespace cotan {
 namespace {
 
-
 using Fused = glm::vec3 (*)(glm::vec3, glm::vec3, glm::vec3, glm::vec2, glm::vec2, glm::vec3);
 using Plain = f64::cotan_frame (*)(glm::dvec3, glm::dvec3, glm::dvec3, glm::dvec2, glm::dvec2);
 
 // The definition of the area-normalised scale, as a frame.
-f64::cotan_frame areaFrame(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::dvec2 duvdx,
-                           glm::dvec2 duvdy)
+f64::cotan_frame areaFrame(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::dvec2 duvdx, glm::dvec2 duvdy)
 {
     f64::cotan_frame f = f64::cotan_frame_cotangent(n, dpdx, dpdy, duvdx, duvdy);
     const double scale = 1 / std::sqrt(glm::length(glm::cross(f.t, f.b)));
@@ -54,22 +52,19 @@ Input soundInput(Random& random, bool mirrored, bool seenFromBehind, double scal
         return glm::dvec2(std::cos(degrees * kDegree), std::sin(degrees * kDegree)) * length;
     };
     const glm::dvec3 face = random.direction();
-    const glm::dvec3 x = glm::normalize(glm::cross(face, random.direction())),
-                     y = glm::cross(face, x);
+    const glm::dvec3 x = glm::normalize(glm::cross(face, random.direction())), y = glm::cross(face, x);
     const double start = random.range(0, 360);
     const glm::dvec2 p0 = turned(start, random.range(0.3, 1)),
                      p1 = turned(start + random.range(20, 160), random.range(0.3, 1));
     const double uvStart = random.range(0, 360), side = mirrored ? -1 : 1;
     const double away = random.range(0, 60) * kDegree;
-    const glm::dvec3 n =
-        face * std::cos(away) + (x * p0.y - y * p0.x) / glm::length(p0) * std::sin(away);
+    const glm::dvec3 n = face * std::cos(away) + (x * p0.y - y * p0.x) / glm::length(p0) * std::sin(away);
     Input i;
     i.n = glm::vec3(n * random.range(0.6, 1) * (seenFromBehind ? -1.0 : 1.0));
     i.dpdx = glm::vec3((x * p0.x + y * p0.y) * scale);
     i.dpdy = glm::vec3((x * p1.x + y * p1.y) * scale);
     i.duvdx = glm::vec2(turned(uvStart, random.range(0.3, 1)) * scale);
-    i.duvdy =
-        glm::vec2(turned(uvStart + side * random.range(20, 160), random.range(0.3, 1)) * scale);
+    i.duvdy = glm::vec2(turned(uvStart + side * random.range(20, 160), random.range(0.3, 1)) * scale);
     i.m = glm::vec3(tiltedTexel(random, 60));
     return i;
 }
@@ -181,8 +176,7 @@ TEST(Fused, degenerateInputGivesAUnitNormalAndTheInterpolatedOneWhereThereIsNoFr
                 Input i = soundInput(random, k & 1, k & 2, 1e-2);
                 d.spoil(i);
                 const glm::vec3 found = run(pair.fused, i);
-                ASSERT_NEAR(glm::length(found), 1, 1e-6)
-                    << pair.name << ", " << d.name; // NaN fails
+                ASSERT_NEAR(glm::length(found), 1, 1e-6) << pair.name << ", " << d.name; // NaN fails
                 if (d.plainNormal) {
                     // m.z may be negative nowhere here; the angle is a few roundings.
                     ASSERT_LT(degreesBetween(i.n, found), 1e-4) << pair.name << ", " << d.name;
@@ -207,8 +201,8 @@ TEST(Fused, theLimitsOfScaleAreInside)
     // limit.
     Random random(20);
     for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[3]})
-        for (const auto& [p, uv] : {std::pair(1e-6f, 1e-6f), std::pair(1e-9f, 1e-3f),
-                                    std::pair(1e5f, 1.0f), std::pair(1e-1f, 1e6f)})
+        for (const auto& [p, uv] :
+             {std::pair(1e-6f, 1e-6f), std::pair(1e-9f, 1e-3f), std::pair(1e5f, 1.0f), std::pair(1e-1f, 1e6f)})
             for (int k = 0; k < 500; ++k) {
                 Input i = soundInput(random, k & 1, k & 2, 1);
                 const glm::vec3 before = run(pair.fused, i);
@@ -218,8 +212,7 @@ TEST(Fused, theLimitsOfScaleAreInside)
                 i.dpdy *= p * up;
                 i.duvdx *= uv * up;
                 i.duvdy *= uv * up;
-                ASSERT_LT(degreesBetween(before, run(pair.fused, i)), 4e-3)
-                    << pair.name << " " << p << " " << uv;
+                ASSERT_LT(degreesBetween(before, run(pair.fused, i)), 4e-3) << pair.name << " " << p << " " << uv;
             }
 }
 
@@ -228,8 +221,7 @@ TEST(Fused, areaScaleSteepensSlopesByTheStatedFactor)
     // uv stretched a:1 on a square footprint: sqrt(a). Sheared by s: 1/cos(s), as
     // t = (1, 0), b = (-tan s, 1): L^2 = 1/cos^2, |t x b| = 1, so sqrt of that.
     const auto slope = [](Fused f, glm::vec2 duvdx, glm::vec2 duvdy) {
-        const glm::vec3 v =
-            f({0, 0, 1}, {0.01f, 0, 0}, {0, 0.01f, 0}, duvdx, duvdy, glm::vec3(0.3f, 0, 0.9f));
+        const glm::vec3 v = f({0, 0, 1}, {0.01f, 0, 0}, {0, 0.01f, 0}, duvdx, duvdy, glm::vec3(0.3f, 0, 0.9f));
         return std::hypot(double(v.x), double(v.y)) / double(v.z);
     };
     const auto factor = [&](glm::vec2 duvdx, glm::vec2 duvdy) {

@@ -125,13 +125,11 @@ TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
                             {{-1, -1, 0}, {1, 1, 0}},
                             {{0, 0, -1000}, {1, 1, 1000}}};
     for (const Bounds& box : boxes) {
-        for (const auto& [width, height] :
-             {std::pair(1280, 720), {100, 1000}, {3000, 200}, {1, 1}}) {
+        for (const auto& [width, height] : {std::pair(1280, 720), {100, 1000}, {3000, 200}, {1, 1}}) {
             const Camera camera = fitCamera(box, width, height);
             float largest = 0;
             for (int i = 0; i < 8; ++i) {
-                const glm::vec3 corner(i & 1 ? box.high.x : box.low.x,
-                                       i & 2 ? box.high.y : box.low.y,
+                const glm::vec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
                                        i & 4 ? box.high.z : box.low.z);
                 const glm::vec3 p = project(camera, float(width) / float(height), corner);
                 EXPECT_GT(p.z, 0);
@@ -243,9 +241,8 @@ TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesACorner)
     for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
         const std::size_t base = c / 3 * 3;
         const glm::vec3 a = mesh.positions[mesh.indices[base]];
-        const glm::vec3 face =
-            glm::normalize(glm::cross(mesh.positions[mesh.indices[base + 1]] - a,
-                                      mesh.positions[mesh.indices[base + 2]] - a));
+        const glm::vec3 face = glm::normalize(
+            glm::cross(mesh.positions[mesh.indices[base + 1]] - a, mesh.positions[mesh.indices[base + 2]] - a));
         const glm::vec3 normal = mesh.normals[mesh.indices[c]];
         EXPECT_NEAR(glm::dot(normal, face), 1, 1e-6);
         EXPECT_EQ(mesh.texcoords[0][mesh.indices[c]], texcoords[indices[c]]); // taken along

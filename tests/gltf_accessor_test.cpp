@@ -7,6 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "cotan/gltf/views.hpp"
 #include "cotan/scene/texture_uv.hpp"
 #include "gltf_edit_maker.hpp"
 
@@ -82,7 +83,8 @@ int stridedView(Gltf& g, const std::vector<T>& values, std::size_t components, s
 {
     std::vector<std::uint8_t> bytes(offset + values.size() / components * stride, 0x55);
     for (std::size_t i = 0; i < values.size(); ++i)
-        std::memcpy(bytes.data() + offset + i / components * stride + i % components * sizeof(T), &values[i], sizeof(T));
+        std::memcpy(bytes.data() + offset + i / components * stride + i % components * sizeof(T), &values[i],
+                    sizeof(T));
     return g.view(bytes);
 }
 
@@ -91,8 +93,9 @@ template<class T> void checkTexcoords(int componentType, bool normalized)
 {
     SCOPED_TRACE(testing::Message() << componentType << (normalized ? " normalised" : ""));
     const T most = std::numeric_limits<T>::max(), least = std::numeric_limits<T>::lowest();
-    const std::vector<T> stored = std::is_same_v<T, float> ? std::vector<T>{T(0.25f), T(3), T(1), T(2), T(5), T(7), T(11), T(13)}
-                                                           : std::vector<T>{T(1), most, least, T(3), T(0), T(most / 2), T(7), T(100)};
+    const std::vector<T> stored = std::is_same_v<T, float>
+        ? std::vector<T>{T(0.25f), T(3), T(1), T(2), T(5), T(7), T(11), T(13)}
+        : std::vector<T>{T(1), most, least, T(3), T(0), T(most / 2), T(7), T(100)};
     const std::size_t size = 2 * sizeof(T), stride = (size + 4 + 3) / 4 * 4;
     Gltf g = square();
     addNormalMap(g);
@@ -137,18 +140,21 @@ template<class Index> void checkSparse(int indexType, bool base)
     g.root["bufferViews"][std::size_t(view)]["byteStride"] = 8;
     const int indices = g.view(std::vector<Index>{9, 9, 9, 9, 0, 2, 3});
     const int values = g.view(std::vector<std::int16_t>{9, 9, 9, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-    json accessor = {{"componentType", kShort},
-                     {"type", "VEC3"},
-                     {"count", 4},
-                     {"sparse",
-                      {{"count", 3},
-                       {"indices", {{"bufferView", indices}, {"byteOffset", 4 * sizeof(Index)}, {"componentType", indexType}}},
-                       {"values", {{"bufferView", values}, {"byteOffset", 8}}}}}};
+    json accessor = {
+        {"componentType", kShort},
+        {"type", "VEC3"},
+        {"count", 4},
+        {"sparse",
+         {{"count", 3},
+          {"indices", {{"bufferView", indices}, {"byteOffset", 4 * sizeof(Index)}, {"componentType", indexType}}},
+          {"values", {{"bufferView", values}, {"byteOffset", 8}}}}}};
     if (base)
         accessor["bufferView"] = view;
     primitive(g)["attributes"]["POSITION"] = g.accessor(accessor);
-    const std::vector<glm::vec3> expected = {{1, 2, 3}, base ? glm::vec3(20, 21, 22) : glm::vec3(0), {4, 5, 6}, {7, 8, 9}};
-    for (const auto& order : {kSquareIndices, std::vector<std::uint16_t>{3, 1, 1}, std::vector<std::uint16_t>{2, 3, 3}}) {
+    const std::vector<glm::vec3> expected = {
+        {1, 2, 3}, base ? glm::vec3(20, 21, 22) : glm::vec3(0), {4, 5, 6}, {7, 8, 9}};
+    for (const auto& order :
+         {kSquareIndices, std::vector<std::uint16_t>{3, 1, 1}, std::vector<std::uint16_t>{2, 3, 3}}) {
         primitive(g)["indices"] = g.accessor(order, "SCALAR", kUShort);
         const auto corners = both(g);
         ASSERT_EQ(corners.size(), order.size());
@@ -243,7 +249,38 @@ TEST(GltfAccessor, aPrimitiveWithoutPositionHasAnEmptyGeometry)
     EXPECT_TRUE(geometry->normals.empty());
 }
 
+// The loader reads two uv sets and looks at no other; the editor reads the one that the normal map names.
+TEST(GltfAccessor, anotherUvSetThanTheFirstTwoIsCheckedBeforeItIsRead)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["materials"][0]["normalTexture"]["texCoord"] = 2;
+    primitive(g)["attributes"]["TEXCOORD_2"] = g.floats({0, 1, 2, 3}, "SCALAR");
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    COTAN_REFUSED(gltfGeometry(*document, 0, 0),
+                  "meshes[0].primitives[0].TEXCOORD_2: expected accessors[4] of type VEC2, found SCALAR");
+}
+
 // ---- materials and nodes ------------------------------------------------------------------------
+
+TEST(GltfSampler, isReadAsItWasWritten)
+{
+    for (const Wrap u : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+        for (const Wrap v : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+            for (const Filter magnify : {Filter::nearest, Filter::linear})
+                for (const Filter minify : {Filter::nearest, Filter::linear})
+                    for (const MipFilter mip : {MipFilter::none, MipFilter::nearest, MipFilter::linear}) {
+                        const Sampler written{u, v, magnify, minify, mip};
+                        const Sampler read = gltf::readSampler(gltf::writeSampler(written));
+                        EXPECT_EQ(read.wrapU, u);
+                        EXPECT_EQ(read.wrapV, v);
+                        EXPECT_EQ(read.magnify, magnify);
+                        EXPECT_EQ(read.minify, minify);
+                        EXPECT_EQ(read.mip, mip);
+                    }
+}
 
 TEST(GltfSampler, everyModeOfEachAxisAndFilterHasItsOwnMeaning)
 {
@@ -277,16 +314,16 @@ TEST(GltfSlots, everyMapGoesToItsOwnSlot)
     for (int i = 0; i < 5; ++i) {
         const std::string row = std::string(1, '\0') + std::string(3, char(10 * i + 1));
         const Bytes png = makePng({.width = 1, .height = 1, .rows = row});
-        g.add("images", {{"uri", "data:image/png;base64,"
-                              + base64({reinterpret_cast<const char*>(png.data()), png.size()})}});
+        g.add("images",
+              {{"uri", "data:image/png;base64," + base64({reinterpret_cast<const char*>(png.data()), png.size()})}});
         g.add("textures", {{"source", i}});
     }
-    g.root["materials"][0] = {{"pbrMetallicRoughness",
-                               {{"baseColorTexture", {{"index", 4}, {"texCoord", 1}}},
-                                {"metallicRoughnessTexture", {{"index", 3}}}}},
-                              {"normalTexture", {{"index", 2}, {"scale", 0.75}, {"texCoord", 1}}},
-                              {"occlusionTexture", {{"index", 1}, {"strength", 0.25}}},
-                              {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}};
+    g.root["materials"][0] = {
+        {"pbrMetallicRoughness",
+         {{"baseColorTexture", {{"index", 4}, {"texCoord", 1}}}, {"metallicRoughnessTexture", {{"index", 3}}}}},
+        {"normalTexture", {{"index", 2}, {"scale", 0.75}, {"texCoord", 1}}},
+        {"occlusionTexture", {{"index", 1}, {"strength", 0.25}}},
+        {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}};
     COTAN_LOADED(scene, g.load());
     const Material& m = scene.materials.at(0);
     const auto value = [&](const Texture& t) { return int(scene.images.at(std::size_t(t.image)).bytes8()[0]); };
@@ -313,8 +350,10 @@ TEST(GltfPlacing, chainsOfTurnedAndStretchedNodesMultiplyFromTheRoot)
         const glm::dvec3 v = axis * std::sin(angle / 2);
         return json{v.x, v.y, v.z, std::cos(angle / 2)};
     };
-    g.root["nodes"][0] = {{"mesh", 0}, {"translation", {1, -2, 3}}, {"rotation", quaternion(0.7)}, {"scale", {2, -3, 5}}};
-    g.add("nodes", {{"children", {0}}, {"translation", {-7, 11, 13}}, {"rotation", quaternion(-1.9)}, {"scale", {0.5, 4, 1.5}}});
+    g.root["nodes"][0] = {
+        {"mesh", 0}, {"translation", {1, -2, 3}}, {"rotation", quaternion(0.7)}, {"scale", {2, -3, 5}}};
+    g.add("nodes",
+          {{"children", {0}}, {"translation", {-7, 11, 13}}, {"rotation", quaternion(-1.9)}, {"scale", {0.5, 4, 1.5}}});
     g.root["scenes"][0]["nodes"] = {1};
     COTAN_LOADED(scene, g.load());
     const auto local = [&](glm::dvec3 t, double angle, glm::dvec3 s) {
@@ -346,11 +385,15 @@ TEST(GltfSkin, inverseBindMatricesMayStandBehindAnOffset)
     std::vector<float> matrices(4, 77.0f); // passed over
     for (const float shift : {100.0f, 5.0f})
         matrices.insert(matrices.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, shift, 0, 0, 1});
-    const int bind = g.accessor({{"bufferView", g.view(matrices)}, {"byteOffset", 16}, {"componentType", kFloat}, {"type", "MAT4"}, {"count", 2}});
+    const int bind = g.accessor({{"bufferView", g.view(matrices)},
+                                 {"byteOffset", 16},
+                                 {"componentType", kFloat},
+                                 {"type", "MAT4"},
+                                 {"count", 2}});
     primitive(g)["attributes"]["JOINTS_0"] =
         g.accessor(std::vector<std::uint16_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUShort);
-    primitive(g)["attributes"]["WEIGHTS_0"] =
-        g.accessor(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0}, "VEC4", kUByte, true);
+    primitive(g)["attributes"]["WEIGHTS_0"] = g.accessor(
+        std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0}, "VEC4", kUByte, true);
     g.add("nodes", {{"translation", {0, 1, 0}}});
     g.add("nodes", {{"translation", {0, 2, 0}}});
     g.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", bind}});
@@ -368,8 +411,7 @@ TEST(GltfSkin, weightsAreSharesOfTheirSum)
     Gltf g = square();
     primitive(g)["attributes"]["JOINTS_0"] =
         g.accessor(std::vector<std::uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", kUByte);
-    primitive(g)["attributes"]["WEIGHTS_0"] =
-        g.floats({0.1f, 0.3f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    primitive(g)["attributes"]["WEIGHTS_0"] = g.floats({0.1f, 0.3f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
     g.add("nodes", {{"translation", {8, 0, 0}}});
     g.add("nodes", {{"translation", {0, 4, 0}}});
     g.add("skins", {{"joints", {1, 2}}});
@@ -392,7 +434,8 @@ TEST(GltfMorph, eachTargetHasItsOwnWeight)
 // The corners of a grid of signed bytes are up to 0.0069 off, and are left alone.
 TEST(GltfNormals, lengthsWithinOneHundredthAreUnit)
 {
-    for (const auto& [length, said] : {std::pair(1.008f, false), std::pair(0.992f, false), std::pair(1.05f, true), std::pair(0.95f, true)}) {
+    for (const auto& [length, said] :
+         {std::pair(1.008f, false), std::pair(0.992f, false), std::pair(1.05f, true), std::pair(0.95f, true)}) {
         Gltf g = square();
         std::vector<float> normals = kSquareNormals;
         normals[2] = length;

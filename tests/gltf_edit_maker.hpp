@@ -49,8 +49,7 @@ inline std::vector<std::string> elements(const ReadBack& model, int accessor, st
     const std::size_t stride = v.value("byteStride", size);
     std::vector<std::string> out;
     for (std::size_t i = 0; i < a["count"]; ++i)
-        out.push_back(model.buffer.substr(
-            v.value("byteOffset", 0u) + a.value("byteOffset", 0u) + i * stride, size));
+        out.push_back(model.buffer.substr(v.value("byteOffset", 0u) + a.value("byteOffset", 0u) + i * stride, size));
     return out;
 }
 

@@ -25,8 +25,7 @@ ReadBack withTangents(const TemporaryFolder& folder, const std::string& text,
 TEST(GltfTangents, addNothingElseWhereCornersAgree)
 {
     const TemporaryFolder folder;
-    const ReadBack out =
-        withTangents(folder, square().text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
+    const ReadBack out = withTangents(folder, square().text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_EQ(out.root["accessors"].size(), 5u); // one more
     EXPECT_EQ(shortsOf(out, p["indices"]), kSquareIndices);
@@ -39,8 +38,7 @@ TEST(GltfTangents, copyOnlyTheVertexWhoseCornersDiffer)
     Gltf g = square();
     primitive(g)["mode"] = 4; // said though it is the default: stays
     const TemporaryFolder folder;
-    const ReadBack out =
-        withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, -1, 1})}}, 1);
+    const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, -1, 1})}}, 1);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_EQ(shortsOf(out, p["indices"]), (std::vector<std::uint16_t>{0, 1, 2, 0, 4, 3}));
     std::vector<float> positions = kSquare;
@@ -65,8 +63,10 @@ void expectIndexType(std::size_t vertices, int before, int after)
         indices = g.accessor(std::vector<std::uint8_t>(order.begin(), order.end()), "SCALAR", kUByte);
     else
         indices = g.accessor(std::vector<std::uint16_t>(order.begin(), order.end()), "SCALAR", kUShort);
-    g.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", g.floats(positions, "VEC3")}, {"NORMAL", g.floats(normals, "VEC3")}}},
-                                      {"indices", indices}}}}});
+    g.add("meshes",
+          {{"primitives",
+            {{{"attributes", {{"POSITION", g.floats(positions, "VEC3")}, {"NORMAL", g.floats(normals, "VEC3")}}},
+              {"indices", indices}}}}});
     g.add("nodes", {{"mesh", 0}});
     const TemporaryFolder folder;
     const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, -1, 1, 1})}}, 1);
@@ -99,7 +99,8 @@ TEST(GltfTangents, viewsKeepTheirAlignment)
         {{"bufferView", positions}, {"byteOffset", 2}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
     const TemporaryFolder folder;
     const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
-    const json& accessor = out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
+    const json& accessor =
+        out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
     const std::size_t offset = out.root["bufferViews"][accessor["bufferView"].get<int>()].value("byteOffset", 0u)
         + accessor.value("byteOffset", 0u);
     EXPECT_EQ(offset % 4, 0u) << "floats begin at multiples of four bytes";
@@ -113,8 +114,8 @@ TEST(GltfTangents, copyAttributesOfAnyType)
     json& p = primitive(g);
     p["attributes"]["_PART"] = g.accessor(std::vector<std::uint8_t>{7, 8, 9, 10}, "SCALAR", kUByte);
     g.root["bufferViews"].back()["byteLength"] = 4;
-    p["attributes"]["JOINTS_0"] = g.accessor(
-        std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
+    p["attributes"]["JOINTS_0"] =
+        g.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
     p["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
     const int places = g.view(std::vector<std::uint16_t>{1, 2});
     const int values = g.view(std::vector<float>{0, 0, 5, 0, 0, 6});
@@ -154,9 +155,8 @@ TEST(GltfTangents, primitivesThatShareAttributesGoOnSharing)
     second["indices"] = g.accessor(std::vector<std::uint16_t>{0, 2, 3}, "SCALAR", kUShort);
     g.root["meshes"][0]["primitives"].push_back(second);
     const TemporaryFolder folder;
-    const ReadBack out = withTangents(folder, g.text(),
-                                      {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})},
-                                       {0, 1, cornersOf({1, -1, 1})}}, 1);
+    const ReadBack out =
+        withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}, {0, 1, cornersOf({1, -1, 1})}}, 1);
     const json& made = out.root["meshes"][0]["primitives"];
     EXPECT_EQ(made[0]["attributes"], made[1]["attributes"]);
     EXPECT_EQ(shortsOf(out, made[1]["indices"]), (std::vector<std::uint16_t>{0, 4, 3}));
@@ -165,12 +165,10 @@ TEST(GltfTangents, primitivesThatShareAttributesGoOnSharing)
 TEST(GltfTangents, stripsBecomeLists)
 {
     Gltf g = square();
-    primitive(g)["indices"] =
-        g.accessor(std::vector<std::uint16_t>{1, 2, 0, 3}, "SCALAR", kUShort);
+    primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{1, 2, 0, 3}, "SCALAR", kUShort);
     primitive(g)["mode"] = 5;
     const TemporaryFolder folder;
-    const ReadBack out =
-        withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
+    const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_FALSE(p.contains("mode"));
     // The second triangle of a strip is turned round: (2, 3, 0), as (1, 2, 0) seen from +z.
@@ -194,8 +192,7 @@ TEST(GltfTangents, refuseCompressedGeometry)
 {
     const TemporaryFolder folder;
     Gltf g = square();
-    primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
-                                                                {"attributes", json::object()}};
+    primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", json::object()}};
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;
     const GltfCornerTangents t{0, 0, cornersOf({1, 1, 1, 1, 1, 1})};
@@ -219,8 +216,8 @@ TEST(GltfTangents, droppedOnesLeaveInterleavedVertices)
     const int view = g.view(rows);
     g.root["bufferViews"][view]["byteStride"] = 40;
     const auto column = [&](std::size_t offset, const char* type) {
-        return g.accessor({{"bufferView", view}, {"byteOffset", offset}, {"componentType", kFloat},
-                           {"count", 4}, {"type", type}});
+        return g.accessor(
+            {{"bufferView", view}, {"byteOffset", offset}, {"componentType", kFloat}, {"count", 4}, {"type", type}});
     };
     primitive(g)["attributes"]["POSITION"] = column(0, "VEC3");
     primitive(g)["attributes"]["TANGENT"] = column(12, "VEC4");
@@ -243,8 +240,7 @@ TEST(GltfTangents, droppedOnesLeaveInterleavedVertices)
 TEST(GltfTangents, droppedOnesLeaveMorphTargetsToo)
 {
     Gltf g = square();
-    primitive(g)["attributes"]["TANGENT"] =
-        g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
     primitive(g)["targets"] = {{{"TANGENT", g.floats(std::vector<float>(12, 0), "VEC3")}}};
     const TemporaryFolder folder;
     auto document = openText(folder, g.text());
@@ -256,6 +252,19 @@ TEST(GltfTangents, droppedOnesLeaveMorphTargetsToo)
     EXPECT_FALSE(target.contains("TANGENT"));
     EXPECT_EQ(target.size(), 1u) << "glTF asks for one attribute at least";
     EXPECT_TRUE(cotan::loadGltf(folder.path / "out.glb"));
+}
+
+TEST(GltfTangents, droppedOnesMayBeAllThatAPrimitiveHas)
+{
+    Gltf g = square();
+    primitive(g)["attributes"] = {{"TANGENT", g.floats(std::vector<float>(16, 1), "VEC4")}};
+    primitive(g)["targets"] = {{{"TANGENT", g.floats(std::vector<float>(12, 0), "VEC3")}}};
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(cotan::dropGltfTangents(*document, 0, 0));
+    const auto& target = document->root["meshes"][0]["primitives"][0]["targets"][0];
+    EXPECT_EQ(document->root["accessors"][target.at("POSITION").get<std::size_t>()]["count"], 4);
 }
 
 } // namespace

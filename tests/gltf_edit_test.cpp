@@ -20,8 +20,7 @@ Gltf richSquare()
     g.root["accessors"][times]["max"] = {1};
     const int turns = g.floats({0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
     g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}},
-                             {"channels", {{{"sampler", 0},
-                                            {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
     return g;
 }
 
@@ -53,10 +52,9 @@ TEST_P(GltfUnchanged, keepsTheJsonAndTheBytes)
     EXPECT_EQ(withoutBytes(out.root), withoutBytes(g.root));
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, GltfUnchanged, testing::Values("out.glb", "out.gltf"),
-                         [](const auto& name) {
-                             return std::filesystem::path(name.param).extension().string().substr(1);
-                         });
+INSTANTIATE_TEST_SUITE_P(Formats, GltfUnchanged, testing::Values("out.glb", "out.gltf"), [](const auto& name) {
+    return std::filesystem::path(name.param).extension().string().substr(1);
+});
 
 TEST(GltfEdit, membersKeepTheirOrder)
 {
@@ -73,12 +71,10 @@ TEST(GltfEdit, membersKeepTheirOrder)
 TEST(GltfEdit, indicesFollowWhenSomethingIsRemoved)
 {
     Gltf g = square();
-    primitive(g)["attributes"]["TANGENT"] =
-        g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
     const int times = g.floats({0, 1}, "SCALAR");
     const int turns = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
-    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}},
-                             {"channels", json::array()}}};
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}}, {"channels", json::array()}}};
     const TemporaryFolder folder;
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;

@@ -35,8 +35,8 @@ TEST(GltfWrite, glbHoldsImagesFromFiles)
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_EQ(filesIn(other.path), 1u);
     EXPECT_EQ(written->bytesAfter, fs::file_size(other.path / "out.glb"));
-    EXPECT_EQ(written->bytesBefore, fs::file_size(folder.path / "model.gltf")
-                  + fs::file_size(folder.path / "model.bin")
+    EXPECT_EQ(written->bytesBefore,
+              fs::file_size(folder.path / "model.gltf") + fs::file_size(folder.path / "model.bin")
                   + fs::file_size(folder.path / "maps/bumps 1.png"));
     COTAN_LOADED(scene, cotan::loadGltf(other.path / "out.glb"));
     EXPECT_EQ(scene.images[0].width, 2);

@@ -55,7 +55,8 @@ Scene twoPatches()
     b.unlit = true;
     b.alphaMode = AlphaMode::blend;
     b.baseColorMap.image = 0;
-    scene.instances = {{"first", 0, glm::mat4(1)}, {"mirrored", 1, glm::scale(glm::translate(glm::mat4(1), {1, 2, 3}), {-1, 2, 0.5f})}};
+    scene.instances = {{"first", 0, glm::mat4(1)},
+                       {"mirrored", 1, glm::scale(glm::translate(glm::mat4(1), {1, 2, 3}), {-1, 2, 0.5f})}};
     return scene;
 }
 

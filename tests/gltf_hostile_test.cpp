@@ -1,8 +1,9 @@
 // Hostile input that the shared data do not have: made here, each wrong in one way.
+#include <chrono>
 #include <filesystem>
 #include <limits>
 
-#include "gltf_maker.hpp"
+#include "gltf_edit_maker.hpp"
 
 using namespace cotan;
 using namespace cotan::test;
@@ -83,6 +84,37 @@ TEST(GltfHostile, bracketsInStringsAreNotNesting)
     EXPECT_EQ(scene.meshes.size(), 1u);
 }
 
+// JSON leaves open what two members of one name mean; here the last counts, be the object small or large.
+TEST(GltfHostile, theLastOfMembersOfOneNameCounts)
+{
+    for (const int others : {0, 100}) {
+        std::string members;
+        for (int i = 0; i < others; ++i)
+            members += "\"extra" + std::to_string(i) + "\":" + std::to_string(i) + ",";
+        std::string text = square().text();
+        const std::string node = "{\"mesh\":0}";
+        ASSERT_NE(text.find(node), std::string::npos);
+        text.replace(text.find(node), node.size(), "{\"name\":\"first\"," + members + "\"mesh\":0,\"name\":\"last\"}");
+        COTAN_LOADED(scene, loadText(text));
+        EXPECT_EQ(scene.instances.at(0).name, "last") << others;
+    }
+}
+
+// An object in which each new member is compared with all before it would take minutes here.
+TEST(GltfHostile, aMillionMembersOfAnObjectAreReadAtOnce)
+{
+    std::string text = square().text();
+    std::string extras;
+    for (int i = 0; i < 1000000; ++i)
+        extras += ",\"" + std::to_string(i) + "\":0";
+    text.insert(text.size() - 1, ",\"extras\":{" + extras.substr(1) + "}");
+    const TemporaryFolder folder;
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(openText(folder, text));
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(seconds.count(), 60); // about 1 s, and ten times that with sanitizers
+}
+
 // ---- types ----------------------------------------------------------------------------------
 
 struct Wrong {
@@ -126,6 +158,14 @@ TEST(GltfHostile, wrongTypesAndRangesAreNamed)
         {"/bufferViews/0/byteLength", 9007199254740991, "bufferViews[0]"},
         {"/bufferViews/0/byteStride", 8, "expected a stride of at least 12 bytes"},
         {"/bufferViews/0/byteStride", 252, "accessors[0]"},
+        {"/bufferViews/0/byteStride", 13, "bufferViews[0].byteStride: expected a multiple of 4, found 13"},
+        {"/cameras", {{{"type", "perspective"}}}, "cameras[0].perspective: missing"},
+        {"/cameras",
+         {{{"type", "orthographic"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}},
+         "cameras[0].orthographic: missing"},
+        {"/extensions/KHR_lights_punctual/lights",
+         {{{"type", "spot"}}},
+         "extensions.KHR_lights_punctual.lights[0].spot: missing"},
         {"/materials/0/alphaMode", "SOLID", "materials[0].alphaMode"},
         {"/materials/0/normalTexture", {{"index", 0}}, "normalTexture.index"},
         {"/materials/0/doubleSided", 1, "materials[0].doubleSided: expected true or false"},
@@ -200,10 +240,9 @@ TEST(GltfHostile, sparseIndicesHaveToRise)
 {
     for (const auto& order : {std::vector<std::uint8_t>{1, 1}, std::vector<std::uint8_t>{3, 2}}) {
         Gltf g = square();
-        g.root["accessors"][0]["sparse"] = {
-            {"count", 2},
-            {"indices", {{"bufferView", g.view(order)}, {"componentType", kUByte}}},
-            {"values", {{"bufferView", g.view(std::vector<float>(6, 1.0f))}}}};
+        g.root["accessors"][0]["sparse"] = {{"count", 2},
+                                            {"indices", {{"bufferView", g.view(order)}, {"componentType", kUByte}}},
+                                            {"values", {{"bufferView", g.view(std::vector<float>(6, 1.0f))}}}};
         COTAN_REFUSED(g.load(), "sparse.indices[1]: expected an index above " + std::to_string(order[0]));
     }
 }
@@ -219,6 +258,14 @@ TEST(GltfHostile, attributesOfTheWrongKindAreRefused)
     g = square();
     primitive(g)["indices"] = g.floats({0, 1, 2}, "SCALAR");
     COTAN_REFUSED(g.load(), "expected unsigned integers");
+}
+
+// Zeros, says the specification; but no triangle has three corners at vertex 0.
+TEST(GltfHostile, indicesWithoutDataAreRefused)
+{
+    Gltf g = square();
+    primitive(g)["indices"] = g.accessor({{"componentType", kUShort}, {"type", "SCALAR"}, {"count", 6}});
+    COTAN_REFUSED(g.load(), "meshes[0].primitives[0].indices: expected accessors[4] with a bufferView, found none");
 }
 
 TEST(GltfHostile, projectiveMatricesAreRefused)
@@ -267,8 +314,7 @@ TEST(GltfHostile, accessorsWithoutViewCannotTakeAllMemory)
 {
     Gltf g = square();
     primitive(g)["attributes"] = {
-        {"POSITION",
-         g.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4000000000u}})}};
+        {"POSITION", g.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4000000000u}})}};
     COTAN_REFUSED(g.load(), "the limit is");
     // 30 million of them stay below every limit on counts.
     g.root["accessors"].back()["count"] = 30'000'000;
@@ -308,11 +354,12 @@ TEST(GltfHostile, primitivesThatShareAnAccessorTakeTheirOwnPartOfIt)
     json primitives = json::array();
     for (std::uint32_t part = 0; part < kParts; ++part)
         primitives.push_back({{"attributes", attributes},
-                              {"indices", g.accessor({{"bufferView", view},
-                                                      {"byteOffset", 12 * part},
-                                                      {"componentType", kUInt},
-                                                      {"type", "SCALAR"},
-                                                      {"count", 3}})}});
+                              {"indices",
+                               g.accessor({{"bufferView", view},
+                                           {"byteOffset", 12 * part},
+                                           {"componentType", kUInt},
+                                           {"type", "SCALAR"},
+                                           {"count", 3}})}});
     g.add("meshes", {{"primitives", primitives}});
     g.add("nodes", {{"mesh", 0}});
     LoadLimits limits;
@@ -383,9 +430,8 @@ TEST(GltfHostile, nothingOutsideTheFolderIsOpened)
     fs::create_symlink("../secret.bin", folder.path / "model" / "link.bin");
     fs::create_directory_symlink("..", folder.path / "model" / "up");
     for (const std::string& uri :
-         {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
-          std::string("..%2Fsecret.bin"), std::string("x/../../secret.bin"),
-          std::string("link.bin"), std::string("up/secret.bin"),
+         {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), std::string("..%2Fsecret.bin"),
+          std::string("x/../../secret.bin"), std::string("link.bin"), std::string("up/secret.bin"),
           (folder.path / "secret.bin").string(), "file://" + (folder.path / "secret.bin").string(),
           std::string("http://localhost/secret.bin"), std::string("..\\secret.bin")}) {
         g.root["buffers"] = {{{"byteLength", buffer.size()}, {"uri", uri}}};
@@ -423,11 +469,9 @@ TEST(GltfHostile, whatIsNoFileIsAnErrorOfOneLine)
 
 TEST(GltfHostile, dataUrisThatDoNotDecodeAreRefused)
 {
-    for (const char* const uri :
-         {"data:application/octet-stream;base64,A", "data:application/octet-stream;base64,A*==",
-          "data:application/octet-stream,AAAA", "data:", "data:;;base64,AAAA"}) {
-        const json root = {{"asset", {{"version", "2.0"}}},
-                           {"buffers", {{{"byteLength", 1}, {"uri", uri}}}}};
+    for (const char* const uri : {"data:application/octet-stream;base64,A", "data:application/octet-stream;base64,A*==",
+                                  "data:application/octet-stream,AAAA", "data:", "data:;;base64,AAAA"}) {
+        const json root = {{"asset", {{"version", "2.0"}}}, {"buffers", {{{"byteLength", 1}, {"uri", uri}}}}};
         COTAN_REFUSED(loadText(root.dump()), "buffers[0].uri");
     }
 }

@@ -27,8 +27,7 @@ inline std::string base64(const std::string& bytes)
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t group = 0;
         for (std::size_t k = 0; k < 3; ++k)
-            group =
-                group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
         for (std::size_t k = 0; k < 4; ++k)
             text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
     }
@@ -55,8 +54,7 @@ public:
     std::filesystem::path write(const std::string& name, const std::string& content) const
     {
         std::filesystem::create_directories((path / name).parent_path());
-        std::filesystem::remove(path
-                                / name); // overwriting makes some file systems wait for the disk
+        std::filesystem::remove(path / name); // overwriting makes some file systems wait for the disk
         std::ofstream(path / name, std::ios::binary) << content;
         return path / name;
     }
@@ -78,14 +76,7 @@ inline std::string word(std::uint32_t value)
 }
 
 // Component types of glTF.
-enum : int {
-    kByte = 5120,
-    kUByte = 5121,
-    kShort = 5122,
-    kUShort = 5123,
-    kUInt = 5125,
-    kFloat = 5126
-};
+enum : int { kByte = 5120, kUByte = 5121, kShort = 5122, kUShort = 5123, kUInt = 5125, kFloat = 5126 };
 
 // A 2 x 2 PNG of the colour (128, 128, 255).
 inline std::string flatPng()
@@ -117,12 +108,9 @@ struct Gltf {
     }
 
     template<class T>
-    int accessor(const std::vector<T>& values, const std::string& type, int componentType,
-                 bool normalized = false)
+    int accessor(const std::vector<T>& values, const std::string& type, int componentType, bool normalized = false)
     {
-        const std::size_t size = type == "SCALAR" ? 1
-            : type == "MAT4"                      ? 16
-                                                  : std::size_t(type.back() - '0');
+        const std::size_t size = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : std::size_t(type.back() - '0');
         return accessor({{"bufferView", view(values)},
                          {"componentType", componentType},
                          {"type", type},
@@ -130,10 +118,7 @@ struct Gltf {
                          {"normalized", normalized}});
     }
 
-    int floats(const std::vector<float>& values, const std::string& type)
-    {
-        return accessor(values, type, kFloat);
-    }
+    int floats(const std::vector<float>& values, const std::string& type) { return accessor(values, type, kFloat); }
 
     int add(const char* collection, json item)
     {
@@ -146,15 +131,12 @@ struct Gltf {
     {
         json whole = root;
         if (!bytes.empty())
-            whole["buffers"] = {{{"byteLength", bytes.size()},
-                                 {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+            whole["buffers"] = {
+                {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
         return whole.dump();
     }
 
-    Result<Scene> load(const LoadLimits& limits = {}) const
-    {
-        return loadText(text(), "model.gltf", limits);
-    }
+    Result<Scene> load(const LoadLimits& limits = {}) const { return loadText(text(), "model.gltf", limits); }
 };
 
 // Positions of a unit square in xy, counter-clockwise seen from +z.
@@ -175,8 +157,7 @@ inline Gltf square()
     const int indices = g.accessor(kSquareIndices, "SCALAR", kUShort);
     g.add("materials", {{"name", "first"}});
     g.add("meshes",
-          {{"name", "square"},
-           {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}});
+          {{"name", "square"}, {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}});
     g.add("nodes", {{"mesh", 0}});
     g.add("scenes", {{"nodes", {0}}});
     return g;
@@ -212,17 +193,16 @@ inline void expectNear(const glm::vec3& a, const glm::vec3& b)
 } // namespace cotan::test
 
 // The loaded scene, or the end of the test with the reader's message.
-#define COTAN_LOADED(name, result)                                                                 \
-    auto name##Result = (result);                                                                  \
-    ASSERT_TRUE(name##Result) << name##Result.error().message;                                     \
+#define COTAN_LOADED(name, result)                                                                                     \
+    auto name##Result = (result);                                                                                      \
+    ASSERT_TRUE(name##Result) << name##Result.error().message;                                                         \
     auto& name = *name##Result
 
-#define COTAN_REFUSED(result, word)                                                                \
-    do {                                                                                           \
-        const auto refused = (result);                                                             \
-        ASSERT_FALSE(refused);                                                                     \
-        EXPECT_EQ(refused.error().kind, cotan::ErrorKind::input);                                  \
-        EXPECT_NE(refused.error().message.find(word), std::string::npos)                           \
-            << refused.error().message;                                                            \
-        EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);                          \
+#define COTAN_REFUSED(result, word)                                                                                    \
+    do {                                                                                                               \
+        const auto refused = (result);                                                                                 \
+        ASSERT_FALSE(refused);                                                                                         \
+        EXPECT_EQ(refused.error().kind, cotan::ErrorKind::input);                                                      \
+        EXPECT_NE(refused.error().message.find(word), std::string::npos) << refused.error().message;                   \
+        EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);                                              \
     } while (false)

@@ -16,8 +16,7 @@ TEST(GltfNormals, missingOnesAreFlatAndUnwelded)
     // The second triangle is folded up by a right angle about the edge that they share.
     primitive(g)["attributes"]["POSITION"] = g.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
     primitive(g)["attributes"].erase("NORMAL");
-    primitive(g)["indices"] =
-        g.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 3, 1}, "SCALAR", kUShort);
+    primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 3, 1}, "SCALAR", kUShort);
     COTAN_LOADED(scene, g.load());
     const Mesh& mesh = scene.meshes[0];
     ASSERT_EQ(mesh.vertexCount(), 6u) << "a vertex a corner";
@@ -159,10 +158,8 @@ TEST(GltfMorph, aTargetOfAnotherSizeIsRefused)
 Gltf skinnedSquare(const std::vector<float>& inverseBind)
 {
     Gltf g = square();
-    primitive(g)["attributes"]["JOINTS_0"] =
-        g.accessor(std::vector<std::uint8_t>(16, 0), "VEC4", kUByte);
-    primitive(g)["attributes"]["WEIGHTS_0"] =
-        g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    primitive(g)["attributes"]["JOINTS_0"] = g.accessor(std::vector<std::uint8_t>(16, 0), "VEC4", kUByte);
+    primitive(g)["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
     const int matrices = g.floats(inverseBind, "MAT4");
     g.add("skins", {{"joints", {1}}, {"inverseBindMatrices", matrices}});
     g.root["nodes"][0]["skin"] = 0;
@@ -198,8 +195,7 @@ TEST(GltfSkin, normalsGoByTheInverseTransposeAndTangentsWithTheSurface)
     Gltf g = skinnedSquare({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     const float h = std::sqrt(0.5f);
     primitive(g)["attributes"]["NORMAL"] = g.floats({h, h, 0, h, h, 0, h, h, 0, h, h, 0}, "VEC3");
-    primitive(g)["attributes"]["TANGENT"] =
-        g.floats({h, -h, 0, 1, h, -h, 0, 1, h, -h, 0, 1, h, -h, 0, 1}, "VEC4");
+    primitive(g)["attributes"]["TANGENT"] = g.floats({h, -h, 0, 1, h, -h, 0, 1, h, -h, 0, 1, h, -h, 0, 1}, "VEC4");
     g.root["nodes"][1]["scale"] = {2, 1, 1};
     COTAN_LOADED(scene, g.load());
     expectNear(scene.meshes[0].normals[0], glm::normalize(glm::vec3(0.5, 1, 0)));
@@ -209,15 +205,13 @@ TEST(GltfSkin, normalsGoByTheInverseTransposeAndTangentsWithTheSurface)
 TEST(GltfSkin, aMirroringJointTurnsSignAndWinding)
 {
     Gltf g = skinnedSquare({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    primitive(g)["attributes"]["TANGENT"] =
-        g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
     g.root["nodes"][1]["scale"] = {-1, 1, 1};
     COTAN_LOADED(scene, g.load());
     const Mesh& mesh = scene.meshes[0];
     EXPECT_EQ(mesh.tangents[0], glm::vec4(-1, 0, 0, -1));
     const glm::vec3 a = mesh.positions[mesh.indices[0]];
-    const glm::vec3 face =
-        glm::cross(mesh.positions[mesh.indices[1]] - a, mesh.positions[mesh.indices[2]] - a);
+    const glm::vec3 face = glm::cross(mesh.positions[mesh.indices[1]] - a, mesh.positions[mesh.indices[2]] - a);
     EXPECT_GT(glm::dot(face, mesh.normals[0]), 0.0f) << "counter-clockwise seen from outside";
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
@@ -225,8 +219,7 @@ TEST(GltfSkin, aMirroringJointTurnsSignAndWinding)
 TEST(GltfSkin, aJointThatTheSkinLacksIsRefused)
 {
     Gltf g = skinnedSquare(kMovedBack);
-    primitive(g)["attributes"]["JOINTS_0"] =
-        g.accessor(std::vector<std::uint8_t>(16, 1), "VEC4", kUByte);
+    primitive(g)["attributes"]["JOINTS_0"] = g.accessor(std::vector<std::uint8_t>(16, 1), "VEC4", kUByte);
     COTAN_REFUSED(g.load(), "names joint 1, but the skin has 1");
 }
 

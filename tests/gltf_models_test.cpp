@@ -39,8 +39,7 @@ std::size_t trianglesInFile(const json& root)
     std::size_t corners = 0;
     for (const json& mesh : root["meshes"])
         for (const json& primitive : mesh["primitives"])
-            corners += root["accessors"][primitive["indices"].get<std::size_t>()]["count"]
-                           .get<std::size_t>();
+            corners += root["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>();
     return corners / 3;
 }
 
@@ -90,8 +89,8 @@ void expectSound(const Scene& scene)
         ASSERT_LT(std::size_t(mesh.material), scene.materials.size());
     }
     for (const Material& m : scene.materials)
-        for (const Texture* t : {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap,
-                                 &m.occlusionMap, &m.emissiveMap})
+        for (const Texture* t :
+             {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.occlusionMap, &m.emissiveMap})
             EXPECT_LT(t->image, int(scene.images.size()));
     for (const Image& image : scene.images)
         EXPECT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());
@@ -162,10 +161,9 @@ TEST_F(GltfModels, invertedTangentSignsAreFoundAndOnlyThose)
 {
     EXPECT_TRUE(warns(load("models/SketchfabCat/scene.gltf"), "TANGENT.w inverted"));
     EXPECT_TRUE(warns(load("models/TwoSidedPlane/TwoSidedPlane.glb"), "TANGENT.w inverted"));
-    for (const char* const good : {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-                                   "models/ClearCoatTest/ClearCoatTest.glb",
-                                   "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
-                                   "synthetic/uv_cases_tangents.gltf"})
+    for (const char* const good :
+         {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "models/ClearCoatTest/ClearCoatTest.glb",
+          "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb", "synthetic/uv_cases_tangents.gltf"})
         EXPECT_FALSE(warns(load(good), "inverted")) << good;
 }
 

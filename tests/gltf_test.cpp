@@ -32,8 +32,8 @@ TEST(Gltf, interleavedAttributesUseTheStride)
     // x y z and a number that must be passed over.
     const int view = g.view(std::vector<float>{0, 0, 0, 9, 1, 0, 0, 9, 1, 1, 0, 9, 0, 1, 0, 9});
     g.root["bufferViews"][view]["byteStride"] = 16;
-    primitive(g)["attributes"]["POSITION"] = g.accessor(
-        {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+    primitive(g)["attributes"]["POSITION"] =
+        g.accessor({{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
     COTAN_LOADED(scene, g.load());
     EXPECT_EQ(scene.meshes[0].positions[3], glm::vec3(0, 1, 0));
 }
@@ -76,8 +76,7 @@ TEST(Gltf, sparseAccessorWithoutViewStartsFromZeros)
 TEST(Gltf, accessorWithoutViewIsZeros)
 {
     Gltf g = square();
-    primitive(g)["attributes"]["TEXCOORD_0"] =
-        g.accessor({{"componentType", kFloat}, {"type", "VEC2"}, {"count", 4}});
+    primitive(g)["attributes"]["TEXCOORD_0"] = g.accessor({{"componentType", kFloat}, {"type", "VEC2"}, {"count", 4}});
     COTAN_LOADED(scene, g.load());
     EXPECT_EQ(scene.meshes[0].texcoords[0], std::vector<glm::vec2>(4, glm::vec2(0)));
 }
@@ -87,18 +86,13 @@ TEST(Gltf, normalizedIntegersBecomeFractions)
     Gltf g = square();
     json& attributes = primitive(g)["attributes"];
     // Signed bytes padded to four, as KHR_mesh_quantization asks for: 127 is 1, -128 is -1 too.
-    const int view =
-        g.view(std::vector<std::int8_t>{0, 0, 127, 0, 0, 0, -128, 0, 0, 127, 0, 0, -127, 0, 0, 0});
+    const int view = g.view(std::vector<std::int8_t>{0, 0, 127, 0, 0, 0, -128, 0, 0, 127, 0, 0, -127, 0, 0, 0});
     g.root["bufferViews"][view]["byteStride"] = 4;
-    attributes["NORMAL"] = g.accessor({{"bufferView", view},
-                                       {"componentType", kByte},
-                                       {"type", "VEC3"},
-                                       {"count", 4},
-                                       {"normalized", true}});
-    attributes["TEXCOORD_0"] = g.accessor(
-        std::vector<std::uint16_t>{0, 65535, 13107, 0, 0, 0, 0, 0}, "VEC2", kUShort, true);
-    attributes["TEXCOORD_1"] =
-        g.accessor(std::vector<std::uint8_t>{255, 51, 0, 0, 0, 0, 0, 0}, "VEC2", kUByte, true);
+    attributes["NORMAL"] = g.accessor(
+        {{"bufferView", view}, {"componentType", kByte}, {"type", "VEC3"}, {"count", 4}, {"normalized", true}});
+    attributes["TEXCOORD_0"] =
+        g.accessor(std::vector<std::uint16_t>{0, 65535, 13107, 0, 0, 0, 0, 0}, "VEC2", kUShort, true);
+    attributes["TEXCOORD_1"] = g.accessor(std::vector<std::uint8_t>{255, 51, 0, 0, 0, 0, 0, 0}, "VEC2", kUByte, true);
     COTAN_LOADED(scene, g.load());
     const Mesh& mesh = scene.meshes[0];
     EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
@@ -113,13 +107,12 @@ TEST(Gltf, normalizedIntegersBecomeFractions)
 TEST(Gltf, quantizedPositionsKeepTheirIntegerValue)
 {
     Gltf g = square();
-    const int view = g.view(
-        std::vector<std::int16_t>{0, 0, 0, 0, 1000, 0, 0, 0, 1000, 1000, 0, 0, 0, -32768, 0, 0});
+    const int view = g.view(std::vector<std::int16_t>{0, 0, 0, 0, 1000, 0, 0, 0, 1000, 1000, 0, 0, 0, -32768, 0, 0});
     g.root["bufferViews"][view]["byteStride"] = 8;
     g.root["extensionsRequired"] = {"KHR_mesh_quantization"};
     g.root["extensionsUsed"] = {"KHR_mesh_quantization"};
-    primitive(g)["attributes"]["POSITION"] = g.accessor(
-        {{"bufferView", view}, {"componentType", kShort}, {"type", "VEC3"}, {"count", 4}});
+    primitive(g)["attributes"]["POSITION"] =
+        g.accessor({{"bufferView", view}, {"componentType", kShort}, {"type", "VEC3"}, {"count", 4}});
     COTAN_LOADED(scene, g.load());
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.meshes[0].positions[2], glm::vec3(1000, 1000, 0));
@@ -129,12 +122,10 @@ TEST(Gltf, quantizedPositionsKeepTheirIntegerValue)
 TEST(Gltf, colorsMayHaveThreeComponentsOrFour)
 {
     Gltf g = square();
-    primitive(g)["attributes"]["COLOR_0"] =
-        g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0.25, 0}, "VEC3");
+    primitive(g)["attributes"]["COLOR_0"] = g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0.25, 0}, "VEC3");
     COTAN_LOADED(three, g.load());
     EXPECT_EQ(three.meshes[0].colors[3], glm::vec4(0.5, 0.25, 0, 1));
-    primitive(g)["attributes"]["COLOR_0"] =
-        g.accessor(std::vector<std::uint8_t>(16, 51), "VEC4", kUByte, true);
+    primitive(g)["attributes"]["COLOR_0"] = g.accessor(std::vector<std::uint8_t>(16, 51), "VEC4", kUByte, true);
     COTAN_LOADED(four, g.load());
     EXPECT_FLOAT_EQ(four.meshes[0].colors[0].w, 0.2f);
 }
@@ -142,11 +133,9 @@ TEST(Gltf, colorsMayHaveThreeComponentsOrFour)
 TEST(Gltf, indicesOfEverySizeMeanTheSame)
 {
     Gltf g = square();
-    primitive(g)["indices"] =
-        g.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, "SCALAR", kUByte);
+    primitive(g)["indices"] = g.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, "SCALAR", kUByte);
     COTAN_LOADED(bytes, g.load());
-    primitive(g)["indices"] =
-        g.accessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, "SCALAR", kUInt);
+    primitive(g)["indices"] = g.accessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, "SCALAR", kUInt);
     COTAN_LOADED(words, g.load());
     EXPECT_EQ(bytes.meshes[0].indices, words.meshes[0].indices);
 }
@@ -174,8 +163,7 @@ TEST(Gltf, degenerateTrianglesOfStripsAreRemoved)
     Gltf g = square();
     primitive(g)["mode"] = 5;
     // Two strips joined by repeated corners: only triangles with three corners stay.
-    primitive(g)["indices"] =
-        g.accessor(std::vector<std::uint16_t>{0, 1, 3, 3, 1, 1, 2, 3}, "SCALAR", kUShort);
+    primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 3, 3, 1, 1, 2, 3}, "SCALAR", kUShort);
     COTAN_LOADED(scene, g.load());
     EXPECT_EQ(scene.meshes[0].triangleCount(), 2u);
 }

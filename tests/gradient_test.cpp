@@ -19,8 +19,8 @@ TEST(Gradient, resolvingASlopeIsApplyingItsTexel)
     Random random(51);
     for (int i = 0; i < 500; ++i) {
         const AffinePatch p = randomPatch(random, i & 1);
-        const auto d = screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p,
-                                         {0, 0, 0});
+        const auto d =
+            screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         const auto f = cotan_frame_gradient(p.normal, d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy);
         const glm::dvec3 m = texel(random, 80);
         const glm::dvec3 resolved =
@@ -39,12 +39,12 @@ TEST(Gradient, gradientsOfTwoUvSetsAddUpToTheSumOfTheirHeights)
         b.gradU -= a.normal * glm::dot(a.normal, b.gradU);
         b.gradV -= a.normal * glm::dot(a.normal, b.gradV);
         const glm::dvec2 ha(random.range(-1, 1), random.range(-1, 1)), hb(random.range(-1, 1), random.range(-1, 1));
-        const PixelCamera camera = PixelCamera::lookAt(a.normal * 3.0 + random.direction(), {0, 0, 0},
-                                                       random.direction(), 800);
+        const PixelCamera camera =
+            PixelCamera::lookAt(a.normal * 3.0 + random.direction(), {0, 0, 0}, random.direction(), 800);
         auto gradient = [&](const AffinePatch& p, glm::dvec2 slope) {
             const auto d = screenDifferences(camera, p, {0, 0, 0});
-            return cotan_gradient_of_slope(
-                cotan_frame_gradient(p.normal, d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy), slope);
+            return cotan_gradient_of_slope(cotan_frame_gradient(p.normal, d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy),
+                                           slope);
         };
         const glm::dvec3 truth = a.gradU * ha.x + a.gradV * ha.y + b.gradU * hb.x + b.gradV * hb.y;
         EXPECT_LT(glm::length(gradient(a, ha) + gradient(b, hb) - truth), 1e-9 * (1 + glm::length(truth)));
@@ -72,13 +72,12 @@ TEST(Gradient, heightDifferencesGiveTheGradientWhicheverWayTheyRun)
     Random random(54);
     for (int i = 0; i < 200; ++i) {
         const AffinePatch p = randomPatch(random, false);
-        const auto d = screenDifferences(PixelCamera::lookAt(random.direction() * 3.0 + p.normal, {0, 0, 0},
-                                                             random.direction(), 800), p, {0, 0, 0});
+        const auto d = screenDifferences(
+            PixelCamera::lookAt(random.direction() * 3.0 + p.normal, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
         // h = u: its differences are those of u.
         const glm::dvec3 g = cotan_gradient_of_height(p.normal, d.dpdx.raw(), d.dpdy.raw(), d.duvdx.x, d.duvdy.x);
         EXPECT_LT(glm::length(g - p.gradU), 1e-9 * glm::length(p.gradU));
-        const glm::dvec3 swapped =
-            cotan_gradient_of_height(p.normal, d.dpdy.raw(), d.dpdx.raw(), d.duvdy.x, d.duvdx.x);
+        const glm::dvec3 swapped = cotan_gradient_of_height(p.normal, d.dpdy.raw(), d.dpdx.raw(), d.duvdy.x, d.duvdx.x);
         EXPECT_LT(glm::length(swapped - p.gradU), 1e-9 * glm::length(p.gradU));
     }
     EXPECT_EQ(cotan_gradient_of_height({0, 0, 1}, {1, 0, 0}, {2, 0, 0}, 1, 2), glm::dvec3(0));
@@ -98,7 +97,8 @@ TEST(Gradient, triplanarMapsOfOneHeightGiveItsGradientOnEverySideOfABox)
     }
     EXPECT_NEAR(cotan_triplanar_weights(glm::normalize(glm::dvec3(1, 2, -3))).x
                     + cotan_triplanar_weights(glm::normalize(glm::dvec3(1, 2, -3))).y
-                    + cotan_triplanar_weights(glm::normalize(glm::dvec3(1, 2, -3))).z, 1, 1e-15);
+                    + cotan_triplanar_weights(glm::normalize(glm::dvec3(1, 2, -3))).z,
+                1, 1e-15);
 }
 
 TEST(Gradient, slopesAreHeldAt128)
@@ -149,8 +149,8 @@ TEST(Blend, aFlatDetailLeavesTheBaseAndAFlatBaseTheDetail)
     const glm::dvec3 flat(0, 0, 1);
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 m = texel(random, 80);
-        const std::array both = {cotan_blend_reoriented(m, flat), cotan_blend_reoriented(flat, m),
-                                 cotan_blend_whiteout(m, flat), cotan_blend_whiteout(flat, m),
+        const std::array both = {cotan_blend_reoriented(m, flat),   cotan_blend_reoriented(flat, m),
+                                 cotan_blend_whiteout(m, flat),     cotan_blend_whiteout(flat, m),
                                  cotan_blend_slopes(m, flat, 1, 1), cotan_blend_slopes(flat, m, 1, 1),
                                  cotan_blend_udn(m, flat)};
         for (const glm::dvec3& r : both)

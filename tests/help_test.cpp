@@ -100,7 +100,8 @@ TEST(Help, everyExampleRunsAsItIsPrinted)
             prepare(folder);
             words.erase(words.begin());
             const ToolRun run = runTool(words, folder.path(), 120);
-            EXPECT_TRUE(run.code == 0 || (name == "cost" && run.code == 3)) << ::testing::PrintToString(words) << run.err;
+            EXPECT_TRUE(run.code == 0 || (name == "cost" && run.code == 3))
+                << ::testing::PrintToString(words) << run.err;
         }
 }
 
@@ -138,24 +139,31 @@ TEST(Help, aNameHasOneMeaningAndOlderNamesGoOnWorking)
     }
     TemporaryFolder folder;
     prepare(folder);
-    for (const Words& words : std::vector<Words>{{"convert", "model.glb", "--from", "mikktspace", "--to", "orthonormal", "-o", "a.glb"},
-                                                 {"convert", "model.glb", "--from-frame", "mikktspace", "--to-frame", "orthonormal", "-o", "b.glb"},
-                                                 {"map", "from-height", "height.png", "--size", "2", "--range", "0.05", "-o", "a.png"},
-                                                 {"map", "from-height", "height.png", "--metres", "2", "--range", "0.05", "-o", "b.png"}})
+    for (const Words& words : std::vector<Words>{
+             {"convert", "model.glb", "--from", "mikktspace", "--to", "orthonormal", "-o", "a.glb"},
+             {"convert", "model.glb", "--from-frame", "mikktspace", "--to-frame", "orthonormal", "-o", "b.glb"},
+             {"map", "from-height", "height.png", "--size", "2", "--range", "0.05", "-o", "a.png"},
+             {"map", "from-height", "height.png", "--metres", "2", "--range", "0.05", "-o", "b.png"}})
         EXPECT_EQ(runTool(words, folder.path()).code, 0) << words[0];
     EXPECT_EQ(readWhole(folder / "a.glb"), readWhole(folder / "b.glb"));
     EXPECT_EQ(readWhole(folder / "a.png"), readWhole(folder / "b.png"));
-    EXPECT_EQ(runTool({"map", "from-height", "height.png", "--metres", "2", "--size", "2", "--range", "1", "-o", "c.png"}, folder.path()).code, 1);
+    EXPECT_EQ(
+        runTool({"map", "from-height", "height.png", "--metres", "2", "--size", "2", "--range", "1", "-o", "c.png"},
+                folder.path())
+            .code,
+        1);
 }
 
 TEST(Help, anUnknownCommandIsNamedWithTheNearestOne)
 {
     TemporaryFolder folder;
-    const std::vector<std::pair<Words, std::string>> cases = {
-        {{"rendr"}, "did you mean render?"},          {{"redner", "a.glb"}, "did you mean render?"},
-        {{"comp"}, "did you mean compare?"},          {{"accurracy"}, "did you mean accuracy?"},
-        {{"map", "detct", "a.png"}, "did you mean detect?"}, {{"map", "form-height"}, "did you mean from-height?"},
-        {{"xyzzyplugh"}, "expected one of render, "}};
+    const std::vector<std::pair<Words, std::string>> cases = {{{"rendr"}, "did you mean render?"},
+                                                              {{"redner", "a.glb"}, "did you mean render?"},
+                                                              {{"comp"}, "did you mean compare?"},
+                                                              {{"accurracy"}, "did you mean accuracy?"},
+                                                              {{"map", "detct", "a.png"}, "did you mean detect?"},
+                                                              {{"map", "form-height"}, "did you mean from-height?"},
+                                                              {{"xyzzyplugh"}, "expected one of render, "}};
     for (const auto& [words, answer] : cases) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 1) << words.back();
@@ -169,8 +177,9 @@ TEST(Help, mapsInJpegAreWarnedOf)
 {
     TemporaryFolder folder;
     prepare(folder);
-    for (const Words& words : std::vector<Words>{{"bake", "--high", "statue.obj", "--low", "statue_low.obj", "--size", "8x8", "-o", "x.jpg"},
-                                                 {"map", "from-height", "height.png", "--bits", "8", "-o", "x.JPEG"}}) {
+    for (const Words& words :
+         std::vector<Words>{{"bake", "--high", "statue.obj", "--low", "statue_low.obj", "--size", "8x8", "-o", "x.jpg"},
+                            {"map", "from-height", "height.png", "--bits", "8", "-o", "x.JPEG"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 0) << run.err;
         EXPECT_NE(run.err.find("JPEG loses degrees"), std::string::npos) << words[0] << run.err;
@@ -181,8 +190,9 @@ TEST(Help, standardOutputThatCannotBeWrittenIsExitCodeFour)
 {
     TemporaryFolder folder;
     prepare(folder);
-    for (const std::string line : {"--help", "--version", "lint model.glb", "lint model.glb --json -", "map info rocks.png", "accuracy --list",
-                                   "shader --lang glsl", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
+    for (const std::string line :
+         {"--help", "--version", "lint model.glb", "lint model.glb --json -", "map info rocks.png", "accuracy --list",
+          "shader --lang glsl", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
         for (const std::string sink : {">/dev/full", "| true"}) {
             const std::string script = "set -o pipefail; { sleep 0.05; \"" COTAN_TOOL "\" " + line + "; } " + sink;
             const std::string shell = "bash -c '" + script + "' 2>" + (folder / "err").string();

@@ -24,7 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template<class T> std::string messageOf(const Result<T>& result) { return result ? "accepted" : result.error().message; }
+template<class T> std::string messageOf(const Result<T>& result)
+{
+    return result ? "accepted" : result.error().message;
+}
 
 std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
@@ -33,8 +36,8 @@ std::span<const std::byte> bytesOf(const std::string& text) { return std::as_byt
 struct Tiff {
     int width = 1, height = 1, channels = 3, bits = 8;
     bool bigEndian = false;
-    int rowsPerStrip = 0; // 0: tiles of 16 x 16
-    bool planes = false;  // each channel on its own
+    int rowsPerStrip = 0;                    // 0: tiles of 16 x 16
+    bool planes = false;                     // each channel on its own
     std::vector<std::uint16_t> palette = {}; // reds, greens, blues
 
     // What channel c has at (x, y): every bit of 16 is of use, and x and y differ.
@@ -153,8 +156,13 @@ std::vector<Tiff> tiffs()
             for (const int rows : {0, 2, 5})
                 for (const bool planes : {false, true})
                     for (const auto& [width, height] : {std::pair(19, 5), std::pair(3, 18)})
-                        all.push_back({.width = width, .height = height, .channels = 3, .bits = bits, .bigEndian = bigEndian,
-                                       .rowsPerStrip = rows, .planes = planes});
+                        all.push_back({.width = width,
+                                       .height = height,
+                                       .channels = 3,
+                                       .bits = bits,
+                                       .bigEndian = bigEndian,
+                                       .rowsPerStrip = rows,
+                                       .planes = planes});
     all.push_back({.width = 7, .height = 3, .channels = 1, .bits = 16, .bigEndian = true, .rowsPerStrip = 3});
     return all;
 }
@@ -219,8 +227,8 @@ protected:
 TEST_F(PictureFile, tiffOfEveryLayoutHasItsValuesInTheirPlaces)
 {
     for (const Tiff& t : tiffs()) {
-        SCOPED_TRACE(testing::Message() << t.width << " x " << t.height << ", " << t.bits << " bits, big-endian " << t.bigEndian
-                                        << ", rows " << t.rowsPerStrip << ", planes " << t.planes);
+        SCOPED_TRACE(testing::Message() << t.width << " x " << t.height << ", " << t.bits << " bits, big-endian "
+                                        << t.bigEndian << ", rows " << t.rowsPerStrip << ", planes " << t.planes);
         const std::string file = TiffWriter(t).make();
         const auto image = decodeImage(bytesOf(file), "a.tif");
         ASSERT_TRUE(image) << image.error().message;
@@ -296,7 +304,8 @@ TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
         const std::string file = start + std::string("a\0string\0", 9) + size;
         const auto image = decodeImage(bytesOf(file), "a.exr");
         ASSERT_FALSE(image);
-        EXPECT_NE(image.error().message.find("an attribute of its header takes"), std::string::npos) << image.error().message;
+        EXPECT_NE(image.error().message.find("an attribute of its header takes"), std::string::npos)
+            << image.error().message;
         EXPECT_FALSE(openRows(write("a.exr", file)));
     }
     EXPECT_FALSE(decodeImage(bytesOf(start + std::string(1000, 'n')), "a.exr"));
@@ -339,14 +348,14 @@ TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
         if (!tiles.empty())
             attributes.emplace_back("tiles", "tiledesc", 9, tiles);
         const std::string file = magic + exrHeader(attributes) + std::string(64, '\0');
-        for (const auto& message : {messageOf(decodeImage(bytesOf(file), "a.exr", {})),
-                                    messageOf(openRows(write("a.exr", file)))})
+        for (const auto& message :
+             {messageOf(decodeImage(bytesOf(file), "a.exr", {})), messageOf(openRows(write("a.exr", file)))})
             EXPECT_NE(message.find("the limit is"), std::string::npos) << message;
     };
-    refused(0x1000000, 0, 0, "");                                       // 16.8 million pixels beside each other
+    refused(0x1000000, 0, 0, ""); // 16.8 million pixels beside each other
     refused(0, 0x1000000, 0, "");
-    refused(3, 3, 0, words({0x4000, 0x8000}) + '\0');                   // tiles of 2 GB
-    refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0');     // beyond 64 bits, were it not stopped
+    refused(3, 3, 0, words({0x4000, 0x8000}) + '\0');               // tiles of 2 GB
+    refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0'); // beyond 64 bits, were it not stopped
 }
 
 // The size says that the header ends before what the reader of the type goes on to, an attribute of 1.7 GB.
@@ -358,8 +367,9 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
     const std::string text("\4\0\0\0text", 8), preview = std::string("\1\0\0\0\2\0\0\0", 8) + std::string(8, 'p');
     const std::string huge = exrHeader({{"x", "none", 0x657c6974, ""}});
     const std::vector<std::tuple<std::string, std::string>> values = {
-        {"chlist", channel + channel + '\0'}, {"stringvector", text + text}, {"preview", preview}, {"floatvector", std::string(8, 'f')},
-        {"float", std::string(4, 'f')}, {"tiledesc", std::string(9, 't')}, {"v2f", std::string(8, 'v')}, {"m44d", std::string(128, 'm')}};
+        {"chlist", channel + channel + '\0'}, {"stringvector", text + text},  {"preview", preview},
+        {"floatvector", std::string(8, 'f')}, {"float", std::string(4, 'f')}, {"tiledesc", std::string(9, 't')},
+        {"v2f", std::string(8, 'v')},         {"m44d", std::string(128, 'm')}};
     for (const auto& [type, bytes] : values) {
         const auto size = std::uint32_t(bytes.size());
         for (const std::string& start : {scanLines, tiles, parts}) {
@@ -370,7 +380,8 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
                 const auto image = decodeImage(bytesOf(file), "a.exr");
                 ASSERT_FALSE(image);
                 // A true size passes the check, and what is missing is OpenEXR's to say.
-                EXPECT_EQ(image.error().message.find("which its type does not take") != std::string::npos, stored != size)
+                EXPECT_EQ(image.error().message.find("which its type does not take") != std::string::npos,
+                          stored != size)
                     << type << ' ' << stored << ": " << image.error().message;
                 EXPECT_FALSE(openRows(write("a.exr", file)));
             }
@@ -402,10 +413,12 @@ TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAnd
         const std::size_t at = file.find(entry);
         ASSERT_NE(at, std::string::npos);
         file.replace(at + 8, value.size(), value);
-        for (const auto& message : {messageOf(decodeImage(bytesOf(file), "a.tif")), messageOf(openRows(write("a.tif", file)))})
+        for (const auto& message :
+             {messageOf(decodeImage(bytesOf(file), "a.tif")), messageOf(openRows(write("a.tif", file)))})
             EXPECT_NE(message.find(why), std::string::npos) << message;
     };
-    with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2), "compression 14337"); // once zeros, or whatever was there
+    with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2),
+         "compression 14337"); // once zeros, or whatever was there
     with(std::string("\x16\x01\x04\0", 4), std::string("\0\0\0\x1d", 4), "strips have 486539264 rows"); // once 3.9 GB
     with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip, however high
 }
@@ -422,7 +435,8 @@ TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
         ASSERT_FALSE(rows) << why;
         EXPECT_NE(rows.error().message.find(why), std::string::npos) << rows.error().message;
     };
-    const std::size_t count = sound.find(std::string("\x1e\0\0\0\x1e\0\0\0\x1e\0\0\0", 12)); // 5 x 2 x 3 bytes, three times
+    const std::size_t count =
+        sound.find(std::string("\x1e\0\0\0\x1e\0\0\0\x1e\0\0\0", 12)); // 5 x 2 x 3 bytes, three times
     ASSERT_NE(count, std::string::npos);
     std::string none = sound;
     none.replace(count + 4, 4, 4, '\0');
@@ -459,7 +473,8 @@ TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
     EXPECT_EQ(component(*image, 4, 3, 0), 40);
     EXPECT_EQ(component(*image, 0, 4, 1), 45);
     EXPECT_EQ(component(*image, 4, 6, 1), 5);
-    for (const std::size_t length : {std::size_t(0), std::size_t(128), std::size_t(147), std::size_t(148), file.size() - 1}) {
+    for (const std::size_t length :
+         {std::size_t(0), std::size_t(128), std::size_t(147), std::size_t(148), file.size() - 1}) {
         EXPECT_FALSE(decodeImage(bytesOf(file.substr(0, length)), "a.dds")) << length;
     }
     EXPECT_FALSE(decodeImage(bytesOf(dx10(4, 4, 999) + std::string(4096, '\0')), "a.dds"));
@@ -499,7 +514,13 @@ TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
 TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
 {
     std::string file = dx10(1, 1, 0).substr(0, 128);
-    file.replace(80, 28, std::string("\x41\0\0\0\0\0\0\0\x20\0\0\0" "\0\0\xff\0" "\0\xff\0\0" "\xff\0\0\0" "\0\0\0\xff", 28));
+    file.replace(80, 28,
+                 std::string("\x41\0\0\0\0\0\0\0\x20\0\0\0"
+                             "\0\0\xff\0"
+                             "\0\xff\0\0"
+                             "\xff\0\0\0"
+                             "\0\0\0\xff",
+                             28));
     file += "\1\2\3\4";
     ASSERT_TRUE(decodeImage(bytesOf(file), "a.dds"));
     for (const std::size_t mask : {92u, 96u, 100u, 104u})

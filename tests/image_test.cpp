@@ -45,10 +45,7 @@ protected:
     void SetUp() override { fs::create_directories(folder); }
     void TearDown() override { fs::remove_all(folder); }
 
-    std::size_t fileCount() const
-    {
-        return std::size_t(std::distance(fs::directory_iterator(folder), {}));
-    }
+    std::size_t fileCount() const { return std::size_t(std::distance(fs::directory_iterator(folder), {})); }
 };
 
 std::string readAll(const fs::path& file)
@@ -77,12 +74,10 @@ TEST(Png, greyOfFewBitsIsScaledToTheFullRange)
         int bits;
         std::string row;
         std::array<int, 4> grey;
-    } cases[] = {{1, "\0\x50"s, {0, 255, 0, 255}},
-                 {2, "\0\x1b"s, {0, 85, 170, 255}},
-                 {4, "\0\x05\xaf"s, {0, 85, 170, 255}}};
+    } cases[] = {
+        {1, "\0\x50"s, {0, 255, 0, 255}}, {2, "\0\x1b"s, {0, 85, 170, 255}}, {4, "\0\x05\xaf"s, {0, 85, 170, 255}}};
     for (const auto& c : cases) {
-        const auto image =
-            decodeImage(makePng({.width = 4, .bits = c.bits, .colour = 0, .rows = c.row}), "grey");
+        const auto image = decodeImage(makePng({.width = 4, .bits = c.bits, .colour = 0, .rows = c.row}), "grey");
         ASSERT_TRUE(image) << image.error().message;
         for (int x = 0; x < 4; ++x) {
             const int g = c.grey[std::size_t(x)];
@@ -93,13 +88,12 @@ TEST(Png, greyOfFewBitsIsScaledToTheFullRange)
 
 TEST(Png, paletteBecomesColoursAndItsTransparencyAlpha)
 {
-    const auto image =
-        decodeImage(makePng({.width = 2,
-                             .colour = 3,
-                             .rows = "\0\1\0"s,
-                             .before = test::chunk("PLTE", "\x0a\x14\x1e\x28\x32\x3c"s)
-                                 + test::chunk("tRNS", "\x80"s)}),
-                    "palette");
+    const auto image = decodeImage(
+        makePng({.width = 2,
+                 .colour = 3,
+                 .rows = "\0\1\0"s,
+                 .before = test::chunk("PLTE", "\x0a\x14\x1e\x28\x32\x3c"s) + test::chunk("tRNS", "\x80"s)}),
+        "palette");
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{40, 50, 60, 255}));
     EXPECT_EQ(pixel(*image, 1, 0), (Pixel{10, 20, 30, 128}));
@@ -107,8 +101,7 @@ TEST(Png, paletteBecomesColoursAndItsTransparencyAlpha)
 
 TEST(Png, sixteenBitsAreKept)
 {
-    const auto image =
-        decodeImage(makePng({.bits = 16, .colour = 2, .rows = "\0\x12\x34\xab\xcd\0\1"s}), "wide");
+    const auto image = decodeImage(makePng({.bits = 16, .colour = 2, .rows = "\0\x12\x34\xab\xcd\0\1"s}), "wide");
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->type, PixelType::unorm16);
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{0x1234, 0xabcd, 1, 65535}));
@@ -116,10 +109,9 @@ TEST(Png, sixteenBitsAreKept)
 
 TEST(Png, valuesAreNotMultipliedByAlphaNorConvertedByGamma)
 {
-    const auto image = decodeImage(makePng({.colour = 6,
-                                            .rows = "\0\xc8\x64\x32\x0a"s,
-                                            .before = test::chunk("gAMA", test::big32(100000))}),
-                                   "alpha");
+    const auto image = decodeImage(
+        makePng({.colour = 6, .rows = "\0\xc8\x64\x32\x0a"s, .before = test::chunk("gAMA", test::big32(100000))}),
+        "alpha");
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{200, 100, 50, 10}));
 }
@@ -128,13 +120,12 @@ TEST(Png, interlacedRowsFindTheirPlaces)
 {
     // 3 x 3 in Adam7: pass 1 has (0,0), pass 4 (2,0), pass 5 row 2: (0,2) (2,2), pass 6 columns 1
     // of rows 0 and 2, pass 7 row 1. Every pixel holds 10 * x + y.
-    const auto image =
-        decodeImage(makePng({.width = 3,
-                             .height = 3,
-                             .colour = 0,
-                             .interlaced = true,
-                             .rows = "\0\x00\0\x14\0\x02\x16\0\x0a\0\x0c\0\x01\x0b\x15"s}),
-                    "adam7");
+    const auto image = decodeImage(makePng({.width = 3,
+                                            .height = 3,
+                                            .colour = 0,
+                                            .interlaced = true,
+                                            .rows = "\0\x00\0\x14\0\x02\x16\0\x0a\0\x0c\0\x01\x0b\x15"s}),
+                                   "adam7");
     ASSERT_TRUE(image) << image.error().message;
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x)
@@ -149,15 +140,12 @@ TEST(Png, brokenFilesAreRefusedSilentlyWithOneLine)
     for (std::size_t length = 0; length < good.size(); ++length)
         broken.emplace_back("cut to " + std::to_string(length),
                             Bytes(good.begin(), good.begin() + std::ptrdiff_t(length)));
-    for (const std::size_t at :
-         {17u, 29u, 45u, 55u}) { // header, its checksum, pixels, their checksum
+    for (const std::size_t at : {17u, 29u, 45u, 55u}) { // header, its checksum, pixels, their checksum
         broken.emplace_back("flipped bit at " + std::to_string(at), good);
         broken.back().second[at] ^= std::byte{4};
     }
-    broken.emplace_back("filter 9",
-                        makePng({.width = 2, .height = 2, .colour = 0, .rows = "\0\1\2\x09\3\4"s}));
-    broken.emplace_back("one row short",
-                        makePng({.width = 2, .height = 2, .colour = 0, .rows = "\0\1\2"s}));
+    broken.emplace_back("filter 9", makePng({.width = 2, .height = 2, .colour = 0, .rows = "\0\1\2\x09\3\4"s}));
+    broken.emplace_back("one row short", makePng({.width = 2, .height = 2, .colour = 0, .rows = "\0\1\2"s}));
     broken.emplace_back("width 0", makePng({.width = 0, .rows = "\0"s}));
 
     testing::internal::CaptureStderr();
@@ -316,8 +304,7 @@ TEST_F(ImageFile, brokenJpegIsRefusedSilentlyWithOneLine)
     test::put(good, readAll(folder / "a.jpg"));
     ASSERT_TRUE(decodeImage(good, "a.jpg"));
     testing::internal::CaptureStderr();
-    for (const std::size_t length :
-         {std::size_t(3), std::size_t(20), good.size() / 2, good.size() - 40}) {
+    for (const std::size_t length : {std::size_t(3), std::size_t(20), good.size() / 2, good.size() - 40}) {
         const auto image = decodeImage(std::span(good).first(length), "a.jpg");
         ASSERT_FALSE(image) << length;
         EXPECT_EQ(image.error().message.find('\n'), std::string::npos) << image.error().message;
@@ -342,8 +329,7 @@ TEST_F(ImageFile, samePictureSameBytesAtAnyTime)
     std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // past a second, as stamps count
     write("b");
     for (const char* extension : {".png", ".tif", ".tga", ".jpg", ".exr", ".hdr"})
-        EXPECT_EQ(readAll(folder / ("a"s + extension)), readAll(folder / ("b"s + extension)))
-            << extension;
+        EXPECT_EQ(readAll(folder / ("a"s + extension)), readAll(folder / ("b"s + extension))) << extension;
 }
 
 TEST_F(ImageFile, failedWriteLeavesNothingAndKeepsTheOlderFile)

@@ -31,11 +31,13 @@ inline Mesh meshOf(const std::vector<Corner>& corners)
     return mesh;
 }
 
-// A rectangle in xy facing +z with the lower left corner `at`; its uv run from `low` (top left, as v runs down) to `high`.
+// A rectangle in xy facing +z with the lower left corner `at`; its uv run from `low` (top left, as v runs down) to
+// `high`.
 inline std::vector<Corner> rectangle(glm::vec2 at, glm::vec2 size, glm::vec2 low, glm::vec2 high)
 {
     const auto corner = [&](float x, float y) {
-        return Corner{{at.x + x * size.x, at.y + y * size.y, 0}, {low.x + x * (high.x - low.x), high.y + y * (low.y - high.y)}};
+        return Corner{{at.x + x * size.x, at.y + y * size.y, 0},
+                      {low.x + x * (high.x - low.x), high.y + y * (low.y - high.y)}};
     };
     return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 0), corner(1, 1), corner(0, 1)};
 }
@@ -48,7 +50,8 @@ inline std::vector<Corner> operator+(std::vector<Corner> a, const std::vector<Co
     return a;
 }
 
-inline constexpr f64::cotan_normal_format kAsMeant{2, 0, 1, 1}; // signed, green along v: stored as it is meant
+inline constexpr Convention kAsMeant{.expansion = Expansion::signedValues,
+                                     .greenUp = false}; // signed, green along v: stored as it is meant
 
 // A float map; texel(x, y) along (+u, +v, outwards).
 template<class Texel> Image floatMap(int width, int height, const Texel& texel)

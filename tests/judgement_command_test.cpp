@@ -32,7 +32,8 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 
 // ---- places between texel centres -----------------------------------------------------------
 
-// A quad of 8 by 1 under one row of texels: u is half as dense as v, v runs from 0.05 to 0.3, and no texel centre is inside.
+// A quad of 8 by 1 under one row of texels: u is half as dense as v, v runs from 0.05 to 0.3, and no texel centre is
+// inside.
 void writeOneRow(const std::filesystem::path& folder, float low = 0.05f, float high = 0.3f)
 {
     Made m = quad(8);
@@ -79,7 +80,8 @@ TEST(Judgement, whereNothingShowsTheMapNothingIsSaidToFit)
     const json lint = jsonOf({"lint", "quad.gltf"}, folder.path());
     EXPECT_EQ(lint["primitives"][0]["not_judged"], "no triangle has area, also in uv");
     EXPECT_TRUE(lint["primitives"][0]["read_with"]["cotangent"]["mean"].is_null());
-    EXPECT_EQ(runTool({"lint", "quad.gltf", "--strict", "--limit", "5", "--quiet"}, folder.path()).code, 5); // nothing judged is nothing proved
+    EXPECT_EQ(runTool({"lint", "quad.gltf", "--strict", "--limit", "5", "--quiet"}, folder.path()).code,
+              5); // nothing judged is nothing proved
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 0);
 }
 
@@ -89,18 +91,25 @@ TEST(Judgement, comparisonsWithoutANormalMapHaveNoAverage)
     Made m = quad(2);
     m.root["materials"][0].erase("normalTexture");
     write(m, folder.path());
-    const std::vector<std::string> compare = {"compare", "quad.gltf", "--device", "reference", "--size", "64x48", "-o", "c"};
+    const std::vector<std::string> compare = {"compare", "quad.gltf", "--device", "reference",
+                                              "--size",  "64x48",     "-o",       "c"};
     const ToolRun run = runTool(compare, folder.path());
     EXPECT_TRUE(says(run.out, "nothing was compared: no normal map is drawn")) << run.out;
     const json r = jsonOf(compare, folder.path());
     EXPECT_EQ(r["normals"]["pixels"], 0);
     EXPECT_TRUE(r["normals"]["mean_degrees"].is_null());
-    const json e = jsonOf({"render", "quad.gltf", "--view", "error", "--device", "reference", "--size", "64x48", "-o", "e.png"}, folder.path());
+    const json e =
+        jsonOf({"render", "quad.gltf", "--view", "error", "--device", "reference", "--size", "64x48", "-o", "e.png"},
+               folder.path());
     EXPECT_TRUE(e["error_against_exact"]["mean_degrees"].is_null());
-    const json v = jsonOf({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"}, folder.path());
+    const json v =
+        jsonOf({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"},
+               folder.path());
     EXPECT_EQ(v["verify"]["degrees"]["pixels"], 0);
     EXPECT_TRUE(v["verify"]["degrees"]["max_degrees"].is_null());
-    const ToolRun said = runTool({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"}, folder.path());
+    const ToolRun said =
+        runTool({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"},
+                folder.path());
     EXPECT_TRUE(says(said.err, "--verify compared nothing")) << said.err;
     write(quad(2), folder.path()); // the control
     EXPECT_GT(jsonOf(compare, folder.path())["normals"]["mean_degrees"].get<double>(), 1);
@@ -176,7 +185,8 @@ TEST(LintOutput, beginsWithAVerdictOfAtMostTenLinesAndGivesFiguresOnRequest)
     write(m, folder.path());
     const ToolRun verdict = runTool({"lint", "quad.gltf", "--limit", "0.0001"}, folder.path());
     EXPECT_LE(lines(verdict.out), 10) << verdict.out;
-    EXPECT_TRUE(verdict.out.starts_with("quad.gltf: 30 primitives, 30 with a normal map, 30 with stored tangents\n")) << verdict.out;
+    EXPECT_TRUE(verdict.out.starts_with("quad.gltf: 30 primitives, 30 with a normal map, 30 with stored tangents\n"))
+        << verdict.out;
     EXPECT_TRUE(says(verdict.out, "degrees off on average"));
     EXPECT_TRUE(says(verdict.out, "\n  cotan convert quad.gltf ")) << verdict.out;
     EXPECT_TRUE(says(verdict.out, "--details adds")) << verdict.out;
@@ -234,7 +244,8 @@ TEST(ForeignMaps, tangentsAreComparedAndWritten)
         TemporaryFolder folder;
         writeForeign(f, folder.path());
         EXPECT_EQ(jsonOf({"tangents", "quad.gltf"}, folder.path())["whole"]["verdict"], "equal") << f.name;
-        EXPECT_EQ(jsonOf({"tangents", "quad.gltf", "--replace", "-o", "out.gltf"}, folder.path())["generated"], 1) << f.name;
+        EXPECT_EQ(jsonOf({"tangents", "quad.gltf", "--replace", "-o", "out.gltf"}, folder.path())["generated"], 1)
+            << f.name;
         const json out = json::parse(readWhole(folder / "out.gltf"));
         EXPECT_EQ(out["images"][0]["uri"], f.file);
         EXPECT_EQ(out["extensionsRequired"][0], f.extension);
@@ -263,7 +274,8 @@ TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
 {
     TemporaryFolder folder;
     writeForeign(kForeign[0], folder.path());
-    EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, folder.path()).code, 2);
+    EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, folder.path()).code,
+              2);
     std::ofstream(folder / "waves.webp") << "not an image";
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 2); // broken is not foreign
 }
@@ -306,8 +318,9 @@ TEST(PicturesBeside, newMapsAreFilesNamedForTheModel)
     EXPECT_FALSE(out["images"][0].contains("bufferView"));
     EXPECT_EQ(readWhole(folder / "waves.png"), old);
     EXPECT_EQ(r["files"].size(), 3u) << r["files"];
-    EXPECT_EQ(r["bytes_after"].get<std::size_t>(), std::filesystem::file_size(folder / "out.gltf")
-                  + std::filesystem::file_size(folder / "out.bin") + std::filesystem::file_size(folder / "out-waves.png"));
+    EXPECT_EQ(r["bytes_after"].get<std::size_t>(),
+              std::filesystem::file_size(folder / "out.gltf") + std::filesystem::file_size(folder / "out.bin")
+                  + std::filesystem::file_size(folder / "out-waves.png"));
     // What is drawn is what the .glb would have.
     jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
     const auto beside = loadScene(folder / "out.gltf"), inside = loadScene(folder / "out.glb");

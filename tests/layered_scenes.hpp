@@ -298,7 +298,8 @@ inline void dataOutputsShowTheNearestLayer(const Draw& draw)
 }
 
 // What a caster over a lit floor lets through: full light, or none.
-inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, float cutoff, bool shadowed, const char* what)
+inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, float cutoff, bool shadowed,
+                              const char* what)
 {
     Scene scene;
     Pane floor, caster;

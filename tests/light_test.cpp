@@ -79,11 +79,14 @@ LitInput anyLit(Random& random, double roughness)
         const glm::dvec3 v(leanedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
         glm::dvec3 l(leanedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
         if (random.unit() < 0.5) {
-            const glm::dvec3 h(leanedBy(random, n, random.unit() < 0.2 ? 0 : alpha * std::pow(10, random.range(-2, 1.5))));
+            const glm::dvec3 h(
+                leanedBy(random, n, random.unit() < 0.2 ? 0 : alpha * std::pow(10, random.range(-2, 1.5))));
             l = glm::dvec3(leanedBy(random, glm::normalize(h * (2 * glm::dot(v, h)) - v), 0));
         }
         if (glm::dot(n, l) > 1e-3 && glm::dot(n, v) > 1e-3 && glm::length(l + v) > 1e-3)
-            return {n, l, v, {random.range(0.01, 1), random.range(0.01, 1), random.range(0.01, 1)}, random.unit(), roughness};
+            return {
+                n,        l, v, {random.range(0.01, 1), random.range(0.01, 1), random.range(0.01, 1)}, random.unit(),
+                roughness};
     }
 }
 
@@ -98,7 +101,8 @@ TEST(Light, pbrIsTheSpecificationsFormulaAtEveryRoughnessAndAngle)
             const glm::dvec3 expected = pbrByTheBook(s, i.l);
             worst = std::max(worst, relative(f64::cotan_reflect_pbr(s, i.l), expected));
             const auto f = surfaceOf<f32::cotan_surface>(i.baseColor, i.metallic, i.roughness, i.n, i.v);
-            worstFloat = std::max(worstFloat, relative(glm::dvec3(f32::cotan_reflect_pbr(f, glm::vec3(i.l))), expected));
+            worstFloat =
+                std::max(worstFloat, relative(glm::dvec3(f32::cotan_reflect_pbr(f, glm::vec3(i.l))), expected));
         }
     // Vectors that are unit to 6e-8 only: the book's sine and cosine and ours differ by that over alpha.
     EXPECT_LT(worst, 1e-4);
@@ -169,12 +173,15 @@ TEST(Light, blinnPhongIsItsFormula)
             const double exponent = std::max(2 / (alpha * alpha) - 2, 1.0);
             const double nh = std::max(glm::dot(i.n, glm::normalize(i.l + i.v)), 1e-4);
             const glm::dvec3 f0 = glm::dvec3(0.04) * (1 - i.metallic) + i.baseColor * i.metallic;
-            const glm::dvec3 expected = (i.baseColor * (1 - i.metallic) / std::numbers::pi
-                + f0 * (std::pow(std::min(nh, 1.0), exponent) * (exponent + 8) / (8 * std::numbers::pi))) * glm::dot(i.n, i.l);
+            const glm::dvec3 expected =
+                (i.baseColor * (1 - i.metallic) / std::numbers::pi
+                 + f0 * (std::pow(std::min(nh, 1.0), exponent) * (exponent + 8) / (8 * std::numbers::pi)))
+                * glm::dot(i.n, i.l);
             const auto s = surfaceOf<f64::cotan_surface>(i.baseColor, i.metallic, i.roughness, i.n, i.v);
             worst = std::max(worst, relative(f64::cotan_reflect_blinn_phong(s, i.l), expected));
             const auto f = surfaceOf<f32::cotan_surface>(i.baseColor, i.metallic, i.roughness, i.n, i.v);
-            worstFloat = std::max(worstFloat, relative(glm::dvec3(f32::cotan_reflect_blinn_phong(f, glm::vec3(i.l))), expected));
+            worstFloat =
+                std::max(worstFloat, relative(glm::dvec3(f32::cotan_reflect_blinn_phong(f, glm::vec3(i.l))), expected));
         }
     EXPECT_LT(worst, 1e-9);
     EXPECT_LT(worstFloat, 0.01); // three roundings of n.h, 6e-8 each, to the power of 20,000
@@ -250,7 +257,8 @@ TEST(Light, srgbIsTheStandardsOnBothSidesOfItsThresholds)
         EXPECT_NEAR(f64::cotan_linear_to_srgb(f64::cotan_srgb_to_linear(byte / 255.0)), byte / 255.0, 1e-6);
 }
 
-const glm::dvec3 kGround(0.16, 0.14, 0.12), kHorizon(0.62, 0.66, 0.72), kZenith(0.28, 0.42, 0.68), kBox(0.48, 0.80, 0.36);
+const glm::dvec3 kGround(0.16, 0.14, 0.12), kHorizon(0.62, 0.66, 0.72), kZenith(0.28, 0.42, 0.68),
+    kBox(0.48, 0.80, 0.36);
 
 double hermite(double k)
 {

@@ -68,7 +68,8 @@ TEST(TangentSpaceLighting, byTheInverseOfAnOrthonormalFrameIsTheSameAsInTheWorld
     // Square and stretched: an orthonormal frame may be wrong about the bumps, and still agrees.
     for (const Scene& scene : {squareScene(), tiltedScene({1, 0, 0.3}, {0.7, -2, 0})})
         for (Shading shading : {Shading::blinnPhong, Shading::pbr})
-            EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentPixel, Frame::orthonormal)), kRounding);
+            EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentPixel, Frame::orthonormal)),
+                      kRounding);
 }
 
 TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
@@ -87,7 +88,7 @@ TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
 TEST(TangentSpaceLighting, fromTheVerticesIsExactOnAFlatSquarePlane)
 {
     Scene scene = squareScene();
-    deriveVertexFrames(scene, Frame::vertex, true);
+    deriveVertexFrames(scene, Frame::vertex, TangentOrigin::generated);
     ASSERT_FALSE(scene.meshes[0].tangents.empty());
     for (Shading shading : {Shading::blinnPhong, Shading::pbr})
         EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentVertex, Frame::vertex)), kRounding);
@@ -106,7 +107,8 @@ TEST(TangentSpaceLighting, withoutMapOrTangentsIsLightingInTheWorld)
     Scene unmapped = squareScene();
     unmapped.materials[0].normalMap.image = -1;
     EXPECT_EQ(largestDifference(unmapped, litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::cotangent)), 0);
-    EXPECT_EQ(largestDifference(squareScene(), litView(Shading::blinnPhong, Lighting::tangentVertex, Frame::vertex)), 0);
+    EXPECT_EQ(largestDifference(squareScene(), litView(Shading::blinnPhong, Lighting::tangentVertex, Frame::vertex)),
+              0);
 }
 
 } // namespace

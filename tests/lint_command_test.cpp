@@ -15,8 +15,8 @@ using nlohmann::json;
 
 std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
 
-#define COTAN_NEEDS(file)                                                                          \
-    if (!std::filesystem::exists(shared(file)))                                                    \
+#define COTAN_NEEDS(file)                                                                                              \
+    if (!std::filesystem::exists(shared(file)))                                                                        \
     GTEST_SKIP() << shared(file) << " is missing"
 
 json lintJson(const std::string& file)
@@ -107,7 +107,8 @@ TEST(LintCommand, anExtensionThatReadsTangentsKeepsThem)
         m.root["materials"][0].erase("normalTexture");
         m.root["materials"][0]["extensions"][name] = json::parse(content);
         write(m, folder.path());
-        const std::string text = json::parse(runTool({"lint", "quad.gltf", "--json", "-"}, folder.path()).out)["recommendation"];
+        const std::string text =
+            json::parse(runTool({"lint", "quad.gltf", "--json", "-"}, folder.path()).out)["recommendation"];
         EXPECT_NE(text.find(name), std::string::npos) << text;
         EXPECT_EQ(text.find("can be dropped"), std::string::npos) << text;
     }
@@ -125,7 +126,9 @@ TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
     EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0);
     EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "60", "--quiet"}, folder.path()).code, 0);
     // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
-    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(
+        runTool({"lint", model, "--strict", "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code,
+        0);
     EXPECT_EQ(runTool({"lint", model, "--strict", "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
 }
 
@@ -133,9 +136,9 @@ TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
 // lint looks at the map itself.
 double measured(const std::string& model, const std::string& frame, const std::filesystem::path& folder)
 {
-    const ToolRun run = runTool({"compare", model, "--frames", "mikktspace," + frame, "--tangents", "generated", "--point-sampled",
-                                 "--samples", "1", "--no-shadows", "--size", "160x160", "--device", "reference", "-o", "seen", "--json", "-",
-                                 "--quiet"},
+    const ToolRun run = runTool({"compare", model, "--frames", "mikktspace," + frame, "--tangents", "generated",
+                                 "--point-sampled", "--samples", "1", "--no-shadows", "--size", "160x160", "--device",
+                                 "reference", "-o", "seen", "--json", "-", "--quiet"},
                                 folder, 120);
     EXPECT_EQ(run.code, 0) << run.err;
     return json::parse(run.out)["normals"]["mean_degrees"].get<double>();

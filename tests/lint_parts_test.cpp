@@ -45,8 +45,10 @@ TEST(UvQuality, stretchCountsFromOnePointTwoOnAndShearFromTenDegreesOn)
 TEST(UvQuality, sharesAreOfTheArea)
 {
     // Areas 1 mirrored, 3 stretched threefold along v, 4 a line in uv, 8 square: 16 in all.
-    const auto mirrored = rectangle({0, 0}, {1, 1}, {1, 0}, {0, 1}), stretched = rectangle({2, 0}, {1, 3}, {0, 0}, {1, 1}),
-               line = rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1}), square = rectangle({8, 0}, {2, 4}, {0, 0}, {2, 4});
+    const auto mirrored = rectangle({0, 0}, {1, 1}, {1, 0}, {0, 1}),
+               stretched = rectangle({2, 0}, {1, 3}, {0, 0}, {1, 1}),
+               line = rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1}),
+               square = rectangle({8, 0}, {2, 4}, {0, 0}, {2, 4});
     const UvQuality q = lint::uvQuality(surfaceOf(mirrored + stretched + line + square));
     EXPECT_NEAR(q.area, 16, kFloats);
     EXPECT_NEAR(q.mirrored, 1.0 / 16, kFloats);
@@ -77,12 +79,16 @@ TEST(UvQuality, withoutAreaThereAreNoShares)
 
 // ---- edges ----------------------------------------------------------------------------------
 
-// Two triangles that meet in x = 0, from y = 0 to 1; v runs down along both. u = x on the left; on the right u = x times
-// `across`, and v gains `along` times x.
+// Two triangles that meet in x = 0, from y = 0 to 1; v runs down along both. u = x on the left; on the right u = x
+// times `across`, and v gains `along` times x.
 std::vector<Corner> meeting(float across, float along, float right = 1)
 {
-    return {{{0, 0, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}}, {{-1, 0, 0}, {-1, 1}},
-            {{0, 0, 0}, {0, 1}}, {{right, 0, 0}, {right * across, 1 + right * along}}, {{0, 1, 0}, {0, 0}}};
+    return {{{0, 0, 0}, {0, 1}},
+            {{0, 1, 0}, {0, 0}},
+            {{-1, 0, 0}, {-1, 1}},
+            {{0, 0, 0}, {0, 1}},
+            {{right, 0, 0}, {right * across, 1 + right * along}},
+            {{0, 1, 0}, {0, 0}}};
 }
 
 // The steps of a texel tilted by 35 degrees, in eight directions, when its slopes along u and v shrink.
@@ -91,7 +97,8 @@ std::vector<double> stepsWhen(double u, double v)
     std::vector<double> steps;
     for (int k = 0; k < 8; ++k) {
         const double s = std::tan(glm::radians(35.0)), a = glm::radians(45.0 * k);
-        steps.push_back(angleBetween({s * std::cos(a), s * std::sin(a), 1}, {u * s * std::cos(a), v * s * std::sin(a), 1}));
+        steps.push_back(
+            angleBetween({s * std::cos(a), s * std::sin(a), 1}, {u * s * std::cos(a), v * s * std::sin(a), 1}));
     }
     return steps;
 }
@@ -135,11 +142,18 @@ TEST(EdgeSteps, areWeightedByTheAreasOnBothSides)
 TEST(EdgeSteps, orthonormalStepsWhereTheLinesOfEqualVTurn)
 {
     // Along this edge u = y and v = x; beyond it u = y + x: the lines of equal v stay, and t along them.
-    EXPECT_NEAR(lint::edgeSteps(surfaceOf({{{0, 0, 0}, {0, 0}}, {{0, 1, 0}, {1, 0}}, {{-1, 0, 0}, {0, -1}},
-                                           {{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 1}}, {{0, 1, 0}, {1, 0}}})).orthonormal.maximum, 0, 1e-4);
+    EXPECT_NEAR(lint::edgeSteps(surfaceOf({{{0, 0, 0}, {0, 0}},
+                                           {{0, 1, 0}, {1, 0}},
+                                           {{-1, 0, 0}, {0, -1}},
+                                           {{0, 0, 0}, {0, 0}},
+                                           {{1, 0, 0}, {1, 1}},
+                                           {{0, 1, 0}, {1, 0}}}))
+                    .orthonormal.maximum,
+                0, 1e-4);
     // v gains x beyond the edge: its lines turn by 45 degrees, and the whole frame with them.
     const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(1, 1)));
-    const double c = std::cos(glm::radians(35.0)), expected = glm::degrees(std::acos(c * c + (1 - c * c) * std::sqrt(0.5)));
+    const double c = std::cos(glm::radians(35.0)),
+                 expected = glm::degrees(std::acos(c * c + (1 - c * c) * std::sqrt(0.5)));
     EXPECT_EQ(s.edges, 1u);
     EXPECT_NEAR(s.orthonormal.mean, expected, 1e-4);
     EXPECT_NEAR(s.orthonormal.maximum, expected, 1e-4);
@@ -168,7 +182,8 @@ TEST(EdgeSteps, onlyInteriorEdgesOfOneOrientationCount)
 template<class Change> StoredTangents storedWith(const Change& change, bool mirroredUv = false)
 {
     const float left = mirroredUv ? 1.0f : 0.0f;
-    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {left, 0}, {1 - left, 1}) + rectangle({2, 0}, {1, 3}, {left, 0}, {1 - left, 3}));
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {left, 0}, {1 - left, 1})
+                       + rectangle({2, 0}, {1, 3}, {left, 0}, {1 - left, 3}));
     mesh.tangents.assign(mesh.vertexCount(), mirroredUv ? glm::vec4(-1, 0, 0, -1) : glm::vec4(1, 0, 0, 1));
     for (std::size_t i = 0; i < 6; ++i)
         change(mesh.tangents[i]);
@@ -204,7 +219,9 @@ TEST(StoredTangents, aNodeThatMirrorsTurnsWOverWithTheUv)
 TEST(StoredTangents, turnedMeansByOver45Degrees)
 {
     for (const auto& [degrees, share] : {std::pair(44.0, 0.0), {46.0, 0.25}, {-46.0, 0.25}, {180.0, 0.25}}) {
-        const auto turn = [d = degrees](glm::vec4& t) { t = {float(std::cos(glm::radians(d))), float(std::sin(glm::radians(d))), 0, t.w}; };
+        const auto turn = [d = degrees](glm::vec4& t) {
+            t = {float(std::cos(glm::radians(d))), float(std::sin(glm::radians(d))), 0, t.w};
+        };
         const StoredTangents s = storedWith(turn);
         EXPECT_NEAR(s.turned, share, kFloats) << degrees;
         EXPECT_NEAR(s.angle.mean, std::abs(degrees) / 4, 1e-4);
@@ -232,7 +249,7 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     const glm::dvec3 m(0.4, 0.3, 1);
     Material material;
     material.normalMap.image = 0;
-    material.normalFormat = {2, 0, true};
+    material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const Image map = floatMap(4, 4, [&](int, int) { return m; });
     const auto read = lint::readings(tall(2), material, map);
     ASSERT_EQ(read.size(), 4u);
@@ -250,8 +267,9 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1)); // green the other way
     Material material;
-    material.normalFormat = {2, 0, true};
-    const auto read = lint::readings(makeSurface(mesh, Texture{}), material, floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
+    material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
+    const auto read = lint::readings(makeSurface(mesh, Texture{}), material,
+                                     floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
     ASSERT_EQ(read.size(), 5u);
     EXPECT_EQ(read[4].name, "stored");
     EXPECT_NEAR(read[4].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
@@ -280,7 +298,7 @@ TEST(Overlap, isTheShareOfTheAreaOnSharedTexels)
     const MappedSurface a = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
                         b = surfaceOf(rectangle({5, 0}, {1, 1}, {0, 0.75f}, {1, 1.25f})),
                         c = surfaceOf(rectangle({9, 0}, {1, 1}, {0, 0}, {1, 0.25f})), // A's uppermost quarter
-                        turned = surfaceOf(rectangle({9, 0}, {1, 1}, {1, 0}, {0, 0.25f}));
+        turned = surfaceOf(rectangle({9, 0}, {1, 1}, {1, 0}, {0, 0.25f}));
     const auto ab = overlapsOf({a, b}), ac = overlapsOf({a, c}), at = overlapsOf({a, turned}), alone = overlapsOf({a});
     EXPECT_NEAR(ab[0].overlapping, 0.5, kFloats);
     EXPECT_NEAR(ab[1].overlapping, 1, kFloats);
@@ -297,18 +315,20 @@ TEST(Overlap, isTheShareOfTheAreaOnSharedTexels)
 TEST(Overlap, countsTheAreaOnTheSurfaceNotInTheUv)
 {
     // Two rectangles of one surface on the same quarter of the map, of areas 1 and 7, and a third of area 8 elsewhere.
-    const auto corners = rectangle({0, 0}, {1, 1}, {0, 0}, {0.5f, 0.5f}) + rectangle({2, 0}, {1, 7}, {0, 0}, {0.5f, 0.5f})
-        + rectangle({4, 0}, {1, 8}, {0.5f, 0}, {1, 1});
+    const auto corners = rectangle({0, 0}, {1, 1}, {0, 0}, {0.5f, 0.5f})
+        + rectangle({2, 0}, {1, 7}, {0, 0}, {0.5f, 0.5f}) + rectangle({4, 0}, {1, 8}, {0.5f, 0}, {1, 1});
     EXPECT_NEAR(overlapsOf({surfaceOf(corners)})[0].overlapping, 0.5, kFloats);
 }
 
 TEST(Overlap, uvThatRepeatTheImageTooOftenCountAsOverlapping)
 {
-    const auto often = [](float copies) { return overlapsOf({surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {copies, copies}))}, 2)[0].overlapping; };
+    const auto often = [](float copies) {
+        return overlapsOf({surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {copies, copies}))}, 2)[0].overlapping;
+    };
     EXPECT_EQ(often(1), 0);
     EXPECT_NEAR(often(2), 1, 1e-9); // repeated: each texel four times
-    EXPECT_EQ(often(3000), 1); // beyond what is drawn
-    EXPECT_EQ(often(1e7f), 0); // out of range: not drawn at all
+    EXPECT_EQ(often(3000), 1);      // beyond what is drawn
+    EXPECT_EQ(often(1e7f), 0);      // out of range: not drawn at all
 }
 
 // ---- texels ---------------------------------------------------------------------------------
@@ -327,8 +347,9 @@ TEST(Texels, areFoundByColumnThenRowInEveryType)
     EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
     Texture texture;
     texture.sampler.wrapV = Wrap::clamp;
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, texture, kAsMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
 }
 
 TEST(Texels, coordinatesWrapAsTheSamplerSays)

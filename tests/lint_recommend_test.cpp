@@ -30,7 +30,8 @@ MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
     return {0, "map", spreadAt(0, orthonormal95), spreadAt(0, cotangent95), spreadAt(0, smooth95)};
 }
 
-LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)}, std::vector<GreenEvidence> maps = {})
+LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},
+                     std::vector<GreenEvidence> maps = {})
 {
     LintReport report;
     report.primitives = std::move(primitives);
@@ -97,7 +98,8 @@ TEST(Recommend, whatIsSeenIsSaidInThreeDegrees)
     EXPECT_TRUE(says(advisedOn({judgedAs(0.6, 1)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(4.9, 9)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "from elsewhere"));
-    EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "5.10 degrees off on average with the frame orthonormal (7.25 with cotangent)"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen,
+                     "5.10 degrees off on average with the frame orthonormal (7.25 with cotangent)"));
 }
 
 TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
@@ -117,7 +119,8 @@ TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
 
 TEST(Recommend, convertIsAdvisedForTheMapsThatItWouldChangeAndForNoOthers)
 {
-    const LintReport none = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.29)}), one = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.31)});
+    const LintReport none = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.29)}),
+                     one = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.31)});
     EXPECT_EQ(none.mapsConverted, 0u);
     EXPECT_EQ(none.mapsKept, 1u);
     EXPECT_TRUE(says(none.advised, "Nothing has to be changed")) << none.advised;
@@ -203,8 +206,9 @@ TEST(Recommend, storedTangentsAreDistrustedFromATenthOfTheAreaOn)
 TEST(Recommend, whatIsWrongWithStoredTangentsIsSaidWithItsShare)
 {
     EXPECT_TRUE(advisedOn({storedAs(0.09, 0.05)}).defects.empty());
-    EXPECT_TRUE(says(advisedOn({storedAs(0.49, 0.2)}).defects, "contradict the uv: w is reversed on 49 % of the area, the tangent turned by "
-                                                               "over 45 degrees on 20 %"));
+    EXPECT_TRUE(says(advisedOn({storedAs(0.49, 0.2)}).defects,
+                     "contradict the uv: w is reversed on 49 % of the area, the tangent turned by "
+                     "over 45 degrees on 20 %"));
     EXPECT_EQ(advisedOn({storedAs(0.51, 0.2)}).defects, "The stored TANGENT.w is reversed on 51 % of the area.");
 }
 
@@ -216,9 +220,13 @@ TEST(Recommend, aReversedWAndReversedGreenMakeUpForEachOther)
     EXPECT_TRUE(says(both.defects, "together they are right"));
     const LintReport less = advisedOn({storedAs(0.49, 0)}, {fitAs(9)}, other);
     EXPECT_TRUE(less.distrustStored);
-    EXPECT_TRUE(says(less.defects, "contradict the uv") && says(less.defects, "Green seems to point the other way in bumps")) << less.defects;
-    EXPECT_TRUE(advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(false, false, "bumps")}).distrustStored); // undecided
-    EXPECT_TRUE(advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(true, true, "bumps")}).distrustStored);   // as declared
+    EXPECT_TRUE(says(less.defects, "contradict the uv")
+                && says(less.defects, "Green seems to point the other way in bumps"))
+        << less.defects;
+    EXPECT_TRUE(
+        advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(false, false, "bumps")}).distrustStored); // undecided
+    EXPECT_TRUE(
+        advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(true, true, "bumps")}).distrustStored); // as declared
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(9)}, {greenAs(true, false, "")}).defects, "in image 3 "));
 }
 

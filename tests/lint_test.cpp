@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/lint/lint.hpp"
+#include "cotan/shapes/shapes.hpp"
 #include "cotan/truth/tessellation.hpp"
 
 namespace cotan {
@@ -35,7 +35,8 @@ Scene sceneOf(std::vector<Mesh> meshes, Image map = makeReliefMap(Relief::waves,
     Material material;
     material.normalMap.image = 0;
     if (scene.images[0].type == PixelType::float32)
-        material.normalFormat = {2, 0, true}; // signed, green along v: stored as it is meant
+        material.normalFormat = {.expansion = Expansion::signedValues,
+                                 .greenUp = false}; // signed, green along v: stored as it is meant
     scene.materials.push_back(material);
     for (Mesh& mesh : meshes) {
         scene.instances.push_back({"", int(scene.meshes.size()), glm::mat4(1)});
@@ -227,7 +228,8 @@ TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
         const GreenEvidence wrong = greenOf(withGreenReversed(makeReliefMap(relief, 256)));
         EXPECT_TRUE(wrong.decided() && !wrong.asDeclared()) << int(relief) << " " << wrong.verdict.agreement;
     }
-    // A smooth height field, but for rounding to 8 bits, and for steps over the detector's limit, which count as that limit.
+    // A smooth height field, but for rounding to 8 bits, and for steps over the detector's limit, which count as that
+    // limit.
     EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.9);
 }
 
@@ -276,7 +278,8 @@ TEST(Lint, theAdviceFollowsTheNumbers)
 {
     EXPECT_EQ(lintScene(sceneOf({makePatch(1, 0, false, 4)})).advice, Advice::readOrthonormal);
     // A coarse sphere: an orthonormal frame that steps at edges is not MikkTSpace, and cotangent creases.
-    EXPECT_EQ(lintScene(sceneOf({makeSphere(1, 16)}, makeReliefMap(Relief::domes, 128))).advice, Advice::convertToSmooth);
+    EXPECT_EQ(lintScene(sceneOf({makeSphere(1, 16)}, makeReliefMap(Relief::domes, 128))).advice,
+              Advice::convertToSmooth);
     Scene plain = sceneOf({makePatch(1, 0, false, 4)});
     plain.materials[0].normalMap.image = -1;
     EXPECT_EQ(lintScene(plain).advice, Advice::nothing);

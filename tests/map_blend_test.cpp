@@ -30,7 +30,10 @@ template<class Slopes> Image mapOf(int width, int height, Slopes slopes)
     return image;
 }
 
-Image flat(int width, int height) { return mapOf(width, height, [](int, int) { return glm::vec2(0); }); }
+Image flat(int width, int height)
+{
+    return mapOf(width, height, [](int, int) { return glm::vec2(0); });
+}
 
 double largestAngle(const Image& a, const Image& b)
 {
@@ -49,8 +52,12 @@ Image blended(const Image& base, const Image& detail, BlendSettings s)
 constexpr double kRounding = 1e-4; // degrees: some steps of float arithmetic on unit vectors
 constexpr BlendMode kModes[] = {BlendMode::reoriented, BlendMode::whiteout, BlendMode::udn, BlendMode::slopes};
 
-const auto kHills = [](int x, int y) { return glm::vec2(0.5f * std::sin(0.3f * float(x)), 0.4f * std::cos(0.2f * float(y))); };
-const auto kGrain = [](int x, int y) { return glm::vec2(0.2f * std::cos(1.1f * float(x + y)), 0.3f * std::sin(0.7f * float(x))); };
+const auto kHills = [](int x, int y) {
+    return glm::vec2(0.5f * std::sin(0.3f * float(x)), 0.4f * std::cos(0.2f * float(y)));
+};
+const auto kGrain = [](int x, int y) {
+    return glm::vec2(0.2f * std::cos(1.1f * float(x + y)), 0.3f * std::sin(0.7f * float(x)));
+};
 
 TEST(Blend, flat_details_change_nothing)
 {
@@ -70,7 +77,10 @@ TEST(Blend, on_a_flat_base_the_detail_comes_out_except_with_udn_and_linear)
 TEST(Blend, slopes_is_what_added_heights_give)
 {
     const Image sum = mapOf(20, 12, [](int x, int y) { return kHills(x, y) + 0.5f * kGrain(x, y); });
-    EXPECT_LT(largestAngle(blended(mapOf(20, 12, kHills), mapOf(20, 12, kGrain), {.mode = BlendMode::slopes, .strength = 0.5f}), sum), kRounding);
+    EXPECT_LT(
+        largestAngle(
+            blended(mapOf(20, 12, kHills), mapOf(20, 12, kGrain), {.mode = BlendMode::slopes, .strength = 0.5f}), sum),
+        kRounding);
 }
 
 TEST(Blend, reoriented_keeps_the_angle_between_details)
@@ -118,7 +128,8 @@ TEST(Blend, texels_that_are_no_direction_leave_the_other_map)
     base.floats()[0] = std::numeric_limits<float>::quiet_NaN();
     const Image detail = mapOf(4, 1, kGrain);
     std::size_t invalid = 0;
-    const Image out = blend(base, detail, {.base = kSigned, .detail = kSigned, .to = kSigned, .type = PixelType::float32}, invalid);
+    const Image out =
+        blend(base, detail, {.base = kSigned, .detail = kSigned, .to = kSigned, .type = PixelType::float32}, invalid);
     EXPECT_EQ(invalid, 1u);
     EXPECT_NEAR(out.floats()[0], detail.floats()[0], 1e-6);
 }

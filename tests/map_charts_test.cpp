@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <tuple>
 #include <limits>
+#include <tuple>
 
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/patches.hpp"
@@ -15,7 +15,8 @@ namespace {
 using namespace cases;
 
 enum class Between { flat, black, white, transparent, grey, padded };
-constexpr Between kBetween[] = {Between::flat, Between::black, Between::white, Between::transparent, Between::grey, Between::padded};
+constexpr Between kBetween[] = {Between::flat,        Between::black, Between::white,
+                                Between::transparent, Between::grey,  Between::padded};
 
 // Round charts, each with a relief of its own that ends where the chart ends, so that slopes jump there. covered:
 // share of the picture, roughly.
@@ -35,7 +36,8 @@ struct Atlas {
     glm::dvec2 slopes(glm::dvec2 p, glm::dvec2 middle) const
     {
         const double k = 0.013 * middle.x + 0.029 * middle.y;
-        const glm::dvec2 d(std::cos(k), std::sin(k)), e(-0.6 * d.y, 0.9 * d.x), tilt(0.4 * std::sin(7 * k), 0.5 * std::cos(5 * k));
+        const glm::dvec2 d(std::cos(k), std::sin(k)), e(-0.6 * d.y, 0.9 * d.x),
+            tilt(0.4 * std::sin(7 * k), 0.5 * std::cos(5 * k));
         return tilt + d * (0.5 * std::cos(0.33 * glm::dot(d, p) + k)) + e * (0.4 * std::cos(0.27 * glm::dot(e, p)));
     }
 };
@@ -58,8 +60,10 @@ Image atlasMap(const Atlas& atlas, Between between, bool greenUp, PixelType type
                 s = {0, 0};
             glm::vec4& t = row[std::size_t(x)] = encodeTexel(glm::vec3(float(-s.x), float(-s.y), 1), c, type);
             if (!inside && between != Between::padded && between != Between::flat)
-                t = between == Between::white ? glm::vec4(1) : between == Between::grey ? glm::vec4(0.5f, 0.5f, 0.5f, 1)
-                    : between == Between::transparent ? glm::vec4(0.3f, 0.9f, 0.2f, 0) : glm::vec4(0, 0, 0, 1);
+                t = between == Between::white         ? glm::vec4(1)
+                    : between == Between::grey        ? glm::vec4(0.5f, 0.5f, 0.5f, 1)
+                    : between == Between::transparent ? glm::vec4(0.3f, 0.9f, 0.2f, 0)
+                                                      : glm::vec4(0, 0, 0, 1);
         }
         storeRow(image, y, row);
     }
@@ -68,13 +72,17 @@ Image atlasMap(const Atlas& atlas, Between between, bool greenUp, PixelType type
 
 TEST(Charts, green_is_told_whatever_lies_between_them)
 {
-    for (const auto& [covered, across, type] : {std::tuple(0.1, 2, PixelType::unorm8), {0.1, 5, PixelType::unorm16}, {0.4, 5, PixelType::unorm8},
+    for (const auto& [covered, across, type] : {std::tuple(0.1, 2, PixelType::unorm8),
+                                                {0.1, 5, PixelType::unorm16},
+                                                {0.4, 5, PixelType::unorm8},
                                                 {0.75, 2, PixelType::unorm8}})
         for (Between between : kBetween)
             for (bool up : {true, false}) {
                 const GreenVerdict v = greenOf(atlasMap({256, across, covered}, between, up, type));
-                const std::string which = (testing::Message() << covered << ' ' << across << ' ' << int(between) << ' ' << up << ": "
-                                           << v.agreement << ' ' << v.deviations << ' ' << v.reason).GetString();
+                const std::string which =
+                    (testing::Message() << covered << ' ' << across << ' ' << int(between) << ' ' << up << ": "
+                                        << v.agreement << ' ' << v.deviations << ' ' << v.reason)
+                        .GetString();
                 if (v.green == Green::undecidable) // only where padding is most of the picture
                     EXPECT_TRUE(between == Between::padded && covered < 0.2) << which;
                 else
@@ -87,7 +95,8 @@ TEST(Charts, a_background_of_one_colour_changes_nothing)
 {
     const double alone = greenOf(atlasMap({256, 5, 0.4}, Between::transparent, true, PixelType::unorm16)).agreement;
     for (Between between : {Between::flat, Between::black, Between::white, Between::grey})
-        EXPECT_NEAR(greenOf(atlasMap({256, 5, 0.4}, between, true, PixelType::unorm16)).agreement, alone, 1e-6) << int(between);
+        EXPECT_NEAR(greenOf(atlasMap({256, 5, 0.4}, between, true, PixelType::unorm16)).agreement, alone, 1e-6)
+            << int(between);
 }
 
 // Waves along both axes, plus noise of that size, and a tilt of its own for every square.
@@ -98,8 +107,10 @@ Image disturbed(int side, double noiseSize, double tiltSize, int square, unsigne
     for (int i = 0; i < 1024; ++i)
         tilts.push_back(tiltSize * glm::dvec2(noise.next() - 0.5, noise.next() - 0.5));
     return floatMap(side, side, [&](int x, int y) {
-        glm::dvec2 s(0.1 * std::cos(0.4 * x) * std::cos(0.3 * y), 0.1 * 0.3 / 0.4 * std::sin(0.4 * x) * std::sin(0.3 * y));
-        s += noiseSize * glm::dvec2(noise.next() - 0.5, noise.next() - 0.5) + tilts[std::size_t(y / square * 32 + x / square)];
+        glm::dvec2 s(0.1 * std::cos(0.4 * x) * std::cos(0.3 * y),
+                     0.1 * 0.3 / 0.4 * std::sin(0.4 * x) * std::sin(0.3 * y));
+        s += noiseSize * glm::dvec2(noise.next() - 0.5, noise.next() - 0.5)
+            + tilts[std::size_t(y / square * 32 + x / square)];
         const glm::vec3 n = ofSlopes(s.x, s.y); // h = 0.25 sin 0.4x cos 0.3y, y down: h_up = 0.075 sin sin
         return glm::vec3(n.x, up ? n.y : -n.y, n.z);
     });
@@ -116,7 +127,8 @@ TEST(Charts, steps_where_they_meet_do_not_drown_what_is_on_them)
 TEST(Charts, verdicts_are_as_sure_as_their_figures)
 {
     for (bool up : {true, false}) {
-        const GreenVerdict sure = greenOf(disturbed(256, 0.01, 0, 16, 1, up)), likely = greenOf(disturbed(256, 0.06, 0, 16, 1, up));
+        const GreenVerdict sure = greenOf(disturbed(256, 0.01, 0, 16, 1, up)),
+                           likely = greenOf(disturbed(256, 0.06, 0, 16, 1, up));
         for (const GreenVerdict& v : {sure, likely}) {
             EXPECT_EQ(v.green, up ? Green::up : Green::down);
             const double size = std::abs(v.agreement);
@@ -134,7 +146,8 @@ TEST(Charts, small_noise_agrees_by_chance_and_is_not_believed)
     double most = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         Noise noise(7919 * seed);
-        const GreenVerdict v = greenOf(floatMap(12, 12, [&](int, int) { return ofSlopes(noise.next() - 0.5, noise.next() - 0.5); }));
+        const GreenVerdict v =
+            greenOf(floatMap(12, 12, [&](int, int) { return ofSlopes(noise.next() - 0.5, noise.next() - 0.5); }));
         EXPECT_EQ(v.green, Green::undecidable) << seed << ' ' << v.agreement << ' ' << v.deviations;
         most = std::max(most, std::abs(v.agreement));
     }
@@ -161,10 +174,12 @@ TEST(Charts, noise_on_islands_is_undecidable)
 TEST(Charts, the_figures_of_a_map_leave_its_background_out)
 {
     // Half black, half tilted by (0.6, 0, 0.8) as 8 bits hold it.
-    for (const std::array<std::uint8_t, 4>& outside : {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {90, 200, 10, 0}, {128, 128, 128, 255}}) {
+    for (const std::array<std::uint8_t, 4>& outside :
+         {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {90, 200, 10, 0}, {128, 128, 128, 255}}) {
         Image map = makeImage(16, 16, PixelType::unorm8);
         for (std::size_t i = 0; i < map.pixelCount(); ++i) {
-            const std::array<std::uint8_t, 4> tilted{std::uint8_t(128 + 76 + i % 2), std::uint8_t(128 + i % 5), std::uint8_t(128 + 102 - i % 7), 255};
+            const std::array<std::uint8_t, 4> tilted{std::uint8_t(128 + 76 + i % 2), std::uint8_t(128 + i % 5),
+                                                     std::uint8_t(128 + 102 - i % 7), 255};
             std::ranges::copy(i % 16 < 8 ? outside : tilted, map.bytes8() + 4 * i);
         }
         const NormalStatistics s = statisticsOfMap(map);
@@ -186,7 +201,7 @@ TEST(Charts, what_is_outside_is_told_on_both_sides_of_its_limits)
     EXPECT_FALSE(outsideCharts(texel(246, 1)));
     EXPECT_TRUE(outsideCharts(texel(100, 0)));
     EXPECT_FALSE(outsideCharts(texel(100, 1.0f / 255)));
-    EXPECT_FALSE(outsideCharts({0, 0, 1, 1})); // black in two components only
+    EXPECT_FALSE(outsideCharts({0, 0, 1, 1}));    // black in two components only
     EXPECT_FALSE(outsideCharts({-1, -1, -1, 1})); // signed
     EXPECT_FALSE(outsideCharts({1, 1, 0.5f, 1}));
 }
@@ -208,7 +223,8 @@ TEST(Patches, hold_small_pictures_whole_and_overlap_by_one_row_and_column)
         for (int y = 0; y < p.texels.height; ++y)
             for (int x = 0; x < p.texels.width; ++x) {
                 seen[std::size_t((p.y + y) * 37 + p.x + x)] += x < 3 && y < 3;
-                ASSERT_EQ(p.texels.bytes8()[4 * (y * p.texels.width + x) + 1], picture.bytes8()[4 * ((p.y + y) * 37 + p.x + x) + 1]);
+                ASSERT_EQ(p.texels.bytes8()[4 * (y * p.texels.width + x) + 1],
+                          picture.bytes8()[4 * ((p.y + y) * 37 + p.x + x) + 1]);
             }
     }
     EXPECT_EQ(std::ranges::count(seen, 1), 37 * 21); // each texel once
@@ -330,10 +346,10 @@ TEST(Surveys, count_shares_on_both_sides_of_their_limits)
     const glm::vec3 up(-0.6f, 0, 0.8f);
     EXPECT_NEAR(counted({0.6f, 0.8f, -0.03f}, up).belowHorizon, 0.1, 1e-9);
     EXPECT_EQ(counted({0.6f, 0.8f, -0.01f}, up).belowHorizon, 0);
-    EXPECT_NEAR(counted({0, 0.5f, 0.73f}, up).shortened, 0.1, 1e-9);  // length 0.885
-    EXPECT_EQ(counted({0, 0.55f, 0.75f}, up).shortened, 0);           // 0.93
+    EXPECT_NEAR(counted({0, 0.5f, 0.73f}, up).shortened, 0.1, 1e-9);      // length 0.885
+    EXPECT_EQ(counted({0, 0.55f, 0.75f}, up).shortened, 0);               // 0.93
     EXPECT_NEAR(counted({0.7f, 0.75f, 0.1f}, up).outsideDisc, 0.1, 1e-9); // 1.0525
-    EXPECT_EQ(counted({0.71f, 0.71f, 0.1f}, up).outsideDisc, 0); // 1.0082
+    EXPECT_EQ(counted({0.71f, 0.71f, 0.1f}, up).outsideDisc, 0);          // 1.0082
     EXPECT_NEAR(counted({std::numeric_limits<float>::quiet_NaN(), 0, 1}, up).invalid, 0.1, 1e-9);
     const NormalStatistics s = counted({0, 0.6f, 0.8f}, up);
     EXPECT_NEAR(s.mean[0], -0.54, 1e-6);

@@ -60,7 +60,8 @@ TEST(MapCommand, detects_every_texture_of_the_collection)
     while (std::getline(list, line)) {
         const std::string file = line.substr(0, line.find('\t'));
         const std::string truth = line.substr(file.size() + 1, 2);
-        const auto report = reportOf(runTool({"map", "detect", (textures / file).string(), "--json", "-"}, folder.path()));
+        const auto report =
+            reportOf(runTool({"map", "detect", (textures / file).string(), "--json", "-"}, folder.path()));
         EXPECT_EQ(report["green"], truth == "+Y" ? "up" : truth == "-Y" ? "down" : "undecidable") << file;
         EXPECT_NE(report["exchanged"], "yes") << file;
         ++seen;
@@ -81,7 +82,8 @@ Image chartOn(const std::array<std::uint8_t, 4>& outside)
 TEST(MapCommand, what_lies_between_charts_is_left_out)
 {
     TemporaryFolder folder;
-    for (const std::array<std::uint8_t, 4>& outside : {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {9, 99, 200, 0}, {128, 128, 255, 255}}) {
+    for (const std::array<std::uint8_t, 4>& outside :
+         {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {9, 99, 200, 0}, {128, 128, 255, 255}}) {
         ASSERT_TRUE(writeImage(folder / "map.png", chartOn(outside)));
         const auto detected = reportOf(runTool({"map", "detect", "map.png", "--json", "-"}, folder.path()));
         EXPECT_EQ(detected["green"], "up") << detected;
@@ -97,7 +99,10 @@ TEST(MapCommand, flat_stays_128_between_any_two_presets)
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "flat.png", chartOn({128, 128, 255, 255})));
     for (const std::string to : {"gltf", "opengl", "unity,xyz", "unreal,xyz", "blender"}) {
-        ASSERT_EQ(runTool({"map", "convert", "flat.png", "--from", "directx", "--to", to, "-o", "out.png"}, folder.path()).code, 0);
+        ASSERT_EQ(
+            runTool({"map", "convert", "flat.png", "--from", "directx", "--to", to, "-o", "out.png"}, folder.path())
+                .code,
+            0);
         const auto out = readImage(folder / "out.png");
         ASSERT_TRUE(out);
         EXPECT_EQ(int(out->bytes8()[4 * 100]), 128) << to;
@@ -112,7 +117,9 @@ TEST(MapCommand, heights_with_free_borders_honour_the_kernel)
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
     const auto share = [&](const std::string& kernel) {
-        const auto report = reportOf(runTool({"map", "to-height", "map.png", "--free", "--kernel", kernel, "-o", kernel + ".exr", "--json", "-"}, folder.path()));
+        const auto report = reportOf(
+            runTool({"map", "to-height", "map.png", "--free", "--kernel", kernel, "-o", kernel + ".exr", "--json", "-"},
+                    folder.path()));
         return report["residual_share"].get<double>();
     };
     EXPECT_NE(share("forward"), share("spectral"));
@@ -125,10 +132,16 @@ TEST(MapCommand, conversion_there_and_back_is_within_rounding)
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 96)));
     for (const char* words : {"directx", "unreal", "unity", "opengl,stereographic"}) {
         const std::string to = words;
-        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", to, "--bits", "16", "-o", "there.png"},
-                          folder.path()).code, 0);
-        ASSERT_EQ(runTool({"map", "convert", "there.png", "--from", to, "--to", "gltf,exact", "--bits", "16", "-o", "back.png"},
-                          folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", to, "--bits", "16", "-o",
+                           "there.png"},
+                          folder.path())
+                      .code,
+                  0);
+        ASSERT_EQ(runTool({"map", "convert", "there.png", "--from", to, "--to", "gltf,exact", "--bits", "16", "-o",
+                           "back.png"},
+                          folder.path())
+                      .code,
+                  0);
         const auto report = reportOf(runTool({"map", "diff", "map.png", "back.png", "--json", "-"}, folder.path()));
         // Steps of 1/32767, two roundings, a slope of 0.92 at most (1/cos = 1.36): 0.005 degrees.
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.01) << to << report;
@@ -140,9 +153,13 @@ TEST(MapCommand, float_formats_keep_signed_values)
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
     for (const char* name : {"there.exr", "there.tif"}) {
-        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,signed", "--bits", "float",
-                           "-o", name}, folder.path()).code, 0);
-        const auto report = reportOf(runTool({"map", "diff", "map.png", name, "--to", "gltf,signed", "--json", "-"}, folder.path()));
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,signed", "--bits",
+                           "float", "-o", name},
+                          folder.path())
+                      .code,
+                  0);
+        const auto report =
+            reportOf(runTool({"map", "diff", "map.png", name, "--to", "gltf,signed", "--json", "-"}, folder.path()));
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 1e-4) << name; // float rounding
     }
 }
@@ -152,8 +169,12 @@ TEST(MapCommand, half_floats_keep_directions_to_their_own_rounding)
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
     ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "directx,signed", "--bits", "half",
-                       "-o", "there.exr"}, folder.path()).code, 0);
-    const auto report = reportOf(runTool({"map", "diff", "map.png", "there.exr", "--to", "directx,signed", "--json", "-"}, folder.path()));
+                       "-o", "there.exr"},
+                      folder.path())
+                  .code,
+              0);
+    const auto report = reportOf(
+        runTool({"map", "diff", "map.png", "there.exr", "--to", "directx,signed", "--json", "-"}, folder.path()));
     // 11 bits of fraction: half a step is 2^-12 of each component, 0.024 degrees for all three at worst.
     EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.025);
     EXPECT_GT(report["angles"]["max_degrees"].get<double>(), 0.001); // and it is not stored as float
@@ -166,12 +187,14 @@ template<class Shape> void writeObj(const fs::path& file, int cells, Shape shape
     for (int j = 0; j <= cells; ++j)
         for (int i = 0; i <= cells; ++i) {
             const glm::dvec3 p = shape(double(i) / cells, double(j) / cells);
-            out << "v " << p.x << ' ' << p.y << ' ' << p.z << "\nvt " << double(i) / cells << ' ' << double(j) / cells << '\n';
+            out << "v " << p.x << ' ' << p.y << ' ' << p.z << "\nvt " << double(i) / cells << ' ' << double(j) / cells
+                << '\n';
         }
     for (int j = 0; j < cells; ++j)
         for (int i = 0; i < cells; ++i) {
             const int a = j * (cells + 1) + i + 1, b = a + 1, c = b + cells + 1, d = c - 1;
-            out << "f " << a << '/' << a << ' ' << b << '/' << b << ' ' << c << '/' << c << ' ' << d << '/' << d << '\n';
+            out << "f " << a << '/' << a << ' ' << b << '/' << b << ' ' << c << '/' << c << ' ' << d << '/' << d
+                << '\n';
         }
 }
 
@@ -181,8 +204,11 @@ TEST(MapCommand, on_a_plane_that_faces_z_object_space_is_tangent_space_with_gree
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 48)));
     writeObj(folder / "plane.obj", 1, [](double u, double v) { return glm::dvec3(u, v, 0); });
     for (const std::string frame : {"cotangent", "smooth", "mikktspace"}) {
-        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,exact,object", "--mesh", "plane.obj",
-                           "--frame", frame, "--bits", "16", "-o", "object.png"}, folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,exact", "--to", "gltf,exact,object", "--mesh",
+                           "plane.obj", "--frame", frame, "--bits", "16", "-o", "object.png"},
+                          folder.path())
+                      .code,
+                  0);
         const auto report = reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.002) << frame; // sqrt(3)/2 steps of 1/32767, floats
     }
@@ -192,17 +218,19 @@ TEST(MapCommand, object_space_and_back_is_within_rounding_on_a_bent_and_sheared_
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 64)));
-    writeObj(folder / "bent.obj", 8, [](double u, double v) {
-        return glm::dvec3(std::sin(2 * u), 0.7 * v + 0.2 * u, std::cos(2 * u));
-    });
+    writeObj(folder / "bent.obj", 8,
+             [](double u, double v) { return glm::dvec3(std::sin(2 * u), 0.7 * v + 0.2 * u, std::cos(2 * u)); });
     for (const std::string frame : {"cotangent", "smooth", "mikktspace", "orthonormal"}) {
-        const auto convert = [&](const std::string& from, const std::string& to, const std::string& in, const std::string& out) {
-            return runTool({"map", "convert", in, "--from", from, "--to", to, "--mesh", "bent.obj", "--frame", frame, "--bits", "16",
-                            "-o", out}, folder.path());
+        const auto convert = [&](const std::string& from, const std::string& to, const std::string& in,
+                                 const std::string& out) {
+            return runTool({"map", "convert", in, "--from", from, "--to", to, "--mesh", "bent.obj", "--frame", frame,
+                            "--bits", "16", "-o", out},
+                           folder.path());
         };
         ASSERT_EQ(convert("gltf,exact", "gltf,exact,object", "map.png", "object.png").code, 0);
         ASSERT_EQ(convert("gltf,exact,object", "directx,exact", "object.png", "back.png").code, 0);
-        const auto report = reportOf(runTool({"map", "diff", "map.png", "back.png", "--to", "directx,exact", "--json", "-"}, folder.path()));
+        const auto report = reportOf(
+            runTool({"map", "diff", "map.png", "back.png", "--to", "directx,exact", "--json", "-"}, folder.path()));
         // Two roundings of 0.0015 degrees; the frame stretches them by 3 at most (uv 2 x 0.7, sheared by 0.2).
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.008) << frame;
         const auto turned = reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
@@ -223,10 +251,14 @@ TEST(MapCommand, heights_come_back_from_normals_within_rounding)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 96)));
-    const auto heights = reportOf(runTool({"map", "to-height", "map.png", "--size", "2", "-o", "height.png", "--kernel", "central",
-                                           "--json", "-"}, folder.path()));
+    const auto heights = reportOf(runTool(
+        {"map", "to-height", "map.png", "--size", "2", "-o", "height.png", "--kernel", "central", "--json", "-"},
+        folder.path()));
     const std::string range = std::to_string(heights["highest"].get<double>() - heights["lowest"].get<double>());
-    ASSERT_EQ(runTool({"map", "from-height", "height.png", "--size", "2", "--range", range, "-o", "again.png"}, folder.path()).code, 0);
+    ASSERT_EQ(
+        runTool({"map", "from-height", "height.png", "--size", "2", "--range", range, "-o", "again.png"}, folder.path())
+            .code,
+        0);
     const auto report = reportOf(runTool({"map", "diff", "map.png", "again.png", "--json", "-"}, folder.path()));
     // The map's 8 bits: 0.4 degrees at worst (sqrt(3)/2 steps of 1/127); the heights' 16 bits: half a step of
     // range 9 texels/65535 is a slope of 1e-4.
@@ -243,9 +275,11 @@ TEST(MapCommand, free_borders_follow_a_map_that_leans)
         std::copy_n(texel, 4, slope.bytes8() + 4 * i);
     }
     ASSERT_TRUE(writeImage(folder / "map.png", slope));
-    const auto h = reportOf(runTool({"map", "to-height", "map.png", "--free", "-o", "height.exr", "--json", "-"}, folder.path()));
+    const auto h =
+        reportOf(runTool({"map", "to-height", "map.png", "--free", "-o", "height.exr", "--json", "-"}, folder.path()));
     EXPECT_NEAR(h["highest"].get<double>() - h["lowest"].get<double>(), 39 * 64.0 / 110, 1e-3);
-    const auto flat = reportOf(runTool({"map", "to-height", "map.png", "-o", "flat.exr", "--json", "-"}, folder.path()));
+    const auto flat =
+        reportOf(runTool({"map", "to-height", "map.png", "-o", "flat.exr", "--json", "-"}, folder.path()));
     EXPECT_NEAR(flat["highest"].get<double>(), 0, 1e-3);
     EXPECT_NEAR(flat["mean_tilt_degrees"].get<double>(), std::atan(64.0 / 110) * 180 / 3.14159265, 1e-3);
 }
@@ -261,10 +295,14 @@ TEST(MapCommand, blending_with_a_flat_map_keeps_the_base_within_rounding)
     }
     ASSERT_TRUE(writeImage(folder / "flat.png", flat));
     for (const std::string mode : {"reoriented", "whiteout", "udn", "slopes"}) {
-        ASSERT_EQ(runTool({"map", "blend", "base.png", "flat.png", "--mode", mode, "--tiles", "3x5", "--bits", "16", "-o", "out.png"},
-                          folder.path()).code, 0);
+        ASSERT_EQ(runTool({"map", "blend", "base.png", "flat.png", "--mode", mode, "--tiles", "3x5", "--bits", "16",
+                           "-o", "out.png"},
+                          folder.path())
+                      .code,
+                  0);
         const auto report = reportOf(runTool({"map", "diff", "base.png", "out.png", "--json", "-"}, folder.path()));
-        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.003) << mode; // sqrt(3)/2 steps of 1/32767, and floats
+        EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.003)
+            << mode; // sqrt(3)/2 steps of 1/32767, and floats
     }
 }
 
@@ -292,8 +330,10 @@ TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
     std::ofstream(folder / "text.png") << "not a picture";
     std::ofstream(folder / "empty.png").flush();
-    const auto convert = [&](const std::string& file, const std::string& to, const std::string& out, const std::string& bits) {
-        return runTool({"map", "convert", file, "--from", "gltf", "--to", to, "-o", out, "--bits", bits}, folder.path());
+    const auto convert = [&](const std::string& file, const std::string& to, const std::string& out,
+                             const std::string& bits) {
+        return runTool({"map", "convert", file, "--from", "gltf", "--to", to, "-o", out, "--bits", bits},
+                       folder.path());
     };
     expectRefused(convert("text.png", "directx", "out.png", "auto"), 2, folder, "out.png");
     expectRefused(convert("empty.png", "directx", "out.png", "auto"), 2, folder, "out.png");
@@ -350,11 +390,18 @@ TEST(MapCommand, odd_pictures_behave)
         EXPECT_EQ(runTool({"map", "info", file}, folder.path()).code, 0) << file;
         const auto report = reportOf(runTool({"map", "detect", file, "--json", "-"}, folder.path()));
         EXPECT_EQ(report["green"], "undecidable") << file;
-        EXPECT_EQ(runTool({"map", "convert", file, "--from", "gltf", "--to", "directx", "--bits", "8", "-o", file + ".png"},
-                          folder.path()).code, 0) << file;
+        EXPECT_EQ(
+            runTool({"map", "convert", file, "--from", "gltf", "--to", "directx", "--bits", "8", "-o", file + ".png"},
+                    folder.path())
+                .code,
+            0)
+            << file;
         EXPECT_EQ(runTool({"map", "diff", file, file, "-o", "heat.png"}, folder.path()).code, 0) << file;
-        for (const std::vector<std::string>& words : {std::vector<std::string>{"from-height", file}, {"to-height", file},
-                                                      {"to-height", file, "--free"}, {"blend", file, file}, {"mips", file}}) {
+        for (const std::vector<std::string>& words : {std::vector<std::string>{"from-height", file},
+                                                      {"to-height", file},
+                                                      {"to-height", file, "--free"},
+                                                      {"blend", file, file},
+                                                      {"mips", file}}) {
             std::vector<std::string> all{"map"};
             all.insert(all.end(), words.begin(), words.end());
             all.insert(all.end(), {"-o", "out.png"});
@@ -370,10 +417,22 @@ TEST(MapCommand, the_same_bytes_for_any_number_of_threads)
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::bricks, 128)));
     for (const std::string threads : {"1", "2", "5"}) {
         ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "unreal,stereographic", "--dither",
-                           "--threads", threads, "-o", threads + ".png"}, folder.path()).code, 0);
-        ASSERT_EQ(runTool({"map", "detect", "map.png", "--threads", threads, "--json", threads + ".json"}, folder.path()).code, 0);
-        ASSERT_EQ(runTool({"map", "to-height", "map.png", "--threads", threads, "-o", "height" + threads + ".png"}, folder.path()).code, 0);
-        ASSERT_EQ(runTool({"map", "mips", "map.png", "--threads", threads, "-o", "mips" + threads + ".dds"}, folder.path()).code, 0);
+                           "--threads", threads, "-o", threads + ".png"},
+                          folder.path())
+                      .code,
+                  0);
+        ASSERT_EQ(
+            runTool({"map", "detect", "map.png", "--threads", threads, "--json", threads + ".json"}, folder.path())
+                .code,
+            0);
+        ASSERT_EQ(runTool({"map", "to-height", "map.png", "--threads", threads, "-o", "height" + threads + ".png"},
+                          folder.path())
+                      .code,
+                  0);
+        ASSERT_EQ(
+            runTool({"map", "mips", "map.png", "--threads", threads, "-o", "mips" + threads + ".dds"}, folder.path())
+                .code,
+            0);
         EXPECT_EQ(readWhole(folder / ("height" + threads + ".png")), readWhole(folder / "height1.png"));
         EXPECT_EQ(readWhole(folder / ("mips" + threads + ".dds")), readWhole(folder / "mips1.dds"));
         EXPECT_EQ(readWhole(folder / (threads + ".png")), readWhole(folder / "1.png"));

@@ -6,10 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/maps/normal_statistics.hpp"
 #include "cotan/maps/texels.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -173,7 +173,8 @@ TEST(Info, tells_contents_apart)
     EXPECT_EQ(statisticsOfMap(tangent).content, Content::tangentSpace);
     EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[2] = 128; })).content, Content::twoChannel);
     EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[0] = p[1] = p[2]; })).content, Content::grey);
-    EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[0] = p[1] = 128, p[2] = 255; })).content, Content::flat);
+    EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[0] = p[1] = 128, p[2] = 255; })).content,
+              Content::flat);
     // Two-channel files arrive as grey and alpha.
     const Image grey = changed(tangent, [](std::uint8_t* p) { p[3] = p[1], p[1] = p[2] = p[0]; });
     EXPECT_EQ(statisticsOfMap(grey).swizzle, Swizzle::greyAlpha);
@@ -197,7 +198,7 @@ TEST(Info, counts_tilt_by_tens_of_degrees)
     const NormalStatistics s = statisticsOfMap(half);
     EXPECT_DOUBLE_EQ(s.tilt[0], 0.5);
     EXPECT_DOUBLE_EQ(s.tilt[4], 0.5);
-    EXPECT_NEAR(s.meanTilt, 22.5, 0.2); // half a step of 1/127 at length 1 is 0.23 degrees
+    EXPECT_NEAR(s.meanTilt, 22.5, 0.2);  // half a step of 1/127 at length 1 is 0.23 degrees
     EXPECT_NEAR(s.meanLength, 1, 0.004); // sqrt(3)/2 steps at most: 0.0068; half the texels are exact
 }
 

@@ -61,8 +61,9 @@ protected:
 
 TEST_F(MapFiles, aCallThatIsStoppedSaysSoAndLeavesNoFile)
 {
-    std::ofstream(folder / "quad.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
-                                          "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
+    std::ofstream(folder / "quad.obj")
+        << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+           "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
     const auto before = filesIn(folder.path());
     std::size_t number = 0;
     for (const Status& done : allCalls({.limits = {}, .threads = 1, .progress = [](double) { return false; }})) {

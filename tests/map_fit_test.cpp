@@ -11,20 +11,25 @@ using namespace test;
 MapUse fitUse(const std::vector<Corner>& corners, double scale = 1)
 {
     MapUse use{surfaceOf(corners), kAsMeant};
-    use.format.strength = scale;
+    use.strength = scale;
     return use;
 }
 
-constexpr FramePair kFitCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated, TangentOrigin::generated};
+constexpr FramePair kFitCotangent{Frame::mikktspace, Frame::cotangent, TangentOrigin::generated,
+                                  TangentOrigin::generated};
 
 const glm::dvec3 kTexel(0.4, 0.3, 1);
-Image fitMap() { return floatMap(4, 4, [](int, int) { return kTexel; }); }
+Image fitMap()
+{
+    return floatMap(4, 4, [](int, int) { return kTexel; });
+}
 
 TEST(MapFit, pointsAreSpreadByArea)
 {
     // Areas 1 and 3 (two triangles each), and 4 without area in uv.
-    const MappedSurface s = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + rectangle({2, 0}, {1, 3}, {0, 0}, {1, 1})
-                                      + rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1}));
+    const MappedSurface s =
+        surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + rectangle({2, 0}, {1, 3}, {0, 0}, {1, 1})
+                  + rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1}));
     std::size_t counts[6] = {};
     const auto points = pointsOver(s, 800);
     ASSERT_EQ(points.size(), 800u);
@@ -52,9 +57,13 @@ TEST(MapFit, theErrorIsThatOfTheOtherFrame)
     EXPECT_NEAR(s.mean, angleBetween(kTexel, {0.2, 0.3, 1}), 1e-4);
     EXPECT_NEAR(s.maximum, s.mean, 1e-4);
     EXPECT_EQ(s.count, 4096u);
-    EXPECT_NEAR(mapError(map, map, {&use}, {Frame::cotangent, Frame::mikktspace, TangentOrigin::generated, TangentOrigin::generated}).mean,
+    EXPECT_NEAR(mapError(map, map, {&use},
+                         {Frame::cotangent, Frame::mikktspace, TangentOrigin::generated, TangentOrigin::generated})
+                    .mean,
                 s.mean, 1e-4);
-    EXPECT_NEAR(mapError(map, map, {&use}, {Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated, TangentOrigin::generated}).mean,
+    EXPECT_NEAR(mapError(map, map, {&use},
+                         {Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated, TangentOrigin::generated})
+                    .mean,
                 0, 1e-4);
     // The right answer for the new frame, in a map of another size.
     const Image right = floatMap(2, 8, [](int, int) { return glm::dvec3(0.8, 0.3, 1); });
@@ -64,11 +73,13 @@ TEST(MapFit, theErrorIsThatOfTheOtherFrame)
 
 TEST(MapFit, usesWeighByTheirAreaAndFlattenedOnesDoNotCount)
 {
-    const MapUse good = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})), bad = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}));
+    const MapUse good = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
+                 bad = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}));
     const Image map = fitMap();
     const double alone = mapError(map, map, {&bad}, kFitCotangent).mean;
     EXPECT_NEAR(mapError(map, map, {&good, &bad}, kFitCotangent).mean, alone * 8 / 9, 1e-4);
-    const MapUse flattened = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}), 0), negative = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}), -1);
+    const MapUse flattened = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}), 0),
+                 negative = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}), -1);
     EXPECT_NEAR(mapError(map, map, {&good, &flattened}, kFitCotangent).mean, 0, 1e-4);
     EXPECT_EQ(mapError(map, map, {&flattened}, kFitCotangent).count, 0u);
     EXPECT_NEAR(mapError(map, map, {&negative}, kFitCotangent).mean, alone, 1e-4);

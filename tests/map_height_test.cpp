@@ -7,10 +7,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/height.hpp"
 #include "cotan/maps/texels.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -54,8 +54,10 @@ double largestAngle(const Image& a, const Image& b, int border)
 Image normals(const Image& height, Kernel kernel, Wrap wrap = Wrap::clamp, double scale = 1)
 {
     std::size_t invalid = 0;
-    return normalsFromHeight(height, {.kernel = kernel, .wrap = wrap, .scaleX = scale, .scaleY = scale, .to = kSigned,
-                                      .type = PixelType::float32}, invalid);
+    return normalsFromHeight(
+        height,
+        {.kernel = kernel, .wrap = wrap, .scaleX = scale, .scaleY = scale, .to = kSigned, .type = PixelType::float32},
+        invalid);
 }
 
 double bowl(int x, int y) { return 0.004 * x * x - 0.003 * y * y + 0.002 * x * y; }
@@ -71,19 +73,20 @@ TEST(FromHeight, symmetric_kernels_are_exact_on_quadratics)
 TEST(FromHeight, the_forward_kernel_is_half_a_texel_off)
 {
     // Towards the next texel: half a texel right for x, half a texel up for y.
-    const Image truth = normalImage(40, 30, [](int x, int y) {
-        return glm::dvec2(bowlSlopes(x + 0.5, y).x, bowlSlopes(x, y - 0.5).y);
-    });
+    const Image truth = normalImage(
+        40, 30, [](int x, int y) { return glm::dvec2(bowlSlopes(x + 0.5, y).x, bowlSlopes(x, y - 0.5).y); });
     EXPECT_LT(largestAngle(normals(heightImage(40, 30, bowl), Kernel::forward), truth, 1), 1e-4);
 }
 
 TEST(FromHeight, borders_follow_the_wrap_mode)
 {
     const Image ramp = heightImage(8, 8, [](int x, int) { return 0.5 * x; });
-    const auto slopeAt = [](const Image& n, int x) { return -n.floats()[4 * (3 * 8 + x)] / n.floats()[4 * (3 * 8 + x) + 2]; };
-    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::clamp), 0), 0.25, 1e-6);   // half the texels, half the rise
-    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::repeat), 0), -1.5, 1e-5);  // (0.5 - 3.5)/2
-    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::mirror), 0), 0.25, 1e-6);  // the edge is its own neighbour
+    const auto slopeAt = [](const Image& n, int x) {
+        return -n.floats()[4 * (3 * 8 + x)] / n.floats()[4 * (3 * 8 + x) + 2];
+    };
+    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::clamp), 0), 0.25, 1e-6);  // half the texels, half the rise
+    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::repeat), 0), -1.5, 1e-5); // (0.5 - 3.5)/2
+    EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::mirror), 0), 0.25, 1e-6); // the edge is its own neighbour
     EXPECT_NEAR(slopeAt(normals(ramp, Kernel::central, Wrap::mirror), 4), 0.5, 1e-6);
 }
 
@@ -132,7 +135,8 @@ TEST(ToHeight, smooth_periodic_reliefs_come_back_exactly_for_any_size)
         });
         const Heights solved = heightFromNormals(map, {.from = kSigned});
         // Slopes are floats, and so is the grid between transforms: 1e-6 of heights of some 2 texels.
-        EXPECT_LT(largestHeightError(solved, width, height, [&](double x, double y) { return sample(x, y).h * w; }), 2e-5);
+        EXPECT_LT(largestHeightError(solved, width, height, [&](double x, double y) { return sample(x, y).h * w; }),
+                  2e-5);
         EXPECT_LT(solved.residual, 1e-5 * solved.slope);
     }
 }
@@ -146,12 +150,14 @@ TEST(ToHeight, the_kernel_that_made_the_map_is_undone)
         state = state * 1664525u + 1013904223u;
         return double(state >> 8) / 16777216.0;
     });
-    const Image waves = heightImage(32, 24, [](int x, int y) { return 10 * relief(Relief::waves, x / 32.0, y / 24.0).h; });
+    const Image waves =
+        heightImage(32, 24, [](int x, int y) { return 10 * relief(Relief::waves, x / 32.0, y / 24.0).h; });
     for (Kernel kernel : {Kernel::forward, Kernel::central, Kernel::sobel, Kernel::scharr}) {
         const Image map = normals(kernel == Kernel::forward ? noise : waves, kernel, Wrap::repeat);
         const Heights solved = heightFromNormals(map, {.from = kSigned, .kernel = kernel});
-        const Image again = normals(heightImage(32, 24, [&](int x, int y) { return solved.texels[std::size_t(y * 32 + x)]; }),
-                                    kernel, Wrap::repeat);
+        const Image again =
+            normals(heightImage(32, 24, [&](int x, int y) { return solved.texels[std::size_t(y * 32 + x)]; }), kernel,
+                    Wrap::repeat);
         EXPECT_LT(largestAngle(map, again, 0), 1e-3) << int(kernel); // float slopes and heights: 1e-6 radians
     }
 }
@@ -160,7 +166,9 @@ TEST(ToHeight, free_borders_are_exact_on_quadratics)
 {
     const Image map = normalImage(33, 20, [](int x, int y) { return bowlSlopes(x, y); });
     const Heights solved = heightFromNormals(map, {.from = kSigned, .boundary = Boundary::free});
-    EXPECT_LT(largestHeightError(solved, 33, 20, [](double x, double y) { return 0.004 * x * x - 0.003 * y * y + 0.002 * x * y; }), 1e-4);
+    EXPECT_LT(largestHeightError(solved, 33, 20,
+                                 [](double x, double y) { return 0.004 * x * x - 0.003 * y * y + 0.002 * x * y; }),
+              1e-4);
     EXPECT_LT(solved.residual, 1e-5);
 }
 

@@ -30,10 +30,16 @@ void writeBytes(const fs::path& file, const void* data, std::size_t size)
 void expectAllRefuse(const TemporaryFolder& folder, const std::string& file)
 {
     const std::vector<std::vector<std::string>> commands = {
-        {"info", file}, {"detect", file}, {"convert", file, "--from", "gltf", "--to", "directx", "-o", "out.png"},
-        {"convert", file, "--from", "unity", "--to", "gltf", "-o", "out.tif"}, {"diff", file, file, "-o", "out.png"},
-        {"from-height", file, "-o", "out.png"}, {"from-height", file, "--wrap", "clamp", "-o", "out.exr", "--bits", "half"},
-        {"to-height", file, "-o", "out.png"}, {"blend", file, file, "-o", "out.png"}, {"mips", file, "-o", "out.dds"}};
+        {"info", file},
+        {"detect", file},
+        {"convert", file, "--from", "gltf", "--to", "directx", "-o", "out.png"},
+        {"convert", file, "--from", "unity", "--to", "gltf", "-o", "out.tif"},
+        {"diff", file, file, "-o", "out.png"},
+        {"from-height", file, "-o", "out.png"},
+        {"from-height", file, "--wrap", "clamp", "-o", "out.exr", "--bits", "half"},
+        {"to-height", file, "-o", "out.png"},
+        {"blend", file, file, "-o", "out.png"},
+        {"mips", file, "-o", "out.dds"}};
     for (std::vector<std::string> words : commands) {
         words.insert(words.begin(), "map");
         const ToolRun run = runTool(words, folder.path());
@@ -119,8 +125,9 @@ TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (int c = 0; c < 4; ++c)
-                    image.words()[4 * (y * width + x) + c] =
-                        c == 3 ? std::uint16_t(0xffff) : std::uint16_t((x % period) * 1237 + y * 331 + (x % period) * y * 17);
+                    image.words()[4 * (y * width + x) + c] = c == 3
+                        ? std::uint16_t(0xffff)
+                        : std::uint16_t((x % period) * 1237 + y * 331 + (x % period) * y * 17);
         return image;
     };
     ASSERT_TRUE(writeImage(folder / "narrow.png", heights(32, 100, 32)));
@@ -129,8 +136,11 @@ TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat
         std::array<Image, 2> out;
         for (std::size_t i = 0; i < 2; ++i) {
             const std::string name = i == 0 ? "narrow" : "wide", strength = i == 0 ? "1024" : "1"; // of the width
-            ASSERT_EQ(runTool({"map", "from-height", name + ".png", "--wrap", wrap, "--strength", strength, "--kernel", "sobel",
-                               "-o", name + "-out.png"}, folder.path()).code, 0);
+            ASSERT_EQ(runTool({"map", "from-height", name + ".png", "--wrap", wrap, "--strength", strength, "--kernel",
+                               "sobel", "-o", name + "-out.png"},
+                              folder.path())
+                          .code,
+                      0);
             LoadLimits limits;
             limits.imageSide = 1 << 20;
             const auto image = readImage(folder / (name + "-out.png"), limits);
@@ -138,7 +148,8 @@ TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat
             out[i] = *image;
         }
         for (int y = 0; y < 100; ++y) // the middle 32 columns
-            EXPECT_EQ(std::memcmp(out[0].words() + 4 * (y * 32) + 4, out[1].words() + 4 * (y * 32768 + 16384) + 4, 30 * 8), 0)
+            EXPECT_EQ(
+                std::memcmp(out[0].words() + 4 * (y * 32) + 4, out[1].words() + 4 * (y * 32768 + 16384) + 4, 30 * 8), 0)
                 << wrap << " row " << y;
     }
 }
@@ -168,8 +179,9 @@ TEST(MapHostile, bc5_files_are_read_as_x_and_y)
     for (const bool vary : {true, false}) { // a constant y must not be taken for an opaque alpha
         const std::string dds = ddsHeader(8, 4, "ATI2") + bc5Block(200, 60) + bc5Block(40, vary ? 180 : 60);
         writeBytes(folder / "map.dds", dds.data(), dds.size());
-        const ToolRun run = runTool({"map", "convert", "map.dds", "--from", "gltf,orthographic", "--to", "gltf,orthographic",
-                                     "--bits", "8", "-o", "out.png"}, folder.path());
+        const ToolRun run = runTool({"map", "convert", "map.dds", "--from", "gltf,orthographic", "--to",
+                                     "gltf,orthographic", "--bits", "8", "-o", "out.png"},
+                                    folder.path());
         ASSERT_EQ(run.code, 0) << run.err;
         const auto out = readImage(folder / "out.png");
         ASSERT_TRUE(out);
@@ -221,8 +233,11 @@ TEST(MapHostile, grey_and_alpha_of_16_bits_are_x_and_y_for_two_channel_maps)
     }
     const Bytes png = makePng({.width = 4, .height = 4, .bits = 16, .colour = 4, .rows = rows});
     writeBytes(folder / "map.png", png.data(), png.size());
-    ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,orthographic", "--to", "gltf,orthographic", "-o", "out.png"},
-                      folder.path()).code, 0);
+    ASSERT_EQ(runTool({"map", "convert", "map.png", "--from", "gltf,orthographic", "--to", "gltf,orthographic", "-o",
+                       "out.png"},
+                      folder.path())
+                  .code,
+              0);
     const auto out = readImage(folder / "out.png");
     ASSERT_TRUE(out);
     EXPECT_NEAR(out->words()[4 * 6], 168 * 256, 1); // texel (2, 1); one step of rounding

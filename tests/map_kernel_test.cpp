@@ -22,15 +22,19 @@ template<class Height> Image heights(int width, int height, Height h)
 Image normals(const Image& height, Kernel kernel, Wrap wrap, double scaleX = 1, double scaleY = 1)
 {
     std::size_t invalid = 0;
-    return normalsFromHeight(height, {.kernel = kernel, .wrap = wrap, .scaleX = scaleX, .scaleY = scaleY, .to = kFloats,
-                                      .type = PixelType::float32}, invalid);
+    return normalsFromHeight(
+        height,
+        {.kernel = kernel, .wrap = wrap, .scaleX = scaleX, .scaleY = scaleY, .to = kFloats, .type = PixelType::float32},
+        invalid);
 }
 
 TEST(Kernels, equal_their_formulas_on_a_cubic)
 {
     // h = 0.01 x^3 - 0.02 y^3 + 0.015 x^2 y + 0.03 x y^2, y up. Beyond the derivative: central adds h_xxx / 6, the
     // kernels that smooth across add h_xyy times half of their second moment: 1/4 (1 2 1), 3/16 (3 10 3).
-    const auto h = [](double x, double y) { return 0.01 * x * x * x - 0.02 * y * y * y + 0.015 * x * x * y + 0.03 * x * y * y; };
+    const auto h = [](double x, double y) {
+        return 0.01 * x * x * x - 0.02 * y * y * y + 0.015 * x * x * y + 0.03 * x * y * y;
+    };
     const int side = 9;
     const Image picture = heights(side, side, [&](int x, int y) { return h(x - 4, 4 - y); });
     for (Kernel kernel : kKernels) {
@@ -38,7 +42,8 @@ TEST(Kernels, equal_their_formulas_on_a_cubic)
         for (int row = 1; row + 1 < side; ++row)
             for (int column = 1; column + 1 < side; ++column) {
                 const double x = column - 4, y = 4 - row;
-                double right = 0.03 * x * x + 0.03 * x * y + 0.03 * y * y, up = -0.06 * y * y + 0.015 * x * x + 0.06 * x * y;
+                double right = 0.03 * x * x + 0.03 * x * y + 0.03 * y * y,
+                       up = -0.06 * y * y + 0.015 * x * x + 0.06 * x * y;
                 if (kernel == Kernel::forward) {
                     right = h(x + 1, y) - h(x, y);
                     up = h(x, y + 1) - h(x, y);
@@ -78,7 +83,8 @@ TEST(Kernels, borders_are_those_of_a_picture_padded_by_hand)
             const Image direct = normals(picture, kernel, wrap), around = normals(padded, kernel, Wrap::clamp);
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
-                    EXPECT_EQ(texelAt(direct, x, y), texelAt(around, x + 1, y + 1)) << int(wrap) << int(kernel) << ' ' << x << ' ' << y;
+                    EXPECT_EQ(texelAt(direct, x, y), texelAt(around, x + 1, y + 1))
+                        << int(wrap) << int(kernel) << ' ' << x << ' ' << y;
         }
     }
 }
@@ -88,11 +94,18 @@ TEST(Kernels, strips_with_their_borders_equal_the_whole)
     Noise noise(4);
     const Image picture = heights(6, 50, [&](int, int) { return noise.next(); });
     std::size_t invalid = 0;
-    FromHeightSettings s{.kernel = Kernel::scharr, .wrap = Wrap::repeat, .scaleX = 1, .scaleY = 1, .to = {}, .type = PixelType::unorm8, .dither = true};
+    FromHeightSettings s{.kernel = Kernel::scharr,
+                         .wrap = Wrap::repeat,
+                         .scaleX = 1,
+                         .scaleY = 1,
+                         .to = {},
+                         .type = PixelType::unorm8,
+                         .dither = true};
     const Image whole = normalsFromHeight(picture, s, invalid);
     s.bordered = true;
     s.firstRow = 17;
-    const Image strip = normalsFromHeight(rowsOf(picture, 16, 40), s, invalid); // rows 17 to 38, and one more at either end
+    const Image strip =
+        normalsFromHeight(rowsOf(picture, 16, 40), s, invalid); // rows 17 to 38, and one more at either end
     EXPECT_EQ(strip.data, rowsOf(whole, 17, 39).data);
 }
 
@@ -110,8 +123,9 @@ TEST(ToHeight, free_borders_undo_the_kernel_too)
     for (Kernel kernel : kKernels) {
         const Image map = normals(kernel == Kernel::forward ? rough : smooth, kernel, Wrap::clamp);
         const Heights solved = heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free, .kernel = kernel});
-        const Image again = normals(heights(width, height, [&](int x, int y) { return solved.texels[std::size_t(y * width + x)]; }),
-                                    kernel, Wrap::clamp);
+        const Image again =
+            normals(heights(width, height, [&](int x, int y) { return solved.texels[std::size_t(y * width + x)]; }),
+                    kernel, Wrap::clamp);
         for (float degrees : anglesBetween(map, kFloats, again, kFloats))
             EXPECT_LT(degrees, 1e-3) << int(kernel); // float slopes and heights
         EXPECT_LT(solved.residual, 1e-5 * solved.slope) << int(kernel);
@@ -123,8 +137,10 @@ TEST(ToHeight, free_borders_are_least_squares_for_slopes_of_no_height)
     // At the least squares, no change of a single height makes the slopes fit better.
     Noise noise(9);
     const int width = 7, height = 6;
-    const Image map = floatMap(width, height, [&](int, int) { return ofSlopes(noise.next() - 0.5, 0.6 * noise.next()); });
-    const Heights solved = heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free, .kernel = Kernel::forward});
+    const Image map =
+        floatMap(width, height, [&](int, int) { return ofSlopes(noise.next() - 0.5, 0.6 * noise.next()); });
+    const Heights solved =
+        heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free, .kernel = Kernel::forward});
     const auto misfit = [&](int changed, double by) {
         const auto h = [&](int x, int y) {
             return double(solved.texels[std::size_t(y * width + x)]) + (y * width + x == changed ? by : 0);
@@ -132,7 +148,8 @@ TEST(ToHeight, free_borders_are_least_squares_for_slopes_of_no_height)
         double sum = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const glm::dvec2 s = slopesOf(texelAt(map, x, y)); // forward: to the right, and up; none over the border
+                const glm::dvec2 s =
+                    slopesOf(texelAt(map, x, y)); // forward: to the right, and up; none over the border
                 if (x + 1 < width)
                     sum += std::pow(h(x + 1, y) - h(x, y) - s.x, 2);
                 if (y > 0)

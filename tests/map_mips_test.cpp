@@ -6,10 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/mips.hpp"
 #include "cotan/maps/texels.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -41,7 +41,8 @@ TEST(Mips, halve_down_to_one_texel_also_for_odd_sizes)
 
 TEST(Mips, opposite_tilts_become_flat_and_their_length_is_the_cosine)
 {
-    const auto chain = mipChain(tilted(16, 16, 30), {.from = kSigned, .to = kSigned, .keepLengths = true, .type = PixelType::float32});
+    const auto chain =
+        mipChain(tilted(16, 16, 30), {.from = kSigned, .to = kSigned, .keepLengths = true, .type = PixelType::float32});
     EXPECT_NEAR(chain[0].meanLength, 1, 1e-6);
     for (std::size_t level = 1; level < chain.size(); ++level) {
         EXPECT_NEAR(chain[level].normals.floats()[0], 0, 1e-6);
@@ -55,7 +56,8 @@ TEST(Mips, two_channel_chains_hold_the_same_directions_as_three_channel_ones)
     const Image map = makeReliefMap(Relief::bricks, 64);
     Convention two;
     two.channels = Channels::orthographic;
-    const auto a = mipChain(map, {.type = PixelType::unorm16}), b = mipChain(map, {.to = two, .type = PixelType::unorm16});
+    const auto a = mipChain(map, {.type = PixelType::unorm16}),
+               b = mipChain(map, {.to = two, .type = PixelType::unorm16});
     for (std::size_t level = 0; level < a.size(); ++level) {
         const auto degrees = anglesBetween(a[level].normals, {}, b[level].normals, two);
         for (float d : degrees) // roundings of both, at up to 60 degrees of tilt
@@ -96,7 +98,8 @@ TEST(Mips, lean_measures_the_variance_of_slopes)
 {
     // Slopes +-tan(20): variance tan(20)^2 along x, none along y.
     const double variance = std::pow(std::tan(20 * 3.14159265358979 / 180), 2);
-    const auto chain = mipChain(tilted(8, 8, 20), {.from = kSigned, .to = kSigned, .roughness = 0.5, .type = PixelType::float32});
+    const auto chain =
+        mipChain(tilted(8, 8, 20), {.from = kSigned, .to = kSigned, .roughness = 0.5, .type = PixelType::float32});
     EXPECT_NEAR(chain[0].meanRoughness, 0.5, 1e-6);
     EXPECT_NEAR(chain[1].meanRoughness, std::pow(0.0625 + variance, 0.25), 1e-6);
 }

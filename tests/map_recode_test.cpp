@@ -7,11 +7,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/maps/compare.hpp"
 #include "cotan/maps/recode.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -103,8 +103,7 @@ TEST(Recode, single_components_of_8_bits_go_the_same_way_as_whole_texels)
             const Image b = recode(map, {.from = kGltf, .to = to, .type = PixelType::float32}, whole); // texel by texel
             EXPECT_EQ(counts.invalid, whole.invalid);
             EXPECT_EQ(counts.invalid, 3u);
-            for (std::size_t i = 0; i < map.pixelCount() * 4; ++i)
-{
+            for (std::size_t i = 0; i < map.pixelCount() * 4; ++i) {
                 if (i % 4 == 3)
                     continue;
                 const float value = std::clamp(b.floats()[i], 0.0f, 1.0f) * 2 - 1; // zero of floats is 0.5

@@ -46,7 +46,8 @@ TEST(SmallBlends, every_mode_is_its_own)
     const Image base = floatMap(1, 1, [](int, int) { return glm::vec3(0.48f, 0.6f, 0.64f); });
     const Image detail = floatMap(1, 1, [](int, int) { return glm::vec3(-0.36f, 0.48f, 0.8f); });
     const auto expectMode = [&](BlendMode mode, glm::vec3 expected) {
-        EXPECT_LT(glm::length(texelAt(blendOf(base, detail, {.mode = mode}), 0, 0) - glm::normalize(expected)), 1e-6f) << int(mode);
+        EXPECT_LT(glm::length(texelAt(blendOf(base, detail, {.mode = mode}), 0, 0) - glm::normalize(expected)), 1e-6f)
+            << int(mode);
     };
     expectMode(BlendMode::whiteout, {0.12f, 1.08f, 0.512f});
     expectMode(BlendMode::udn, {0.12f, 1.08f, 0.64f});
@@ -109,8 +110,16 @@ TEST(SmallBlends, strips_equal_the_whole)
     Image mask = makeImage(3, 4, PixelType::unorm8);
     for (std::size_t i = 0; i < mask.data.size(); ++i)
         mask.bytes8()[i] = std::uint8_t(255 * noise.next());
-    BlendSettings s{.base = kFloats, .detail = kFloats, .to = {}, .strength = 0.7f, .tilesX = 2, .tilesY = 3, .mask = &mask,
-                    .type = PixelType::unorm8, .dither = true, .pictureHeight = 40};
+    BlendSettings s{.base = kFloats,
+                    .detail = kFloats,
+                    .to = {},
+                    .strength = 0.7f,
+                    .tilesX = 2,
+                    .tilesY = 3,
+                    .mask = &mask,
+                    .type = PixelType::unorm8,
+                    .dither = true,
+                    .pictureHeight = 40};
     std::size_t invalid = 0;
     const Image whole = blend(base, detail, s, invalid), top = blend(rowsOf(base, 0, 13), detail, s, invalid);
     s.firstRow = 13;
@@ -125,10 +134,12 @@ TEST(SmallMips, an_impulse_goes_into_odd_sizes_by_its_share)
     const double left[5] = {1 / 7.5, 1 / 7.5, 0.5 / 7.5, 0, 0};
     for (int x = 0; x < 5; ++x)
         for (int y = 0; y < 3; ++y) {
-            const auto chain = mipChain(floatMap(5, 3, [&](int i, int j) { return i == x && j == y ? tilted : up; }), s);
+            const auto chain =
+                mipChain(floatMap(5, 3, [&](int i, int j) { return i == x && j == y ? tilted : up; }), s);
             for (int side = 0; side < 2; ++side) {
                 const float share = float(left[side == 0 ? x : 4 - x]);
-                EXPECT_LT(glm::length(texelAt(chain[1].normals, side, 0) - (up * (1 - share) + tilted * share)), 1e-6f) << x << ' ' << y;
+                EXPECT_LT(glm::length(texelAt(chain[1].normals, side, 0) - (up * (1 - share) + tilted * share)), 1e-6f)
+                    << x << ' ' << y;
             }
             // The last level is the mean of all 15.
             EXPECT_LT(glm::length(texelAt(chain[2].normals, 0, 0) - (up * 14.0f + tilted) / 15.0f), 1e-6f);
@@ -157,10 +168,13 @@ TEST(SmallMips, toksvig_and_vmf_follow_the_length_of_the_mean)
 {
     const Image map = floatMap(2, 1, [](int x, int) { return ofSlopes(x == 0 ? 0.9 : -0.4, x == 0 ? -0.2 : 0.5); });
     const double length = double(glm::length(texelAt(map, 0, 0) + texelAt(map, 1, 0))) / 2, alpha2 = std::pow(0.3, 4);
-    const double exponent = 2 / alpha2 - 2, shortened = exponent / (1 + exponent * (1 - length) / length); // Blinn-Phong's
+    const double exponent = 2 / alpha2 - 2,
+                 shortened = exponent / (1 + exponent * (1 - length) / length); // Blinn-Phong's
     const double kappa = (3 * length - length * length * length) / (1 - length * length);
-    for (auto [model, expected] : {std::pair(SpreadModel::toksvig, 2 / (shortened + 2)), {SpreadModel::vmf, alpha2 + 2 / kappa}}) {
-        const auto chain = mipChain(map, {.from = kFloats, .to = kFloats, .model = model, .roughness = 0.3, .type = PixelType::float32});
+    for (auto [model, expected] :
+         {std::pair(SpreadModel::toksvig, 2 / (shortened + 2)), {SpreadModel::vmf, alpha2 + 2 / kappa}}) {
+        const auto chain = mipChain(
+            map, {.from = kFloats, .to = kFloats, .model = model, .roughness = 0.3, .type = PixelType::float32});
         EXPECT_NEAR(chain[1].meanRoughness, std::pow(expected, 0.25), kSingle) << int(model);
         EXPECT_NEAR(chain[1].meanLength, length, kSingle);
         EXPECT_NEAR(double(glm::length(texelAt(chain[1].normals, 0, 0))), 1, kSingle); // lengths are not kept
@@ -194,8 +208,10 @@ TEST(SmallConversions, flat_texels_stay_flat_between_all_conventions_and_depths)
                 const Image out = recoded(flat, {.from = from.convention, .to = to.convention, .type = type});
                 const int middle = type == PixelType::unorm8 ? 128 : 32768;
                 for (int c = 0; c < 2; ++c)
-                    EXPECT_EQ(type == PixelType::unorm8 ? out.bytes8()[c] : out.words()[c], middle) << from.name << " to " << to.name;
-                const Image back = recoded(out, {.from = to.convention, .to = from.convention, .type = PixelType::unorm8});
+                    EXPECT_EQ(type == PixelType::unorm8 ? out.bytes8()[c] : out.words()[c], middle)
+                        << from.name << " to " << to.name;
+                const Image back =
+                    recoded(out, {.from = to.convention, .to = from.convention, .type = PixelType::unorm8});
                 EXPECT_EQ(int(back.bytes8()[1]), 128);
             }
 }
@@ -216,7 +232,8 @@ TEST(SmallConversions, the_middle_code_is_flat_at_both_depths_and_half_is_of_flo
     const Convention biased{.expansion = Expansion::biased};
     const glm::vec3 seen = decodeTexel(glm::vec4(128 / 255.0f, 128 / 255.0f, 1, 1), biased, PixelType::unorm8);
     EXPECT_NEAR(double(seen.x), 1.0 / 255, 1e-7);
-    EXPECT_NEAR(double(decodeTexel(glm::vec4(32768 / 65535.0f, 0.5f, 1, 1), biased, PixelType::unorm16).x), 1.0 / 65535, 1e-7);
+    EXPECT_NEAR(double(decodeTexel(glm::vec4(32768 / 65535.0f, 0.5f, 1, 1), biased, PixelType::unorm16).x), 1.0 / 65535,
+                1e-7);
 }
 
 TEST(SmallConversions, strength_multiplies_both_slopes_and_makes_unit_again)
@@ -243,7 +260,8 @@ TEST(SmallConversions, what_a_form_cannot_hold_is_counted_on_its_side_of_the_lim
         RecodeCounts counts;
         Convention to;
         to.channels = channels;
-        recode(floatMap(1, 1, [&](int, int) { return n; }), {.from = kFloats, .to = to, .type = PixelType::unorm16}, counts);
+        recode(floatMap(1, 1, [&](int, int) { return n; }), {.from = kFloats, .to = to, .type = PixelType::unorm16},
+               counts);
         return counts.clamped;
     };
     EXPECT_EQ(clampedIn(Channels::slope, ofSlopes(0.99, -0.99)), 0u);

@@ -83,12 +83,15 @@ TEST(Zero, at_8_bits_only_the_exact_form_holds_flat)
         Convention stored, read;
         Means expected;
     };
-    const Case cases[] = {{kExact, kExact, {0.00, 0.19}}, {kBiased, kBiased, {0.32, 0.16}}, {kExact, kBiased, {0.32, 0.34}}, {kBiased, kExact, {0.10, 0.33}}};
+    const Case cases[] = {{kExact, kExact, {0.00, 0.19}},
+                          {kBiased, kBiased, {0.32, 0.16}},
+                          {kExact, kBiased, {0.32, 0.34}},
+                          {kBiased, kExact, {0.10, 0.33}}};
     for (const Case& c : cases) {
         const Image there = stored8(truth, c.stored);
         const Means off = meansOf(truth, anglesBetween(truth, kExact, there, c.read));
-        std::printf("stored %s, read %s: flats %.3f, slopes %.3f degrees\n", describe(c.stored).c_str(), describe(c.read).c_str(),
-                    off.flats, off.slopes);
+        std::printf("stored %s, read %s: flats %.3f, slopes %.3f degrees\n", describe(c.stored).c_str(),
+                    describe(c.read).c_str(), off.flats, off.slopes);
         EXPECT_NEAR(off.flats, c.expected.flats, 0.01);
         EXPECT_NEAR(off.slopes, c.expected.slopes, 0.01);
     }

@@ -3,7 +3,7 @@ cotan_test(map_test # four in a line are compiled at once; names of two lines ma
   SOURCES blend_formula_test.cpp map_blend_test.cpp map_charts_test.cpp map_kernel_test.cpp
     map_detect_test.cpp map_height_test.cpp map_small_test.cpp map_zero_test.cpp
     map_mips_test.cpp map_recode_test.cpp
-  LIBRARIES cotan_maps cotan_model cotan_shapes)
+  LIBRARIES cotan_parallel cotan_maps cotan_model cotan_shapes)
 find_package(JPEG REQUIRED)
 cotan_test(map_command_test
   SOURCES map_command_test.cpp map_files_test.cpp map_hostile_test.cpp

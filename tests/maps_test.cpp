@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/portable.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace {
 
@@ -19,8 +19,7 @@ constexpr Relief kReliefs[] = {Relief::domes, Relief::bricks, Relief::waves};
 
 cotan::f64::cotan_vec3 decodedTexel(const cotan::Image& image, int x, int y)
 {
-    const std::uint8_t* p =
-        image.bytes8() + (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4;
+    const std::uint8_t* p = image.bytes8() + (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4;
     const cotan::f64::cotan_normal_format gltf{COTAN_EXPAND_EXACT, COTAN_CHANNELS_XYZ, -1, 1};
     return cotan::f64::cotan_decode({p[0] / 255.0, p[1] / 255.0, p[2] / 255.0}, gltf);
 }
@@ -87,8 +86,7 @@ TEST(Reliefs, domesAreSteepestAtRadiusOverRootThree)
 TEST(Reliefs, everyOtherCourseOfBricksIsMovedByHalfABrick)
 {
     for (double u = 0; u < 1; u += 1.0 / 64)
-        EXPECT_NEAR(relief(Relief::bricks, u, 0.03).h, relief(Relief::bricks, u + 0.125, 0.155).h,
-                    1e-15);
+        EXPECT_NEAR(relief(Relief::bricks, u, 0.03).h, relief(Relief::bricks, u + 0.125, 0.155).h, 1e-15);
     EXPECT_EQ(relief(Relief::bricks, 0.0, 0.0625).h, 0);       // a joint
     EXPECT_GT(relief(Relief::bricks, 0.125, 0.0625).h, 0.008); // a brick
 }
@@ -109,8 +107,7 @@ TEST(ReliefMaps, decodeToTheAnalyticNormal)
                 const auto truth = glm::normalize(glm::dvec3(-s.hu, -s.hv, 1));
                 const auto found = glm::normalize(decodedTexel(map, x, y));
                 const double degrees =
-                    std::atan2(glm::length(glm::cross(truth, found)), glm::dot(truth, found)) * 180
-                    / std::numbers::pi;
+                    std::atan2(glm::length(glm::cross(truth, found)), glm::dot(truth, found)) * 180 / std::numbers::pi;
                 ASSERT_LT(degrees, 0.4) << int(kind) << " at " << x << ' ' << y;
             }
     }

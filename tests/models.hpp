@@ -6,18 +6,18 @@
 #include <filesystem>
 #include <memory>
 
-#include "cotan/scene/geometry.hpp"
+#include "cotan/draw/painter.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/report/angles.hpp"
-#include "cotan/draw/painter.hpp"
+#include "cotan/scene/geometry.hpp"
 
 namespace cotan::test {
 
 inline std::filesystem::path shared(const char* file) { return std::filesystem::path(COTAN_SHARED_DATA) / file; }
 
 // Skips the test where the model is not there.
-#define COTAN_NEEDS_MODEL(file)                                                                    \
-    if (!std::filesystem::exists(shared(file)))                                                    \
+#define COTAN_NEEDS_MODEL(file)                                                                                        \
+    if (!std::filesystem::exists(shared(file)))                                                                        \
     GTEST_SKIP() << shared(file) << " is missing"
 
 inline Scene loadModel(const char* file)

@@ -26,7 +26,7 @@ AngleStatistics difference(const Scene& scene, Painter& gpu, Painter& reference,
     view.height = 480;
     view.camera = fitCamera(bounds(scene), view.width, view.height);
     view.output = Output::normal;
-    view.frame = int(Frame::cotangent);
+    view.frame = Frame::cotangent;
     view.pointSampled = pointSampled;
     return angleStatistics(interiorAngles(drawWith(gpu, view), drawWith(reference, view)));
 }
@@ -42,8 +42,8 @@ TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
     ASSERT_TRUE(reference->load(scene));
     const AngleStatistics s = difference(scene, *gpu, *reference, true);
     EXPECT_GT(s.count, 5000u);
-    EXPECT_LT(s.median, 0.02);       // rounding of interpolation and differences
-    EXPECT_LT(s.percentile99, 0.5);  // texels whose border falls between two roundings of uv
+    EXPECT_LT(s.median, 0.02);      // rounding of interpolation and differences
+    EXPECT_LT(s.percentile99, 0.5); // texels whose border falls between two roundings of uv
     RecordProperty("point_sampled", toText(s));
     // Filtered maps differ by what an anisotropic sampler is free to choose (docs/testing.md has the
     // measured parts): reported, and bounded loosely so that a broken mip chain would show.
@@ -104,12 +104,13 @@ TEST(BlendedModel, solidTexelsHideWhatIsBehindThemOnBothDevices)
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, Devices,
-    ::testing::Values(Model{"FlightHelmet", "models/FlightHelmet/FlightHelmet.gltf"},
-                      Model{"BoomBox", "models/BoomBox/BoomBox.gltf"},
-                      Model{"SketchfabCat", "models/SketchfabCat/scene.gltf"},
-                      Model{"NormalTangentMirrorTest", "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb"},
-                      Model{"uv_cases", "synthetic/uv_cases.gltf"}),
-    [](const auto& model) { return std::string(model.param.name); });
+                         ::testing::Values(Model{"FlightHelmet", "models/FlightHelmet/FlightHelmet.gltf"},
+                                           Model{"BoomBox", "models/BoomBox/BoomBox.gltf"},
+                                           Model{"SketchfabCat", "models/SketchfabCat/scene.gltf"},
+                                           Model{"NormalTangentMirrorTest",
+                                                 "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb"},
+                                           Model{"uv_cases", "synthetic/uv_cases.gltf"}),
+                         [](const auto& model) { return std::string(model.param.name); });
 
 } // namespace
 } // namespace cotan

@@ -74,7 +74,7 @@ void check(const char* device, const char* model, const std::vector<Pair>& pairs
     const Scene scene = loadModel(model);
     ASSERT_TRUE(painter->load(scene));
     View view = frontView({-1.5f, -1.0f}, {1.5f, 1.0f}, kPerUnit);
-    view.frame = int(Frame::cotangent);
+    view.frame = Frame::cotangent;
     const Image normals = drawWith(*painter, view);
     view.normalMaps = false;
     const Image plain = drawWith(*painter, view);

@@ -20,9 +20,9 @@ constexpr const char* kModel = "synthetic/uv_cases.gltf";
 // its vertices with the widest spread.
 struct Grid {
     std::string name;
-    glm::dvec3 low, high;     // world
+    glm::dvec3 low, high; // world
     glm::dvec3 normal;
-    glm::dvec3 gradU, gradV;  // zero where the uv are degenerate
+    glm::dvec3 gradU, gradV; // zero where the uv are degenerate
     glm::dvec2 uvAtOrigin;
     bool degenerate = false;
 };
@@ -81,7 +81,7 @@ struct Error {
 Error errorOver(const Grid& g, const Scene& scene, Painter& painter)
 {
     View view = frontView(glm::vec2(g.low), glm::vec2(g.high), 300 / float(g.high.x - g.low.x));
-    view.frame = int(Frame::cotangent);
+    view.frame = Frame::cotangent;
     view.pointSampled = true;
     const Image normals = drawWith(painter, view);
     const Image& map = scene.images[0];

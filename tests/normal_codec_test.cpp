@@ -75,7 +75,8 @@ TEST(NormalCodec, everyStorageOfOneNormal)
         // Strength is a factor on x and y after decoding.
         expectNear(f64::cotan_decode(s.texel, stored(COTAN_EXPAND_SIGNED, s.channels, 1, 3)),
                    {3 * s.decoded.x, 3 * s.decoded.y, s.decoded.z}, s.name);
-        expectNear(f64::cotan_decode(s.texel, stored(COTAN_EXPAND_SIGNED, s.channels, -1, 0)), {0, 0, s.decoded.z}, s.name);
+        expectNear(f64::cotan_decode(s.texel, stored(COTAN_EXPAND_SIGNED, s.channels, -1, 0)), {0, 0, s.decoded.z},
+                   s.name);
         const glm::dvec3 middle = f64::cotan_encode_texel(m, stored(COTAN_EXPAND_EXACT, s.channels));
         if (s.channels != COTAN_CHANNELS_XYZ) {
             EXPECT_NEAR(middle.z, 128 / 255.0, 1e-12) << s.name;
@@ -89,17 +90,20 @@ TEST(NormalCodec, strengthIsTakenOutOfWhatIsStored)
     // Slopes (1/3, -1/2) at strength 2 are stored as (1/6, -1/4).
     const glm::dvec3 m(2 / 7.0, -3 / 7.0, 6 / 7.0), half = glm::normalize(glm::dvec3(1, -1.5, 6));
     expectNear(f64::cotan_encode_texel(m, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_XYZ, 1, 2)), half, "xyz");
-    expectNear(f64::cotan_encode_texel(m, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE, -1, 2)), {-1 / 6.0, -0.25, 0}, "slope");
+    expectNear(f64::cotan_encode_texel(m, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE, -1, 2)),
+               {-1 / 6.0, -0.25, 0}, "slope");
 }
 
 TEST(NormalCodec, whatAStorageCannotHoldIsMovedToItsRim)
 {
     // Below the horizon, 3:4 aside.
     const glm::dvec3 below = glm::normalize(glm::dvec3(0.6, -0.8, -0.5));
-    expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_ORTHOGRAPHIC)), {0.6, -0.8, 0}, "orthographic");
+    expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_ORTHOGRAPHIC)), {0.6, -0.8, 0},
+               "orthographic");
     expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE)), {-1, 1, 0}, "slope");
     // Steeper than 45 degrees along y only.
-    expectNear(f64::cotan_encode_texel(glm::normalize(glm::dvec3(0.2, -3, 1)), stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE)),
+    expectNear(f64::cotan_encode_texel(glm::normalize(glm::dvec3(0.2, -3, 1)),
+                                       stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE)),
                {-0.2, 1, 0}, "slope");
     // xyz and stereographic hold everything but (0,0,-1).
     expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_XYZ)), below, "xyz");

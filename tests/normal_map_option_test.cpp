@@ -40,13 +40,14 @@ glm::vec3 normalInTheMiddle(const std::filesystem::path& file)
     EXPECT_TRUE(image);
     if (!image)
         return {};
-    const std::size_t at = 4 * (std::size_t(image->height / 2) * std::size_t(image->width) + std::size_t(image->width / 2));
+    const std::size_t at =
+        4 * (std::size_t(image->height / 2) * std::size_t(image->width) + std::size_t(image->width / 2));
     const std::uint8_t* c = image->bytes8() + at;
     return glm::vec3(c[0], c[1], c[2]) / 127.5f - 1.0f;
 }
 
-const std::vector<std::string> kSeen = {"--size", "64x64", "--view", "normal", "--camera", "0.5,0.5,2,0.5,0.5,0", "--device", "reference",
-                                        "--quiet", "-o", "n.png"};
+const std::vector<std::string> kSeen = {"--size",   "64x64",     "--view",  "normal", "--camera", "0.5,0.5,2,0.5,0.5,0",
+                                        "--device", "reference", "--quiet", "-o",     "n.png"};
 
 std::vector<std::string> drawn(std::vector<std::string> words)
 {
@@ -65,11 +66,15 @@ TEST(NormalMapOption, readsTheMapAsTheConventionSays)
     // The same direction in two channels: x and y as red and green; as grey and alpha; as slopes.
     writeMap(folder / "rg.png", {byte(0.6), byte(0.48), 0, 255});
     writeMap(folder / "ga.png", {byte(0.48), byte(0.48), byte(0.48), byte(0.6)});
-    const struct { const char* file; const char* convention; double green; } cases[] = {
-        {"xyz.png", "gltf", 1}, {"xyz.png", "opengl", 1}, {"xyz.png", "directx", -1}, {"xyz.png", "3dsmax", -1},
-        {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal", -1}};
+    const struct {
+        const char* file;
+        const char* convention;
+        double green;
+    } cases[] = {{"xyz.png", "gltf", 1},    {"xyz.png", "opengl", 1},           {"xyz.png", "directx", -1},
+                 {"xyz.png", "3dsmax", -1}, {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal", -1}};
     for (const auto& c : cases) {
-        const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", c.file, "--convention", c.convention}), folder.path());
+        const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", c.file, "--convention", c.convention}),
+                                  folder.path());
         ASSERT_EQ(r.code, 0) << r.err;
         const glm::vec3 n = normalInTheMiddle(folder / "n.png");
         EXPECT_LT(glm::distance(n, glm::vec3(0.6, 0.48 * c.green, 0.64)), 0.015) << c.file << " as " << c.convention;
@@ -83,7 +88,11 @@ TEST(NormalMapOption, saysWhatIsWrongWithItInOneLine)
     writeSquare(folder / "bare.obj", false);
     writeMap(folder / "map.png", {128, 128, 255, 255});
     std::ofstream(folder / "text.png") << "not a picture";
-    const struct { std::vector<std::string> words; int code; const char* says; } cases[] = {
+    const struct {
+        std::vector<std::string> words;
+        int code;
+        const char* says;
+    } cases[] = {
         {{"render", "square.obj", "--convention", "directx"}, 1, "--convention: expected --normal-map"},
         {{"render", "square.obj", "--material", "0"}, 1, "--material: expected --normal-map"},
         {{"render", "square.obj", "--normal-map", "map.png", "--convention", "gltf,object"}, 1, "tangent space"},
@@ -112,10 +121,13 @@ TEST(NormalMapOption, lintAndCompareTakeIt)
     const auto report = nlohmann::json::parse(lint.out);
     ASSERT_EQ(report["maps"].size(), 1u);
     EXPECT_NE(report["maps"][0]["name"].get<std::string>().find("leaning.png"), std::string::npos);
-    const ToolRun compare = runTool({"compare", "square.obj", "--normal-map", "leaning.png", "--frames", "cotangent,orthonormal",
-                                     "--size", "64x64", "--device", "reference", "-o", "out", "--json", "-"}, folder.path());
+    const ToolRun compare =
+        runTool({"compare", "square.obj", "--normal-map", "leaning.png", "--frames", "cotangent,orthonormal", "--size",
+                 "64x64", "--device", "reference", "-o", "out", "--json", "-"},
+                folder.path());
     ASSERT_EQ(compare.code, 0) << compare.err;
-    EXPECT_LT(nlohmann::json::parse(compare.out)["normals"]["max_degrees"].get<double>(), 0.01); // square texels: the frames agree
+    EXPECT_LT(nlohmann::json::parse(compare.out)["normals"]["max_degrees"].get<double>(),
+              0.01); // square texels: the frames agree
 }
 
 // A bump between two flat squares.
@@ -137,7 +149,8 @@ void writeBump(const std::filesystem::path& file)
 
 class BakeIntoModel : public testing::TestWithParam<const char*> {};
 
-// The model that bake writes draws as the low mesh with the map that bake writes otherwise: to the bit, for OBJ and for glTF.
+// The model that bake writes draws as the low mesh with the map that bake writes otherwise: to the bit, for OBJ and for
+// glTF.
 TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
 {
     TemporaryFolder folder;
@@ -145,8 +158,9 @@ TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
     writeBump(folder / "high.obj");
     const std::string frame = GetParam();
     const auto bake = [&](const char* low, const char* out) {
-        const ToolRun r = runTool({"bake", "--high", "high.obj", "--low", low, "--size", "64x64", "--max-distance", "0.2", "--frame", frame,
-                                   "--quiet", "-o", out}, folder.path());
+        const ToolRun r = runTool({"bake", "--high", "high.obj", "--low", low, "--size", "64x64", "--max-distance",
+                                   "0.2", "--frame", frame, "--quiet", "-o", out},
+                                  folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
     };
     const auto picture = [&](std::vector<std::string> words) {
@@ -178,10 +192,14 @@ TEST(BakeIntoModelWords, refusesWhatAModelCannotHold)
     TemporaryFolder folder;
     writeSquare(folder / "low.obj");
     writeBump(folder / "high.obj");
-    const std::vector<std::vector<std::string>> wrong = {
-        {"--kind", "height"}, {"--bits", "32"}, {"--udim", "1002"}, {"--convention", "directx"}, {"--convention", "unity"}};
+    const std::vector<std::vector<std::string>> wrong = {{"--kind", "height"},
+                                                         {"--bits", "32"},
+                                                         {"--udim", "1002"},
+                                                         {"--convention", "directx"},
+                                                         {"--convention", "unity"}};
     for (const auto& words : wrong) {
-        std::vector<std::string> all = {"bake", "--high", "high.obj", "--low", "low.obj", "--size", "16x16", "-o", "out.glb"};
+        std::vector<std::string> all = {"bake",   "--high", "high.obj", "--low",  "low.obj",
+                                        "--size", "16x16",  "-o",       "out.glb"};
         all.insert(all.end(), words.begin(), words.end());
         const ToolRun r = runTool(all, folder.path());
         EXPECT_EQ(r.code, 1) << words[0] << ' ' << words[1];

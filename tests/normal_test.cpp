@@ -46,7 +46,7 @@ TEST(NormalTexel, twoChannelDecodeHasNoNanForAnyByte)
             for (int x = 0; x < 256; ++x)
                 for (int y = 0; y < 256; ++y) {
                     const glm::vec3 m = cotan_decode(glm::vec3(float(x) / 255, float(y) / 255, 0),
-                        f32::cotan_normal_format{expansion, channels, 1, 1});
+                                                     f32::cotan_normal_format{expansion, channels, 1, 1});
                     ASSERT_TRUE(std::isfinite(glm::length(m)));
                     ASSERT_GT(glm::length(m), 0.5f);
                 }
@@ -56,8 +56,8 @@ TEST(NormalTexel, decodeUndoesEncodeForEveryStorage)
 {
     Random random(21);
     for (int expansion : {COTAN_EXPAND_EXACT, COTAN_EXPAND_BIASED, COTAN_EXPAND_SIGNED})
-        for (int channels : {COTAN_CHANNELS_XYZ, COTAN_CHANNELS_ORTHOGRAPHIC, COTAN_CHANNELS_STEREOGRAPHIC,
-                             COTAN_CHANNELS_SLOPE})
+        for (int channels :
+             {COTAN_CHANNELS_XYZ, COTAN_CHANNELS_ORTHOGRAPHIC, COTAN_CHANNELS_STEREOGRAPHIC, COTAN_CHANNELS_SLOPE})
             for (double green : {1.0, -1.0})
                 for (double strength : {1.0, 2.0})
                     for (int i = 0; i < 50; ++i) {
@@ -70,7 +70,8 @@ TEST(NormalTexel, decodeUndoesEncodeForEveryStorage)
 
 TEST(NormalTexel, strengthScalesTheSlope)
 {
-    const glm::dvec3 texel = cotan_encode_texel(glm::normalize(glm::dvec3(0.2, 0.1, 1)), format(COTAN_EXPAND_SIGNED, 0));
+    const glm::dvec3 texel =
+        cotan_encode_texel(glm::normalize(glm::dvec3(0.2, 0.1, 1)), format(COTAN_EXPAND_SIGNED, 0));
     const glm::dvec3 m = cotan_decode(texel, format(COTAN_EXPAND_SIGNED, 0, 1, 3));
     EXPECT_NEAR(m.x / m.z, 0.6, 1e-12);
     EXPECT_NEAR(m.y / m.z, 0.3, 1e-12);
@@ -105,10 +106,10 @@ TEST(NormalTexel, greenFlagSetFromTheTableOfFourGivesNoError)
                 p.gradV = {0, vDown ? -1 : 1, 0};
                 const glm::dvec3 stored(-right, greenUp ? down : -down, 1);
                 const bool along = greenUp == !vDown;
-                const glm::dvec3 m = cotan_decode(glm::normalize(stored),
-                                                  format(COTAN_EXPAND_SIGNED, 0, along ? 1 : -1));
-                const auto d = screenDifferences(
-                    PixelCamera::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 100), p, {0.1, 0.2, 0});
+                const glm::dvec3 m =
+                    cotan_decode(glm::normalize(stored), format(COTAN_EXPAND_SIGNED, 0, along ? 1 : -1));
+                const auto d =
+                    screenDifferences(PixelCamera::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 100), p, {0.1, 0.2, 0});
                 EXPECT_LT(degreesBetween(shade(Frame::cotangent, p.normal, d, m), truth), 1e-9);
                 const glm::dvec3 wrong(m.x, -m.y, m.z);
                 if (std::abs(down) > 0.1) {

@@ -1,7 +1,7 @@
 // OBJ and MTL files. Expected values come from their text and from geometry.
 #include <algorithm>
-#include <ctime>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -60,8 +60,7 @@ protected:
 
 bool mentions(const Scene& scene, const std::string& text)
 {
-    return std::ranges::any_of(scene.warnings,
-                               [&](const std::string& s) { return s.find(text) != std::string::npos; });
+    return std::ranges::any_of(scene.warnings, [&](const std::string& s) { return s.find(text) != std::string::npos; });
 }
 
 const Material& materialOf(const Scene& scene) { return scene.materials.at(std::size_t(scene.meshes.at(0).material)); }
@@ -70,13 +69,24 @@ const Material& materialOf(const Scene& scene) { return scene.materials.at(std::
 
 TEST_F(ObjFile, numbersMayBeSpeltInEveryUsualWay)
 {
-    const std::pair<std::string, float> spellings[] = {
-        {".5", 0.5f},   {"-.5", -0.5f},   {"+.5", 0.5f},    {"5.", 5},         {"+5", 5},   {"-0", 0},
-        {"5e-1", 0.5f}, {"5.e-1", 0.5f},  {".5E+0", 0.5f},  {"1e-60", 0},      {"007", 7},  {"0.1", 0.1f},
-        {"16777217", 16777216}, {"3.4028234e38", 3.4028234e38f}, {"1.00000011920928955078125", 1.00000011920928955078125f}};
+    const std::pair<std::string, float> spellings[] = {{".5", 0.5f},
+                                                       {"-.5", -0.5f},
+                                                       {"+.5", 0.5f},
+                                                       {"5.", 5},
+                                                       {"+5", 5},
+                                                       {"-0", 0},
+                                                       {"5e-1", 0.5f},
+                                                       {"5.e-1", 0.5f},
+                                                       {".5E+0", 0.5f},
+                                                       {"1e-60", 0},
+                                                       {"007", 7},
+                                                       {"0.1", 0.1f},
+                                                       {"16777217", 16777216},
+                                                       {"3.4028234e38", 3.4028234e38f},
+                                                       {"1.00000011920928955078125", 1.00000011920928955078125f}};
     for (const auto& [word, value] : spellings) {
-        const Scene scene = load("v " + word + " 0 0\nv 0 " + word + " 0\nv 0 0 " + word
-                                 + "\nv 1 2 3\nvt " + word + "\nf 4/1 2/1 3/1 1/1\n");
+        const Scene scene = load("v " + word + " 0 0\nv 0 " + word + " 0\nv 0 0 " + word + "\nv 1 2 3\nvt " + word
+                                 + "\nf 4/1 2/1 3/1 1/1\n");
         ASSERT_EQ(scene.meshes.size(), 1u) << word;
         const auto& positions = scene.meshes[0].positions;
         EXPECT_NE(std::ranges::find(positions, glm::vec3(value, 0, 0)), positions.end()) << word;
@@ -107,7 +117,8 @@ TEST_F(ObjFile, positionsMayHaveAWeightOrAColour)
 
 TEST_F(ObjFile, aFaceMayStandBeforeItsVerticesAndCountBackFromWhereItStands)
 {
-    const Scene scene = load("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nfo -3 -2 -1\n");
+    const Scene scene =
+        load("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nfo -3 -2 -1\n");
     const Mesh& mesh = scene.meshes.at(0);
     ASSERT_EQ(mesh.triangleCount(), 3u);
     EXPECT_EQ(mesh.positions[mesh.indices[3]], glm::vec3(0, 0, 0));
@@ -166,8 +177,7 @@ bool isInside(const Polygon& p, glm::dvec2 q)
 {
     bool inside = false;
     for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
-        if ((p[i].y > q.y) != (p[j].y > q.y)
-            && q.x < (p[j].x - p[i].x) * (q.y - p[i].y) / (p[j].y - p[i].y) + p[i].x)
+        if ((p[i].y > q.y) != (p[j].y > q.y) && q.x < (p[j].x - p[i].x) * (q.y - p[i].y) / (p[j].y - p[i].y) + p[i].x)
             inside = !inside;
     return inside;
 }
@@ -253,7 +263,8 @@ TEST_F(ObjFile, trianglesCoverAPolygonOnceAndNothingElse)
     for (const auto& [name, polygon] : kPolygons)
         for (int plane = 0; plane < 6; ++plane)
             for (std::size_t first = 0; first < std::min<std::size_t>(polygon.size(), 5); ++first) {
-                SCOPED_TRACE(name + std::string(", plane ") + std::to_string(plane) + ", from " + std::to_string(first));
+                SCOPED_TRACE(name + std::string(", plane ") + std::to_string(plane) + ", from "
+                             + std::to_string(first));
                 const Scene scene = load(faceText(polygon, plane, first));
                 const Mesh& mesh = scene.meshes.at(0);
                 ASSERT_EQ(mesh.triangleCount(), polygon.size() - 2);
@@ -315,17 +326,18 @@ TEST_F(ObjFile, aPolygonOfFiveThousandCornersIsQuick)
 TEST_F(ObjFile, polygonsThatTakeTheSquareOfTheirCornersAreRefusedInTime)
 {
     const std::clock_t start = std::clock();
-    EXPECT_NE(problem(faceText(star(100000, 0.5), 0, 0)).find("steps to cut polygons into triangles, here one of 200000"),
-              std::string::npos);
+    EXPECT_NE(
+        problem(faceText(star(100000, 0.5), 0, 0)).find("steps to cut polygons into triangles, here one of 200000"),
+        std::string::npos);
     EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
     EXPECT_EQ(problem(faceText(star(100000, 0.99999999), 0, 0)), ""); // a circle, up to rounding
 }
 
 TEST_F(ObjFile, polygonsThatCrossThemselvesStillBecomeTriangles)
 {
-    for (const Polygon& polygon :
-         {Polygon{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, Polygon{{0, 0}, {0, 0}, {0, 0}, {0, 0}},
-          Polygon{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 0}}, Polygon{{0, 0}, {2, 0}, {0, 2}, {0, 0}, {2, 2}, {0, 1}, {2, 0}}}) {
+    for (const Polygon& polygon : {Polygon{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, Polygon{{0, 0}, {0, 0}, {0, 0}, {0, 0}},
+                                   Polygon{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 0}},
+                                   Polygon{{0, 0}, {2, 0}, {0, 2}, {0, 0}, {2, 2}, {0, 1}, {2, 0}}}) {
         const Scene scene = load(faceText(polygon, 0, 0));
         EXPECT_EQ(scene.meshes.at(0).triangleCount(), polygon.size() - 2);
     }
@@ -359,7 +371,8 @@ TEST_F(ObjFile, transparencyIsOneLessOpacity)
 TEST_F(ObjFile, namesOfMaterialsLibrariesAndPicturesMayHoldSpaces)
 {
     write("my materials.mtl", "newmtl red paint\t\r\nmap_Kd -bm 1 -type sphere  my picture.png \r\n");
-    const Scene scene = load("mtllib my materials.mtl\nusemtl  red paint \nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    const Scene scene =
+        load("mtllib my materials.mtl\nusemtl  red paint \nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
     EXPECT_EQ(materialOf(scene).name, "red paint");
     EXPECT_TRUE(mentions(scene, "texture my picture.png: no such file"));
 }

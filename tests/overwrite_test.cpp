@@ -59,9 +59,11 @@ protected:
 
 TEST_F(Overwrite, everyMapCommandRefusesItsInputByAnyName)
 {
-    const std::vector<Words> commands = {
-        {"convert", "n.png", "--from", "directx", "--to", "opengl"}, {"from-height", "n.png"}, {"to-height", "n.png"},
-        {"blend", "n.png", "n.png"}, {"diff", "n.png", "n.png"}};
+    const std::vector<Words> commands = {{"convert", "n.png", "--from", "directx", "--to", "opengl"},
+                                         {"from-height", "n.png"},
+                                         {"to-height", "n.png"},
+                                         {"blend", "n.png", "n.png"},
+                                         {"diff", "n.png", "n.png"}};
     for (const Words& command : commands)
         for (const char* name : {"n.png", "./n.png", "sub/../n.png", "hard.png", "soft.png"}) {
             Words words = {"map"};
@@ -69,7 +71,8 @@ TEST_F(Overwrite, everyMapCommandRefusesItsInputByAnyName)
             words.insert(words.end(), {"-o", name});
             expectRefused(words, fmt::format("-o {}", name), "n.png, which is read");
         }
-    expectRefused({"map", "mips", "hard.png", "-o", "hard.png", "--json", "./n.png"}, "--json ./n.png", "hard.png, which is read");
+    expectRefused({"map", "mips", "hard.png", "-o", "hard.png", "--json", "./n.png"}, "--json ./n.png",
+                  "hard.png, which is read");
     expectRefused({"map", "info", "n.png", "--json", "soft.png"}, "--json soft.png", "n.png, which is read");
     expectRefused({"map", "detect", "n.png", "--json", "n.png"}, "--json n.png", "n.png, which is read");
 }
@@ -82,12 +85,16 @@ TEST_F(Overwrite, modelsAreRefusedWithEveryFileTheyReferTo)
         return words;
     };
     expectRefused(with({"render", "quad.gltf", "-o", "waves.png"}), "-o waves.png", "waves.png, which is read");
-    expectRefused(with({"render", "quad.gltf", "-o", "a.png", "--json", "quad.bin"}), "--json quad.bin", "quad.bin, which is read");
-    expectRefused(with({"compare", "quad.gltf", "-o", "d", "--json", "sub/../quad.gltf"}), "--json sub/../quad.gltf", "quad.gltf, which is read");
+    expectRefused(with({"render", "quad.gltf", "-o", "a.png", "--json", "quad.bin"}), "--json quad.bin",
+                  "quad.bin, which is read");
+    expectRefused(with({"compare", "quad.gltf", "-o", "d", "--json", "sub/../quad.gltf"}), "--json sub/../quad.gltf",
+                  "quad.gltf, which is read");
     expectRefused({"lint", "quad.gltf", "--json", "quad.bin"}, "--json quad.bin", "quad.bin, which is read");
     expectRefused({"tangents", "quad.gltf", "-o", "./quad.gltf"}, "-o ./quad.gltf", "quad.gltf, which is read");
-    expectRefused({"convert", "quad.gltf", "--to", "cotangent", "-o", "quad.gltf"}, "-o quad.gltf", "quad.gltf, which is read");
-    expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "8x8", "-o", "waves.png"}, "-o waves.png", "waves.png, which is read");
+    expectRefused({"convert", "quad.gltf", "--to", "cotangent", "-o", "quad.gltf"}, "-o quad.gltf",
+                  "quad.gltf, which is read");
+    expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "8x8", "-o", "waves.png"},
+                  "-o waves.png", "waves.png, which is read");
 }
 
 TEST_F(Overwrite, aPictureInTheFolderOfAModelIsNotReplacedByOneOfAFolderOfPictures)
@@ -96,45 +103,58 @@ TEST_F(Overwrite, aPictureInTheFolderOfAModelIsNotReplacedByOneOfAFolderOfPictur
     std::string model = readWhole(folder / "quad.gltf");
     model.replace(model.find("waves.png"), 9, "difference.png");
     std::ofstream(folder / "quad.gltf") << model;
-    expectRefused({"compare", "quad.gltf", "-o", ".", "--device", "reference", "--size", "32x32"}, "-o ./difference.png",
-                  "difference.png, which is read");
+    expectRefused({"compare", "quad.gltf", "-o", ".", "--device", "reference", "--size", "32x32"},
+                  "-o ./difference.png", "difference.png, which is read");
 }
 
 TEST_F(Overwrite, twoOutputsInOnePlaceAreRefusedBeforeWork)
 {
     expectRefused({"render", "-o", "a.png", "--json", "sub/../a.png"}, "-o a.png", "--json sub/../a.png");
-    expectRefused({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png", "--json new/difference.png");
+    expectRefused({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png",
+                  "--json new/difference.png");
     expectRefused({"accuracy", "-o", "a.md", "--csv", "./a.md"}, "-o a.md", "--csv ./a.md");
     expectRefused({"shader", "--lang", "glsl", "-o", "a.glsl", "--json", "a.glsl"}, "-o a.glsl", "--json a.glsl");
     expectRefused({"figures", "-o", "new", "--json", "new/index.html"}, "-o new/index.html", "--json new/index.html");
-    expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "-o", "a.png", "--mask", "a.png"}, "-o a.png", "--mask a.png");
-    expectRefused({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", "a.png"}, "-o a.png", "--json a.png");
+    expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "-o", "a.png", "--mask", "a.png"}, "-o a.png",
+                  "--mask a.png");
+    expectRefused({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", "a.png"},
+                  "-o a.png", "--json a.png");
 }
 
 TEST_F(Overwrite, withTheOptionTheInputIsReplacedWhole)
 {
-    ASSERT_EQ(runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "good.png"}, folder.path()).code, 0);
-    const ToolRun run = runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "n.png", "--overwrite"}, folder.path());
+    ASSERT_EQ(
+        runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "good.png"}, folder.path())
+            .code,
+        0);
+    const ToolRun run =
+        runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "n.png", "--overwrite"},
+                folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(readWhole(folder / "n.png"), readWhole(folder / "good.png"));
     EXPECT_NE(readWhole(folder / "hard.png"), readWhole(folder / "good.png")) << "the other name lost its picture";
-    const ToolRun model = runTool({"tangents", "quad.gltf", "-o", "quad.gltf", "--replace", "--overwrite"}, folder.path());
+    const ToolRun model =
+        runTool({"tangents", "quad.gltf", "-o", "quad.gltf", "--replace", "--overwrite"}, folder.path());
     EXPECT_EQ(model.code, 0) << model.err;
     EXPECT_EQ(runTool({"tangents", "quad.gltf"}, folder.path()).code, 0);
 }
 
 TEST_F(Overwrite, aNameBesideTheInputIsNotRefused)
 {
-    EXPECT_EQ(runTool({"map", "mips", "n.png", "-o", "n.png"}, folder.path()).code, 0); // n_0.png, n_roughness_0.png, ...
+    EXPECT_EQ(runTool({"map", "mips", "n.png", "-o", "n.png"}, folder.path()).code,
+              0); // n_0.png, n_roughness_0.png, ...
     EXPECT_EQ(runTool({"map", "info", "n.png", "--json", "n.json"}, folder.path()).code, 0);
-    EXPECT_EQ(runTool({"map", "info", "n.png", "--json", "n.json"}, folder.path()).code, 0) << "an old report is replaced";
+    EXPECT_EQ(runTool({"map", "info", "n.png", "--json", "n.json"}, folder.path()).code, 0)
+        << "an old report is replaced";
 }
 
 TEST_F(Overwrite, unwritableReportsAreNoticedBeforeTheMainOutput)
 {
     for (const char* report : {"no/such/r.json", "sub", "n.png/r.json"}) {
         const auto before = contents();
-        const ToolRun run = runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", report}, folder.path());
+        const ToolRun run =
+            runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", report},
+                    folder.path());
         EXPECT_EQ(run.code, 4) << report;
         EXPECT_EQ(lines(run.err), 1) << run.err;
         EXPECT_NE(run.err.find(report), std::string::npos) << run.err;
@@ -150,7 +170,8 @@ TEST_F(Overwrite, whatAKilledRunLeftIsSaidByTheNextOne)
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     const std::string part = fmt::format(".cotan-{}-0.part.png", child);
     std::ofstream(folder / part) << "half";
-    const ToolRun run = runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png"}, folder.path());
+    const ToolRun run =
+        runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png"}, folder.path());
     EXPECT_EQ(run.code, 0);
     EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
     EXPECT_TRUE(fs::exists(folder / part)) << "it may be of another machine";

@@ -73,7 +73,8 @@ TEST(FirstEqual, keysWithEqualHashesAreToldApart)
     for (std::uint32_t i = 0; i < 300000; ++i)
         keys.push_back(i % 10 == 9 ? keys.back() : std::array{std::uint32_t(random()), std::uint32_t(random())});
     for (const std::size_t threads : {1u, 3u}) {
-        const auto first = cotan::tangents::firstEqual(300000, [&](std::uint32_t i) { return keys[i]; }, threads);
+        const auto first = cotan::tangents::firstEqual(
+            300000, [&](std::uint32_t i) { return keys[i]; }, threads);
         for (std::uint32_t i = 0; i < 300000; ++i)
             ASSERT_EQ(first[i], i % 10 == 9 ? i - 1 : i);
     }

@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include "common.hpp"
+#include "cotan/report/words.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
-#include "cotan/report/words.hpp"
 #include "picture.hpp"
 
 namespace cotan::app {
@@ -16,7 +16,8 @@ TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
 {
     EXPECT_EQ(*parseSize("1x16384"), std::pair(1, 16384));
     EXPECT_EQ(*parseSize("16384x1"), std::pair(16384, 1));
-    for (const char* wrong : {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "5", "5x", "x5", "5x5x5", "5.5x5", " 5x5", "99999999999x5"})
+    for (const char* wrong :
+         {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "5", "5x", "x5", "5x5x5", "5.5x5", " 5x5", "99999999999x5"})
         EXPECT_FALSE(parseSize(wrong)) << wrong;
 }
 
@@ -40,7 +41,8 @@ TEST(PictureWords, aCameraLooksFromAndToWithAnUpThatIsNotItsDirection)
     EXPECT_EQ(level->target, glm::vec3(4, 2, 8));
     EXPECT_EQ(level->up, glm::vec3(0, 1, 0));
     for (const char* straight : {"0,5,0,0,-1,0", "0,-5,0,0,1,0"})
-        EXPECT_GT(glm::length(glm::cross(parseCamera(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f) << straight;
+        EXPECT_GT(glm::length(glm::cross(parseCamera(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f)
+            << straight;
     EXPECT_FALSE(parseCamera("1,2,3,1,2,3", scene, 10, 10)); // nowhere to look
     EXPECT_FALSE(parseCamera("1,2,3,4,5", scene, 10, 10));
     EXPECT_FALSE(parseCamera("1,2,3,4,5,nan", scene, 10, 10));
@@ -75,7 +77,13 @@ TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
 
 TEST(PictureWords, exposureIsAPositiveNumber)
 {
-    for (const auto& [text, good] : {std::pair("0.001", true), {"1e6", true}, {"0", false}, {"-1", false}, {"nan", false}, {"1e7", false}, {"2x", false}}) {
+    for (const auto& [text, good] : {std::pair("0.001", true),
+                                     {"1e6", true},
+                                     {"0", false},
+                                     {"-1", false},
+                                     {"nan", false},
+                                     {"1e7", false},
+                                     {"2x", false}}) {
         Arguments tool("tool", "", "");
         PictureOptions options;
         addPictureOptions(tool, options);

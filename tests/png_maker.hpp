@@ -30,9 +30,7 @@ inline void putChunk(Bytes& bytes, const std::string& type, const std::string& d
     const std::string body = type + data;
     put(bytes, big32(std::uint32_t(data.size())));
     put(bytes, body);
-    put(bytes,
-        big32(std::uint32_t(
-            crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size())))));
+    put(bytes, big32(std::uint32_t(crc32(0, reinterpret_cast<const Bytef*>(body.data()), uInt(body.size())))));
 }
 
 struct Png {
@@ -62,8 +60,8 @@ inline Bytes makePng(const Png& png)
     put(bytes, png.before);
     std::string packed(compressBound(uLong(png.rows.size())), '\0');
     uLongf size = uLongf(packed.size());
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-             reinterpret_cast<const Bytef*>(png.rows.data()), uLong(png.rows.size()));
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(png.rows.data()),
+             uLong(png.rows.size()));
     packed.resize(size);
     putChunk(bytes, "IDAT", packed);
     putChunk(bytes, "IEND", "");

@@ -30,7 +30,8 @@ void main()
     cotan_triangle flat_pair = cotan_triangle_of_vertices(n, p, m, uv, uv, uv, n, n, n);
     flat_pair = cotan_triangle_transformed(flat_pair, n, p, m, -1.0);
     cotan_triangle sound = cotan_triangle_of_sound_edges(n, p, uv, uv, m);
-    sum += cotan_apply(cotan_frame_triangle(n, flat_pair.u, flat_pair.v), m);
+    sum += cotan_apply(cotan_frame_triangle(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv)), m);
+    sum += cotan_apply(cotan_frame_of_triangle(n, flat_pair.u, flat_pair.v), m);
     sum += cotan_perturb_triangle(n, sound.u, sound.v, m);
     sum += cotan_perturb_triangle_scaled(n, sound.u, sound.v, m) + cotan_perturb_smooth(n, p, m, m);
     cotan_packed_triangle packed = cotan_pack_triangle(sound.u, sound.v);

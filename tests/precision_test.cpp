@@ -9,7 +9,6 @@
 namespace cotan {
 namespace {
 
-
 struct Error {
     double mean = 0;
     int notFinite = 0;

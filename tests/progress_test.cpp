@@ -52,7 +52,8 @@ std::vector<std::string> states(const std::string& text)
 
 std::size_t columnsOf(const std::string& line)
 {
-    return std::size_t(std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+    return std::size_t(
+        std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 double percentOf(const std::string& line)
@@ -143,12 +144,19 @@ TEST(ProgressLine, isShownByEveryLongCommandOnATerminalOnly)
         {"render", "quad.gltf", "-o", "a.png", "--size", "32x32", "--device", "reference"},
         {"compare", "quad.gltf", "-o", "d", "--size", "32x32", "--device", "reference"},
         {"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "16x16", "-o", "b.png"},
-        {"convert", "quad.gltf", "--to", "orthonormal", "-o", "c.glb"}, {"lint", "quad.gltf"}, {"tangents", "quad.gltf"},
+        {"convert", "quad.gltf", "--to", "orthonormal", "-o", "c.glb"},
+        {"lint", "quad.gltf"},
+        {"tangents", "quad.gltf"},
         {"accuracy", "--tables", "flat", "--frames", "cotangent"},
         {"figures", "--only", "mirrored", "--size", "64x48", "--device", "reference", "-o", "f"},
-        {"map", "info", "n.png"}, {"map", "detect", "n.png"}, {"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "e.png"},
-        {"map", "from-height", "n.png", "-o", "g.png"}, {"map", "to-height", "n.png", "-o", "h.png"},
-        {"map", "blend", "n.png", "n.png", "-o", "i.png"}, {"map", "diff", "n.png", "n.png"}, {"map", "mips", "n.png", "-o", "j.dds"}};
+        {"map", "info", "n.png"},
+        {"map", "detect", "n.png"},
+        {"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "e.png"},
+        {"map", "from-height", "n.png", "-o", "g.png"},
+        {"map", "to-height", "n.png", "-o", "h.png"},
+        {"map", "blend", "n.png", "n.png", "-o", "i.png"},
+        {"map", "diff", "n.png", "n.png"},
+        {"map", "mips", "n.png", "-o", "j.dds"}};
 #ifdef COTAN_WITH_VULKAN
     commands.push_back({"cost", "--frames", "cotangent", "--no-timing", "--family", "NAVI21"});
 #endif

@@ -24,8 +24,11 @@ struct Made {
     {
         const std::size_t offset = bytes.size();
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(float)}});
-        root["accessors"].push_back({{"bufferView", int(root["bufferViews"].size()) - 1}, {"componentType", 5126}, {"type", type},
+        root["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(float)}});
+        root["accessors"].push_back({{"bufferView", int(root["bufferViews"].size()) - 1},
+                                     {"componentType", 5126},
+                                     {"type", type},
                                      {"count", values.size() / std::size_t(width)}});
         return int(root["accessors"].size()) - 1;
     }
@@ -44,13 +47,19 @@ inline Made quad(float stretch, float uvScale = 1)
         normals.insert(normals.end(), {0, 0, 1});
         tangents.insert(tangents.end(), {1, 0, 0, 1});
     }
-    const int p = m.add(positions, "VEC3", 3), n = m.add(normals, "VEC3", 3), t = m.add(tangents, "VEC4", 4), c = m.add(uv, "VEC2", 2);
+    const int p = m.add(positions, "VEC3", 3), n = m.add(normals, "VEC3", 3), t = m.add(tangents, "VEC4", 4),
+              c = m.add(uv, "VEC2", 2);
     m.root["accessors"][std::size_t(p)]["min"] = {0, 0, 0};
     m.root["accessors"][std::size_t(p)]["max"] = {stretch, 1, 0};
-    m.root["meshes"] = json::array({{{"name", "quad"}, {"primitives", json::array({{{"attributes", {{"POSITION", p}, {"NORMAL", n}, {"TANGENT", t}, {"TEXCOORD_0", c}}}, {"material", 0}}})}}});
+    m.root["meshes"] = json::array(
+        {{{"name", "quad"},
+          {"primitives",
+           json::array({{{"attributes", {{"POSITION", p}, {"NORMAL", n}, {"TANGENT", t}, {"TEXCOORD_0", c}}},
+                         {"material", 0}}})}}});
     m.root["nodes"] = json::array({{{"mesh", 0}}});
     m.root["scenes"] = json::array({{{"nodes", {0}}}});
-    m.root["materials"] = json::array({{{"name", "relief"}, {"normalTexture", {{"index", 0}}}, {"extras", {{"mine", 7}}}}});
+    m.root["materials"] =
+        json::array({{{"name", "relief"}, {"normalTexture", {{"index", 0}}}, {"extras", {{"mine", 7}}}}});
     m.root["textures"] = json::array({{{"source", 0}}});
     m.root["images"] = json::array({{{"uri", "waves.png"}}});
     return m;

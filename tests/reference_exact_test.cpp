@@ -119,13 +119,15 @@ Level halved(const Level& from)
 }
 
 // The largest difference of the picture's red from expected(u, v), uv in units of the image.
-template<class Expected> double worst(const Image& picture, glm::dvec2 size, glm::dvec2 texelsPerPixel, Expected expected)
+template<class Expected>
+double worst(const Image& picture, glm::dvec2 size, glm::dvec2 texelsPerPixel, Expected expected)
 {
     double most = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
             const double u = (x + 0.5) * texelsPerPixel.x / size.x, v = (y + 0.5) * texelsPerPixel.y / size.y;
-            most = std::max(most, std::abs(double(pixelOf(picture, x, y).x) - expected(u - std::floor(u), v - std::floor(v))));
+            most = std::max(
+                most, std::abs(double(pixelOf(picture, x, y).x) - expected(u - std::floor(u), v - std::floor(v))));
         }
     return most;
 }
@@ -168,8 +170,15 @@ TEST(ReferenceExact, whatIsNearerThanTheNearPlaneIsNotDrawn)
 TEST(ReferenceExact, normalsOfMirroredAndScaledInstancesFollowTheInverseTranspose)
 {
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.5, 0.8));
-    for (const glm::vec3 s : {glm::vec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, 1}, {-1, -1, -1},
-                              {2, 3, 0.5f}, {-2, 3, 0.5f}, {2, -0.25f, 3}}) {
+    for (const glm::vec3 s : {glm::vec3(1, 1, 1),
+                              {-1, 1, 1},
+                              {1, -1, 1},
+                              {1, 1, -1},
+                              {-1, -1, 1},
+                              {-1, -1, -1},
+                              {2, 3, 0.5f},
+                              {-2, 3, 0.5f},
+                              {2, -0.25f, 3}}) {
         Mesh mesh = meshOf(kWide);
         mesh.normals.assign(4, glm::vec3(n));
         const Scene scene = sceneOf(mesh, scaling(s)); // one-sided: its front has to stay its front
@@ -272,7 +281,8 @@ TEST(ReferenceExact, footprintsChooseTheirLevelAlsoOfOddSizes)
     EXPECT_LT(differs(drawn(4.002, MipFilter::linear, Filter::linear, Filter::linear), 4.002, readTwo), 2e-3);
     const double between = std::pow(2, 1.25);
     EXPECT_LT(differs(drawn(between, MipFilter::linear, Filter::linear, Filter::linear), between,
-                      [&](double u, double v) { return readOne(u, v) * 0.75 + readTwo(u, v) * 0.25; }), kSame);
+                      [&](double u, double v) { return readOne(u, v) * 0.75 + readTwo(u, v) * 0.25; }),
+              kSame);
     // The nearest level changes half way between the levels.
     const double below = std::pow(2, 1.49), above = std::pow(2, 1.51);
     EXPECT_LT(differs(drawn(below, MipFilter::nearest, Filter::linear, Filter::linear), below, readOne), kSame);
@@ -294,9 +304,11 @@ TEST(ReferenceExact, longFootprintsAreReadInStepsAlongTheirLongerAxis)
         const glm::dvec2 texels = alongX ? glm::dvec2(1.98, 1) : glm::dvec2(1, 1.98);
         const Image picture = rendered(texturedSquare(noiseImage(45, 27), glm::vec2(texels)), squareView());
         const double step = 1.98 / 6, u1 = alongX ? step / 45 : 0, v1 = alongX ? 0 : step / 27;
-        EXPECT_LT(worst(picture, {45, 27}, texels, [&](double u, double v) {
-                      return 0.5 * (zero.bilinear(u - u1, v - v1) + zero.bilinear(u + u1, v + v1));
-                  }), 1e-3);
+        EXPECT_LT(worst(picture, {45, 27}, texels,
+                        [&](double u, double v) {
+                            return 0.5 * (zero.bilinear(u - u1, v - v1) + zero.bilinear(u + u1, v + v1));
+                        }),
+                  1e-3);
     }
 }
 
@@ -362,8 +374,17 @@ TEST(ReferenceExact, spotLightsFadeFromTheirInnerToTheirOuterCone)
         return k <= 0 ? 0.0 : k >= 1 ? 1.0 : k * k * (3 - 2 * k);
     };
     std::set<double> seen;
-    for (const auto& [x, y] : {std::pair{41, 22}, {42, 22}, {41, 21}, {43, 21}, {39, 23}, {44, 24}, {41, 19}, {37, 22},
-                               {29, 30}, {29, 22}, {41, 30}}) {
+    for (const auto& [x, y] : {std::pair{41, 22},
+                               {42, 22},
+                               {41, 21},
+                               {43, 21},
+                               {39, 23},
+                               {44, 24},
+                               {41, 19},
+                               {37, 22},
+                               {29, 30},
+                               {29, 22},
+                               {41, 30}}) {
         EXPECT_NEAR(shareOfLight(light, x, y), expected(x, y), 1e-4) << x << " " << y;
         seen.insert(expected(x, y));
     }
@@ -411,7 +432,7 @@ TEST(ReferenceExact, firstDirectionalLightAloneCastsTheShadow)
     const Image lit = rendered(scene, view);
     EXPECT_EQ(pixelOf(all, 38, 18), pixelOf(without, 38, 18)); // in the shadow the other two are left
     EXPECT_LT(pixelOf(all, 38, 18).x, pixelOf(lit, 38, 18).x);
-    EXPECT_EQ(pixelOf(all, 22, 28), pixelOf(lit, 22, 28));     // the third light has no shadow
+    EXPECT_EQ(pixelOf(all, 22, 28), pixelOf(lit, 22, 28)); // the third light has no shadow
     EXPECT_EQ(pixelOf(all, 55, 5), pixelOf(lit, 55, 5));
 }
 

@@ -47,12 +47,9 @@ TEST(ReferenceFrame, flatNormalMapChangesNothing)
     Scene scene = sceneOf(fullMesh(kSheared));
     addNormalMap(scene, {128, 128, 255});
     for (const FrameInfo& f : frames()) {
-        int count = forCovered(rendered(scene, viewOf(Output::normal, f.frame)),
-                               [&](int, int, glm::vec4 value) {
-                                   ASSERT_LT(degreesBetween(glm::vec3(value), kSheared.normal()),
-                                             1e-4)
-                                       << f.name;
-                               });
+        int count = forCovered(rendered(scene, viewOf(Output::normal, f.frame)), [&](int, int, glm::vec4 value) {
+            ASSERT_LT(degreesBetween(glm::vec3(value), kSheared.normal()), 1e-4) << f.name;
+        });
         EXPECT_GT(count, 300);
     }
 }
@@ -63,10 +60,9 @@ TEST(ReferenceFrame, tiltedTexelFollowsTheGradientsOfAShearedPatch)
     addNormalMap(scene, kTexel);
     glm::dvec3 expected = kSheared.perturbed(kDecoded);
     for (Frame frame : {Frame::cotangent, Frame::exact, Frame::smooth}) {
-        int count = forCovered(
-            rendered(scene, viewOf(Output::normal, frame)), [&](int, int, glm::vec4 value) {
-                ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees) << name(frame);
-            });
+        int count = forCovered(rendered(scene, viewOf(Output::normal, frame)), [&](int, int, glm::vec4 value) {
+            ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees) << name(frame);
+        });
         EXPECT_GT(count, 300);
     }
 }
@@ -103,7 +99,7 @@ TEST(ReferenceFrame, greenAgainstVIsTheSameMapWithGreenReversed)
     Scene along = sceneOf(fullMesh(kSheared)), against = along;
     addNormalMap(along, kTexel);
     addNormalMap(against, {kTexel.x, 256 - kTexel.y, kTexel.z});
-    against.materials[0].normalFormat.greenAlongV = false;
+    against.materials[0].normalFormat.greenUp = true;
     Image other = rendered(against, viewOf(Output::normal));
     forCovered(rendered(along, viewOf(Output::normal)), [&](int x, int y, glm::vec4 value) {
         // Decoding rounds the two bytes to opposite numbers, up to a few units of 1e-7.
@@ -183,12 +179,10 @@ TEST(ReferenceFrame, tangentsFollowGradientsInAll24SignCombinations)
                     if (side.back)
                         view.camera.eye.z = -4;
                     auto check = [&](glm::dvec3 gradient) {
-                        int count = forCovered(
-                            rendered(scene, view), [&](int, int, glm::vec4 value) {
-                                ASSERT_LT(degreesBetween(glm::vec3(value), gradient), kDegrees)
-                                    << mirroredWorld << rowsUpward << mirroredUv << side.back
-                                    << side.normalToViewer;
-                            });
+                        int count = forCovered(rendered(scene, view), [&](int, int, glm::vec4 value) {
+                            ASSERT_LT(degreesBetween(glm::vec3(value), gradient), kDegrees)
+                                << mirroredWorld << rowsUpward << mirroredUv << side.back << side.normalToViewer;
+                        });
                         EXPECT_GT(count, 300);
                     };
                     check(gradU);
@@ -202,8 +196,8 @@ TEST(ReferenceFrame, mirroredInstanceKeepsTangentsAlongTheGradients)
     // Gradients are covectors: under diag(s) they go with 1/s. Stored tangents are vectors and, for
     // the orthonormal frames, right where uv stay square.
     Scene scene = sceneOf(fullMesh(kSquare), scaling(-1, 1, 1));
-    for (Frame frame : {Frame::cotangent, Frame::exact, Frame::smooth, Frame::vertex,
-                        Frame::mikktspace, Frame::orthonormal}) {
+    for (Frame frame :
+         {Frame::cotangent, Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace, Frame::orthonormal}) {
         glm::vec4 t = pixelOf(rendered(scene, viewOf(Output::tangent, frame)), 32, 32);
         glm::vec4 b = pixelOf(rendered(scene, viewOf(Output::bitangent, frame)), 32, 32);
         EXPECT_LT(degreesBetween(glm::vec3(t), {-1, 0, 0}), kDegrees) << name(frame);
@@ -230,9 +224,8 @@ TEST(ReferenceFrame, nonUniformScaleMovesGradientsAsCovectors)
         });
         EXPECT_GT(count, 100);
         view.output = Output::normal;
-        forCovered(rendered(scene, view), [&](int, int, glm::vec4 value) {
-            ASSERT_LT(degreesBetween(glm::vec3(value), normal), kDegrees);
-        });
+        forCovered(rendered(scene, view),
+                   [&](int, int, glm::vec4 value) { ASSERT_LT(degreesBetween(glm::vec3(value), normal), kDegrees); });
     }
 }
 
@@ -275,9 +268,8 @@ TEST(ReferenceFrame, normalScaleMultipliesTheSlopes)
     addNormalMap(scene, kTexel);
     scene.materials[0].normalScale = 0.5f;
     glm::dvec3 expected = kSquare.perturbed(kDecoded * glm::dvec3(0.5, 0.5, 1));
-    forCovered(rendered(scene, viewOf(Output::normal)), [&](int, int, glm::vec4 value) {
-        ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees);
-    });
+    forCovered(rendered(scene, viewOf(Output::normal)),
+               [&](int, int, glm::vec4 value) { ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees); });
 }
 
 TEST(ReferenceFrame, textureTransformTurnsTheFrame)
@@ -288,12 +280,11 @@ TEST(ReferenceFrame, textureTransformTurnsTheFrame)
     scene.materials[0].normalMap.uRow = {0, 1, 0};
     scene.materials[0].normalMap.vRow = {-1, 0, 1};
     glm::dvec3 t = kSquare.gradV(), b = -kSquare.gradU();
-    glm::dvec3 expected = glm::normalize(kSquare.normal() * kDecoded.z
-                                         + (t * kDecoded.x + b * kDecoded.y) / glm::length(t));
+    glm::dvec3 expected =
+        glm::normalize(kSquare.normal() * kDecoded.z + (t * kDecoded.x + b * kDecoded.y) / glm::length(t));
     for (Frame frame : {Frame::cotangent, Frame::exact})
-        forCovered(rendered(scene, viewOf(Output::normal, frame)), [&](int, int, glm::vec4 value) {
-            ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees);
-        });
+        forCovered(rendered(scene, viewOf(Output::normal, frame)),
+                   [&](int, int, glm::vec4 value) { ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees); });
 }
 
 TEST(ReferenceFrame, secondUvSetIsUsedWhereTheMapAsksForIt)
@@ -323,20 +314,40 @@ TEST(ReferenceFrame, degenerateUvGiveTheInterpolatedNormal)
         Scene scene = sceneOf(mesh);
         addNormalMap(scene, kTexel);
         for (Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact}) {
-            int count = forCovered(
-                rendered(scene, viewOf(Output::normal, frame)), [&](int, int, glm::vec4 value) {
-                    ASSERT_LT(degreesBetween(glm::vec3(value), kSheared.normal()), 1e-4)
-                        << name(frame) << ", kind " << kind;
-                });
+            int count = forCovered(rendered(scene, viewOf(Output::normal, frame)), [&](int, int, glm::vec4 value) {
+                ASSERT_LT(degreesBetween(glm::vec3(value), kSheared.normal()), 1e-4)
+                    << name(frame) << ", kind " << kind;
+            });
             EXPECT_GT(count, 300);
         }
     }
 }
 
-TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutTheirAttributes)
+TEST(ReferenceFrame, framesFromVerticesAreRefusedWithoutTheirAttributes)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
+    scene.meshes[0].name = "bare";
+    for (const FrameInfo& f : frames()) {
+        const auto image = renderReference(scene, viewOf(Output::normal, f.frame));
+        ASSERT_EQ(bool(image), !readsVertices(f.frame)) << f.name;
+        if (image)
+            continue;
+        EXPECT_EQ(image.error().kind, ErrorKind::usage);
+        EXPECT_NE(image.error().message.find("'bare'"), std::string::npos) << image.error().message;
+        EXPECT_NE(image.error().message.find(f.name), std::string::npos) << image.error().message;
+    }
+    scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, 1});
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::vertex)));
+    EXPECT_FALSE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+    scene.meshes[0].cotangentsU = scene.meshes[0].cotangentsV = scene.meshes[0].normals;
+    EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
+}
+
+TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutUvToMakeThemFrom)
+{
+    Scene scene = sceneOf(meshOf(kSheared));
+    scene.meshes[0].texcoords[0].clear();
     for (Frame frame : {Frame::smooth, Frame::vertex, Frame::mikktspace}) {
         glm::vec4 t = pixelOf(rendered(scene, viewOf(Output::tangent, frame)), 32, 32);
         EXPECT_EQ(t, glm::vec4(0, 0, 0, 1));

@@ -14,7 +14,7 @@ void expectFinitePicture(const Scene& scene, View view, const char* what)
     Image image = rendered(scene, view);
     for (std::size_t i = 0; i < image.pixelCount() * 4; ++i)
         ASSERT_TRUE(std::isfinite(image.floats()[i]))
-            << what << ", " << name(Frame(view.frame)) << ", output " << int(view.output);
+            << what << ", " << name(view.frame) << ", output " << int(view.output);
 }
 
 // Draws with every frame and output and expects numbers everywhere.

@@ -30,8 +30,7 @@ Ray rayThrough(const View& view, int x, int y)
 // Where the ray meets the patch's plane: (u, v, distance in units of the direction).
 glm::dvec3 hit(const Patch& patch, const Ray& ray)
 {
-    double t = glm::dot(patch.origin - ray.origin, patch.normal())
-        / glm::dot(ray.direction, patch.normal());
+    double t = glm::dot(patch.origin - ray.origin, patch.normal()) / glm::dot(ray.direction, patch.normal());
     glm::dvec3 p = ray.origin + ray.direction * t - patch.origin;
     return {glm::dot(p, patch.gradU()), glm::dot(p, patch.gradV()), t};
 }
@@ -47,9 +46,7 @@ void expectUvOfRays(const Patch& patch, View view, double margin, double toleran
         for (int x = 0; x < view.width; ++x) {
             glm::dvec3 h = hit(patch, rayThrough(view, x, y));
             glm::vec4 value = pixelOf(image, x, y);
-            auto inside = [&](double m) {
-                return h.z > 0 && h.x > m && h.x < 1 - m && h.y > m && h.y < 1 - m;
-            };
+            auto inside = [&](double m) { return h.z > 0 && h.x > m && h.x < 1 - m && h.y > m && h.y < 1 - m; };
             if (inside(margin)) {
                 ASSERT_EQ(value.w, 1) << "gap at " << x << " " << y;
             }
@@ -210,9 +207,7 @@ TEST(ReferenceRaster, edgesThroughSampleCentresBelongToOneTriangle)
     view.linearOutput = true;
     view.background = false;
     Image image = rendered(halfTransparent(mesh), view);
-    int count = forCovered(image, [](int x, int y, glm::vec4 value) {
-        ASSERT_EQ(value.w, 0.5f) << x << " " << y;
-    });
+    int count = forCovered(image, [](int x, int y, glm::vec4 value) { ASSERT_EQ(value.w, 0.5f) << x << " " << y; });
     EXPECT_EQ(count, 32 * 32); // 32 units a side, its left and top borders included
 }
 

@@ -83,7 +83,7 @@ inline void addNormalMap(Scene& scene, glm::ivec3 bytes)
 {
     scene.images.push_back(solidImage({bytes, 255}));
     scene.materials[0].normalMap.image = int(scene.images.size()) - 1;
-    scene.materials[0].normalFormat.greenAlongV = true;
+    scene.materials[0].normalFormat.greenUp = false;
 }
 
 // A small square picture, without lights, from (0,0,distance) towards the origin.
@@ -92,7 +92,7 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent, float distance
     View view;
     view.width = view.height = 64;
     view.output = output;
-    view.frame = int(frame);
+    view.frame = frame;
     view.camera.eye = {0, 0, distance};
     return view;
 }
@@ -112,15 +112,13 @@ inline glm::vec4 pixelOf(const Image& image, int x, int y)
     std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
     glm::vec4 value;
     for (int c = 0; c < 4; ++c)
-        value[c] = image.type == PixelType::float32
-            ? image.floats()[at + std::size_t(c)]
-            : float(image.bytes8()[at + std::size_t(c)]) / 255.0f;
+        value[c] = image.type == PixelType::float32 ? image.floats()[at + std::size_t(c)]
+                                                    : float(image.bytes8()[at + std::size_t(c)]) / 255.0f;
     return value;
 }
 
 // Calls check(x, y, value) for every pixel with a surface and returns their number.
-template<class Check>
-int forCovered(const Image& image, Check check)
+template<class Check> int forCovered(const Image& image, Check check)
 {
     int count = 0;
     for (int y = 0; y < image.height; ++y)

@@ -89,10 +89,10 @@ TEST(ReferenceShading, blueOfTheMapIsMetallicAndGreenIsRough)
     view.lights[0].direction = {0, 0, -1};
     scene.images.push_back(solidImage({0, 255, 255, 255}, 4)); // metallic, rough
     const float metal = pixelOf(rendered(scene, view), 32, 32).x;
-    EXPECT_NEAR(metal, 0, 1e-4f); // F0 is the base colour
+    EXPECT_NEAR(metal, 0, 1e-4f);                      // F0 is the base colour
     scene.images[0] = solidImage({0, 255, 0, 255}, 4); // not metallic, rough
     const float rough = pixelOf(rendered(scene, view), 32, 32).x;
-    EXPECT_GT(rough, 0.005f); // F0 is 0.04
+    EXPECT_GT(rough, 0.005f);                         // F0 is 0.04
     scene.images[0] = solidImage({0, 64, 0, 255}, 4); // not metallic, smoother: a narrow highlight
     EXPECT_GT(pixelOf(rendered(scene, view), 32, 32).x, 4 * rough);
 }
@@ -162,8 +162,7 @@ TEST(ReferenceShading, planesDoNotShadowThemselvesAtAnyAngleOfLight)
         Scene scene = litScene(meshOf(kSquare));
         View view = shadedView();
         view.lights.push_back({});
-        view.lights[0].direction =
-            glm::vec3(-std::sin(a) * 0.8, std::sin(a) * 0.6, -std::cos(a));
+        view.lights[0].direction = glm::vec3(-std::sin(a) * 0.8, std::sin(a) * 0.6, -std::cos(a));
         Image with = rendered(scene, view);
         view.shadows = false;
         EXPECT_EQ(with.data, rendered(scene, view).data) << degrees;

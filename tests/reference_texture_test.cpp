@@ -57,9 +57,8 @@ TEST(ReferenceTexture, pointSamplingReadsTheTexelUnderThePixel)
     Scene scene = textured(ramp(32, 16));
     View view = squareView();
     view.pointSampled = true;
-    int count = forCovered(rendered(scene, view), [](int x, int y, glm::vec4 value) {
-        ASSERT_EQ(value, glm::vec4(x / 2, y / 4, 0, 1));
-    });
+    int count = forCovered(rendered(scene, view),
+                           [](int x, int y, glm::vec4 value) { ASSERT_EQ(value, glm::vec4(x / 2, y / 4, 0, 1)); });
     EXPECT_EQ(count, 64 * 64);
 }
 
@@ -109,9 +108,8 @@ TEST(ReferenceTexture, withoutMipsMinificationAliases)
     Scene scene = textured(checker(512));
     scene.materials[0].baseColorMap.sampler.mip = MipFilter::none;
     scene.materials[0].baseColorMap.sampler.minify = Filter::nearest;
-    forCovered(rendered(scene, squareView()), [](int, int, glm::vec4 value) {
-        ASSERT_TRUE(value.x == 0 || value.x == 1);
-    });
+    forCovered(rendered(scene, squareView()),
+               [](int, int, glm::vec4 value) { ASSERT_TRUE(value.x == 0 || value.x == 1); });
 }
 
 TEST(ReferenceTexture, oddSizesKeepTheirMeanDownTheChain)
@@ -135,9 +133,8 @@ TEST(ReferenceTexture, stretchedFootprintsStaySharpAcrossTheirNarrowSide)
         stripes.floats()[4 * i] = float(i % 64 % 2);
         stripes.floats()[4 * i + 3] = 1;
     }
-    forCovered(rendered(textured(stripes), squareView()), [](int x, int, glm::vec4 value) {
-        ASSERT_NEAR(value.x, float(x % 2), 1e-4);
-    });
+    forCovered(rendered(textured(stripes), squareView()),
+               [](int x, int, glm::vec4 value) { ASSERT_NEAR(value.x, float(x % 2), 1e-4); });
 }
 
 TEST(ReferenceTexture, normalMapLevelsAverageVectorsAndStayUnit)
@@ -158,9 +155,8 @@ TEST(ReferenceTexture, normalMapLevelsAverageVectorsAndStayUnit)
         ASSERT_LT(degreesBetween(glm::vec3(value), {0, 0, 1}), 0.25); // half a byte of x
     });
     view.pointSampled = true;
-    forCovered(rendered(scene, view), [](int, int, glm::vec4 value) {
-        ASSERT_NEAR(std::abs(value.x), std::sqrt(0.5), 1e-6);
-    });
+    forCovered(rendered(scene, view),
+               [](int, int, glm::vec4 value) { ASSERT_NEAR(std::abs(value.x), std::sqrt(0.5), 1e-6); });
 }
 
 TEST(ReferenceTexture, sixteenBitColoursAreDecodedFromSrgb)

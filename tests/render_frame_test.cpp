@@ -62,8 +62,8 @@ template<class Check> int overSurface(const Image& a, Check check)
 
 } // namespace
 
-// Two columns of texels, 10 steps of 8 bits apart, over the whole picture. A step is 0.45 degrees: what a driver rounds to 8 bits
-// again when it filters is up to 0.23 off; what remains here is the 8 bits of the weights, 0.02.
+// Two columns of texels, 10 steps of 8 bits apart, over the whole picture. A step is 0.45 degrees: what a driver rounds
+// to 8 bits again when it filters is up to 0.23 off; what remains here is the 8 bits of the weights, 0.02.
 TEST(RenderFrame, magnifiedMapsOfEightBitsAreFilteredBetweenTheirSteps)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
@@ -80,8 +80,9 @@ TEST(RenderFrame, magnifiedMapsOfEightBitsAreFilteredBetweenTheirSteps)
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
             const glm::vec3 n(floatPixel(image, x, y));
-            const double half = 0.5 * std::tan(0.5 * double(view.camera.verticalFieldOfView)); // of the plane, in the picture
-            const double place = half * (2 * (x + 0.5) / view.width - 1);                      // on the quad, -1 to 1
+            const double half =
+                0.5 * std::tan(0.5 * double(view.camera.verticalFieldOfView)); // of the plane, in the picture
+            const double place = half * (2 * (x + 0.5) / view.width - 1);      // on the quad, -1 to 1
             const glm::dvec3 expected(10.0 / 127 * (0.5 + 0.5 * place), 0, 1);
             worst = std::max(worst, degreesBetween(n, glm::normalize(expected)));
             seen += n.z > 0 ? 1 : 0;
@@ -187,9 +188,8 @@ TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
     const glm::dvec2 du(0.9, 0.1); // stretched and skewed
     const glm::dvec2 dv(0.3, -0.45);
     for (const bool greenAlongV : {false, true}) {
-        Scene scene =
-            sceneOf(quad(glm::vec2(du), glm::vec2(dv)), map, placement(/*mirrored*/ false));
-        scene.materials[0].normalFormat.greenAlongV = greenAlongV;
+        Scene scene = sceneOf(quad(glm::vec2(du), glm::vec2(dv)), map, placement(/*mirrored*/ false));
+        scene.materials[0].normalFormat.greenUp = !greenAlongV;
         load(renderer, scene);
         const Gradients g = gradientsOf(du, dv, placement(/*mirrored*/ false));
         const double longest = std::max(glm::length(g.u), glm::length(g.v));
@@ -255,16 +255,15 @@ TEST(RenderFrame, uvWithoutAreaGiveThePlainNormal)
     missing.texcoords[0].clear();
     for (const Mesh& mesh : {constant, missing}) {
         load(renderer, sceneOf(mesh, flatImage(texelOf({0.6f, 0.3f, 1}))));
-        for (const Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::gradient,
-                                  Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
+        for (const Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact, Frame::smooth,
+                                  Frame::vertex, Frame::mikktspace}) {
             if (!everyFrameExists(frame, renderer))
                 continue;
             const Image image = drawn(renderer, viewOf(Output::normal, frame));
             const glm::dvec3 n(floatPixel(image, 32, 32));
             EXPECT_LT(degreesBetween(n, {0, 0, 1}), 1e-4) << info(frame).name;
             const Image tangent = drawn(renderer, viewOf(Output::tangent, frame));
-            EXPECT_EQ(glm::length(glm::vec3(floatPixel(tangent, 32, 32))), 0.0f)
-                << info(frame).name;
+            EXPECT_EQ(glm::length(glm::vec3(floatPixel(tangent, 32, 32))), 0.0f) << info(frame).name;
         }
     }
 }
@@ -285,11 +284,9 @@ TEST(RenderFrame, storedTangentsAgreeWithTheUvTheyStandFor)
             m[0][0] = instanceMirrored ? -1.0f : 1.0f;
             load(renderer, sceneOf(mesh, flatImage(texelOf({0.5f, 0.2f, 1})), m));
             const glm::dvec3 expected(0.5 * right * m[0][0], 0.2, 1);
-            for (const Frame frame :
-                 {Frame::cotangent, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
+            for (const Frame frame : {Frame::cotangent, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
                 const Image image = drawn(renderer, viewOf(Output::normal, frame));
-                EXPECT_LT(degreesBetween(glm::dvec3(floatPixel(image, 32, 32)), expected), 0.02)
-                    << info(frame).name;
+                EXPECT_LT(degreesBetween(glm::dvec3(floatPixel(image, 32, 32)), expected), 0.02) << info(frame).name;
             }
         }
 }

@@ -20,9 +20,7 @@ std::map<std::string, std::uint32_t> memberOffsets(std::span<const std::uint32_t
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> offsets;
     for (std::size_t i = 5; i < words.size();) {
         const std::uint32_t length = words[i] >> 16;
-        const auto text = [&](std::size_t at) {
-            return std::string(reinterpret_cast<const char*>(&words[i + at]));
-        };
+        const auto text = [&](std::size_t at) { return std::string(reinterpret_cast<const char*>(&words[i + at])); };
         switch (words[i] & 0xffff) {
         case kName: structs[words[i + 1]] = text(2); break;
         case kMemberName: members[{words[i + 1], words[i + 2]}] = text(3); break;
@@ -41,8 +39,8 @@ std::map<std::string, std::uint32_t> memberOffsets(std::span<const std::uint32_t
     return result;
 }
 
-#define EXPECT_OFFSET(type, member)                                                                \
-    ASSERT_TRUE(offsets.contains(#type "." #member)) << #type "." #member;                         \
+#define EXPECT_OFFSET(type, member)                                                                                    \
+    ASSERT_TRUE(offsets.contains(#type "." #member)) << #type "." #member;                                             \
     EXPECT_EQ(offsets.at(#type "." #member), offsetof(gpu::type, member)) << #type "." #member
 
 } // namespace

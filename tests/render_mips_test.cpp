@@ -22,7 +22,7 @@ Image image8(int width, int height, std::initializer_list<std::array<int, 4>> te
     return image;
 }
 
-MipChain chainOf(const Image& image, TextureKind kind, NormalMapFormat format = {})
+MipChain chainOf(const Image& image, TextureKind kind, Convention format = {})
 {
     MipRequest request;
     request.image = &image;
@@ -59,8 +59,7 @@ TEST(RenderMips, dataIsAveragedAsNumbers)
 TEST(RenderMips, oppositeTiltsAverageToAUnitNormalStraightUp)
 {
     // 45 degrees to either side: the plain mean of z would be 0.707.
-    const Image image =
-        image8(2, 1, {{{128 + 90, 128, 128 + 90, 255}}, {{128 - 90, 128, 128 + 90, 255}}});
+    const Image image = image8(2, 1, {{{128 + 90, 128, 128 + 90, 255}}, {{128 - 90, 128, 128 + 90, 255}}});
     const MipChain chain = chainOf(image, TextureKind::normal);
     EXPECT_EQ(byteAt(chain.levels[1], 0), 128);
     EXPECT_EQ(byteAt(chain.levels[1], 1), 128);
@@ -69,8 +68,8 @@ TEST(RenderMips, oppositeTiltsAverageToAUnitNormalStraightUp)
 
 TEST(RenderMips, twoChannelNormalsAreAveragedAsVectors)
 {
-    NormalMapFormat format;
-    format.channels = COTAN_CHANNELS_ORTHOGRAPHIC;
+    Convention format;
+    format.channels = Channels::orthographic;
     // 60 degrees and upright: the mean vector leans 30 degrees, sin 30 = 0.5.
     const Image image = image8(2, 1, {{{128 + 110, 128, 0, 255}}, {{128, 128, 0, 255}}});
     const MipChain chain = chainOf(image, TextureKind::normal, format);
@@ -84,9 +83,8 @@ TEST(RenderMips, oddSizesAreAveragedByArea)
     ASSERT_EQ(chain.levels.size(), 2u);
     EXPECT_EQ(byteAt(chain.levels[1], 0), 70);
 
-    const Image five = image8(
-        5, 1,
-        {{{10, 0, 0, 0}}, {{20, 0, 0, 0}}, {{30, 0, 0, 0}}, {{40, 0, 0, 0}}, {{50, 0, 0, 0}}});
+    const Image five =
+        image8(5, 1, {{{10, 0, 0, 0}}, {{20, 0, 0, 0}}, {{30, 0, 0, 0}}, {{40, 0, 0, 0}}, {{50, 0, 0, 0}}});
     const MipChain halves = chainOf(five, TextureKind::data);
     ASSERT_EQ(halves.levels.size(), 3u);
     EXPECT_EQ(halves.levels[1].width, 2);

@@ -14,15 +14,15 @@
 
 namespace cotan::rendertest {
 
-// Mesa's CPU driver compiles a shader for every picture of its kind: of most tests here that is most of the time, and a third
-// of it is to make code fast that then draws 64 x 64 pixels. Read by the driver when it starts.
+// Mesa's CPU driver compiles a shader for every picture of its kind: of most tests here that is most of the time, and a
+// third of it is to make code fast that then draws 64 x 64 pixels. Read by the driver when it starts.
 inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*/ 0) == 0;
 
 // Opens a renderer, or skips the test with the reason.
-#define COTAN_RENDERER_OR_SKIP(name, options)                                                      \
-    Result<Renderer> name##Result = Renderer::create(options);                                     \
-    if (!name##Result)                                                                             \
-        GTEST_SKIP() << name##Result.error().message;                                              \
+#define COTAN_RENDERER_OR_SKIP(name, options)                                                                          \
+    Result<Renderer> name##Result = Renderer::create(options);                                                         \
+    if (!name##Result)                                                                                                 \
+        GTEST_SKIP() << name##Result.error().message;                                                                  \
     Renderer& name = *name##Result
 
 inline double degreesBetween(glm::dvec3 a, glm::dvec3 b)
@@ -64,10 +64,7 @@ inline Image flatImage(glm::vec4 color, int size = 2)
 }
 
 // Stored texel of floats of the tangent-space vector m (along +u, along green, outwards): 0.5 is zero.
-inline glm::vec4 texelOf(glm::vec3 m)
-{
-    return glm::vec4(glm::normalize(m) * 0.5f + 0.5f, 1.0f);
-}
+inline glm::vec4 texelOf(glm::vec3 m) { return glm::vec4(glm::normalize(m) * 0.5f + 0.5f, 1.0f); }
 
 // A quad in the xy plane, -1 to 1, facing +z; uv = uv0 + du * x + dv * y.
 inline Mesh quad(glm::vec2 du = {0.5f, 0}, glm::vec2 dv = {0, -0.5f}, glm::vec2 uv0 = {0.5f, 0.5f})
@@ -108,8 +105,7 @@ inline Mesh sphere(int segments)
 }
 
 // One mesh, one material, one instance. An image, if given, becomes the normal map.
-inline Scene sceneOf(Mesh mesh, std::optional<Image> normalMap = std::nullopt,
-                     glm::mat4 toWorld = glm::mat4(1))
+inline Scene sceneOf(Mesh mesh, std::optional<Image> normalMap = std::nullopt, glm::mat4 toWorld = glm::mat4(1))
 {
     Scene scene;
     Material material;
@@ -132,7 +128,7 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent)
     view.height = 64;
     view.camera.eye = {0, 0, 3};
     view.output = output;
-    view.frame = int(frame);
+    view.frame = frame;
     return view;
 }
 

@@ -137,17 +137,14 @@ TEST(RenderShading, lightsAddWhatThePortableTextSays)
         s.n = {0, 0, 1};
         s.v = {0, 0, 1};
         const auto reflect = [&](glm::vec3 l) {
-            return shading == Shading::pbr ? f32::cotan_reflect_pbr(s, l)
-                                           : f32::cotan_reflect_blinn_phong(s, l);
+            return shading == Shading::pbr ? f32::cotan_reflect_pbr(s, l) : f32::cotan_reflect_blinn_phong(s, l);
         };
         glm::vec3 expected = glm::vec3(0.1f, 0.2f, 0.3f) + 3.0f * reflect(-sun.direction);
         const float lampDistance = glm::length(lamp.position);
-        expected += 3.0f * f32::cotan_light_falloff(lampDistance, 9)
-            * reflect(lamp.position / lampDistance);
+        expected += 3.0f * f32::cotan_light_falloff(lampDistance, 9) * reflect(lamp.position / lampDistance);
         const float spotDistance = glm::length(spot.position);
         const glm::vec3 toSpot = spot.position / spotDistance;
-        const float cone =
-            f32::cotan_smooth(std::cos(0.2f), std::cos(0.02f), glm::dot(-toSpot, spot.direction));
+        const float cone = f32::cotan_smooth(std::cos(0.2f), std::cos(0.02f), glm::dot(-toSpot, spot.direction));
         EXPECT_GT(cone, 0.1f); // so that the cone's edge is what is tested
         EXPECT_LT(cone, 0.9f);
         expected += 3.0f * f32::cotan_light_falloff(spotDistance, 9) * cone * reflect(toSpot);
@@ -191,8 +188,7 @@ TEST(RenderShading, backgroundIsTheEnvironmentAlongTheRay)
         const double half = std::tan(view.camera.verticalFieldOfView / 2.0);
         for (const int y : {3, 30, 60}) {
             const glm::dvec3 ray(half * ((10 + 0.5) / 32 - 1), half * (1 - (y + 0.5) / 32), -1);
-            const glm::vec3 expected =
-                f32::cotan_environment(glm::vec3(glm::normalize(ray)), 0.35f);
+            const glm::vec3 expected = f32::cotan_environment(glm::vec3(glm::normalize(ray)), 0.35f);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(floatPixel(image, 10, y)[c], expected[c], 1e-4f);
         }

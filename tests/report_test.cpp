@@ -30,9 +30,9 @@ TEST(Statistics, ofOneToHundredAreItsRanks)
     const AngleStatistics s = statisticsOf(v);
     EXPECT_EQ(s.count, 100u);
     EXPECT_NEAR(s.mean, 5.05, 1e-6);
-    EXPECT_FLOAT_EQ(float(s.median), 5.0f);        // rank floor(0.5*99) = 49
-    EXPECT_FLOAT_EQ(float(s.percentile95), 9.5f);  // rank 94
-    EXPECT_FLOAT_EQ(float(s.percentile99), 9.9f);  // rank 98
+    EXPECT_FLOAT_EQ(float(s.median), 5.0f);       // rank floor(0.5*99) = 49
+    EXPECT_FLOAT_EQ(float(s.percentile95), 9.5f); // rank 94
+    EXPECT_FLOAT_EQ(float(s.percentile99), 9.9f); // rank 98
     EXPECT_FLOAT_EQ(float(s.maximum), 10.0f);
     EXPECT_NEAR(s.over1, 0.90, 1e-9);
     EXPECT_NEAR(s.over5, 0.50, 1e-9);
@@ -40,7 +40,8 @@ TEST(Statistics, ofOneToHundredAreItsRanks)
 
 TEST(Statistics, ofNothingAreNoNumbers)
 {
-    for (const AngleStatistics& s : {statisticsOf({}), AngleHistogram().statistics(), angleStatistics({-1, -1}), AngleStatistics{}}) {
+    for (const AngleStatistics& s :
+         {statisticsOf({}), AngleHistogram().statistics(), angleStatistics({-1, -1}), AngleStatistics{}}) {
         EXPECT_EQ(s.count, 0u);
         for (double x : {s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1, s.over5})
             EXPECT_TRUE(std::isnan(x));
@@ -48,8 +49,8 @@ TEST(Statistics, ofNothingAreNoNumbers)
         EXPECT_EQ(toText(s), "nothing was compared");
         const auto written = writtenOf(toJson(s));
         EXPECT_EQ(written["pixels"], 0);
-        for (const char* figure : {"mean_degrees", "median_degrees", "percentile95_degrees", "percentile99_degrees", "max_degrees",
-                                   "share_over_1_degree", "share_over_5_degrees"})
+        for (const char* figure : {"mean_degrees", "median_degrees", "percentile95_degrees", "percentile99_degrees",
+                                   "max_degrees", "share_over_1_degree", "share_over_5_degrees"})
             EXPECT_TRUE(written[figure].is_null()) << figure;
     }
     EXPECT_TRUE(std::isnan(shareOpposed({-1, -1})));
@@ -58,7 +59,8 @@ TEST(Statistics, ofNothingAreNoNumbers)
 TEST(Statistics, areWrittenUnderTheirNames)
 {
     const AngleStatistics s = statisticsOf({0.5f, 0.25f, 2, 8});
-    EXPECT_EQ(toText(s), "mean 2.688, median 0.500, 95 % 2.000, 99 % 2.000, max 8.00 degrees; over 1: 50.0 %, over 5: 25.0 %");
+    EXPECT_EQ(toText(s),
+              "mean 2.688, median 0.500, 95 % 2.000, 99 % 2.000, max 8.00 degrees; over 1: 50.0 %, over 5: 25.0 %");
     const auto written = writtenOf(toJson(s));
     EXPECT_EQ(written["pixels"], 4);
     EXPECT_EQ(written["mean_degrees"], 2.6875);
@@ -86,7 +88,8 @@ TEST(Statistics, ofAHistogramAreThoseOfTheListToOnePartIn4096)
     EXPECT_EQ(h.maximum, s.maximum);
     EXPECT_EQ(h.over1, s.over1);
     EXPECT_EQ(h.over5, s.over5);
-    for (auto [a, b] : {std::pair(h.median, s.median), {h.percentile95, s.percentile95}, {h.percentile99, s.percentile99}}) {
+    for (auto [a, b] :
+         {std::pair(h.median, s.median), {h.percentile95, s.percentile95}, {h.percentile99, s.percentile99}}) {
         EXPECT_LE(a, b);
         EXPECT_GT(a, b * (1 - 1.0 / 4096));
     }
@@ -100,7 +103,8 @@ TEST(Statistics, ofAHistogramAreThoseOfTheListToOnePartIn4096)
 
 TEST(Measurements, withoutAFiniteResultHaveNoFiguresInJson)
 {
-    const auto written = writtenOf(toJson(std::vector<Measurement>{{"t", "s", "x", "f", "S", "half", 10, 1, 2, 3, 0.5}, {"t", "s", "y", "f", "S", "half", 10, 0, 0, 0, 1}}));
+    const auto written = writtenOf(toJson(std::vector<Measurement>{{"t", "s", "x", "f", "S", "half", 10, 1, 2, 3, 0.5},
+                                                                   {"t", "s", "y", "f", "S", "half", 10, 0, 0, 0, 1}}));
     EXPECT_EQ(written[0]["mean"], 1);
     EXPECT_EQ(written[0]["percentile95"], 2);
     EXPECT_EQ(written[0]["maximum"], 3);

@@ -16,11 +16,11 @@
 namespace cotan::test {
 
 struct ToolRun {
-    int code = -1;         // exit code; 128 + signal if it was killed
+    int code = -1; // exit code; 128 + signal if it was killed
     std::string out;
     std::string err;
-    double seconds = 0;    // processor time
-    double megabytes = 0;  // largest resident size
+    double seconds = 0;   // processor time
+    double megabytes = 0; // largest resident size
 };
 
 // A folder that is removed with everything in it.
@@ -69,8 +69,7 @@ inline ToolRun runTool(const std::vector<std::string>& words, const std::filesys
     if (child == 0) {
         const rlimit limit{limitSeconds, limitSeconds + 1};
         ::setrlimit(RLIMIT_CPU, &limit);
-        const bool ready = ::chdir(folder.c_str()) == 0
-            && ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1) == 1
+        const bool ready = ::chdir(folder.c_str()) == 0 && ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1) == 1
             && ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2) == 2;
         if (ready)
             ::execv(COTAN_TOOL, arguments.data());

@@ -20,10 +20,10 @@
 
 #include "cotan/files/sandbox.hpp"
 #include "cotan/model/reader.hpp"
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/sandbox/confine.hpp"
 #include "cotan/sandbox/request.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace {
 
@@ -42,9 +42,11 @@ bool sendAll(std::span<const std::byte> bytes)
 
 ReaderRequest takeRequest()
 {
-    WireIn in([](std::span<std::byte> bytes) {
-        return std::size_t(std::max<ssize_t>(::recv(0, bytes.data(), bytes.size(), 0), 0));
-    }, std::uint64_t(1) << 32);
+    WireIn in(
+        [](std::span<std::byte> bytes) {
+            return std::size_t(std::max<ssize_t>(::recv(0, bytes.data(), bytes.size(), 0), 0));
+        },
+        std::uint64_t(1) << 32);
     ReaderRequest request;
     exchangeRequest(in, request);
     return request;
@@ -110,7 +112,7 @@ std::string powers(const ReaderRequest& request)
     note(child > 0, "fork");
     note(::kill(::getppid(), 0) == 0, "kill");
     char* const words[] = {nullptr};
-    ::execve("/bin/true", words, words); // ends this process where it works
+    ::execve("/bin/true", words, words);                            // ends this process where it works
     note(::open(request.name.c_str(), O_RDONLY) < 0, "no-reading"); // that it must be able to
     return found;
 }
@@ -125,57 +127,67 @@ std::string openDescriptors()
 
 const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
     {"crash", [](const ReaderRequest&) { ::raise(SIGSEGV); }},
-    {"abort", [](const ReaderRequest&) {
+    {"abort",
+     [](const ReaderRequest&) {
          std::fputs("expected \x1b[31mcourage\nand more\n", stderr);
          std::abort();
      }},
     {"leave", [](const ReaderRequest&) { std::exit(0); }},
-    {"spin", [](const ReaderRequest& request) {
+    {"spin",
+     [](const ReaderRequest& request) {
          limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
          for (volatile bool busy = true; busy;)
              ;
      }},
-    {"hang", [](const ReaderRequest&) {
+    {"hang",
+     [](const ReaderRequest&) {
          if (const char* file = std::getenv("SANDBOX_CHILD_PID"))
              std::ofstream(file) << ::getpid() << std::endl;
          for (;;)
              ::pause();
      }},
-    {"hang-confined", [](const ReaderRequest& request) {
+    {"hang-confined",
+     [](const ReaderRequest& request) {
          dieWith(request.parent);
          if (const char* file = std::getenv("SANDBOX_CHILD_PID"))
              std::ofstream(file) << ::getpid() << std::endl;
          for (;;)
              ::pause();
      }},
-    {"deaf", [](const ReaderRequest&) {
+    {"deaf",
+     [](const ReaderRequest&) {
          ::close(0); // and lives on
          for (;;)
              ::pause();
      }},
-    {"eat", [](const ReaderRequest& request) {
+    {"eat",
+     [](const ReaderRequest& request) {
          limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));
          std::set_new_handler([] { ::_exit(kNoMemoryCode); });
          for (;;)
              std::memset(new char[1 << 20], 1, 1 << 20);
      }},
-    {"garbage", [](const ReaderRequest&) {
+    {"garbage",
+     [](const ReaderRequest&) {
          std::mt19937 random(7);
          std::vector<std::byte> bytes(1 << 20);
          for (std::byte& b : bytes)
              b = std::byte(random());
          sendAll(bytes);
      }},
-    {"half", [](const ReaderRequest&) {
+    {"half",
+     [](const ReaderRequest&) {
          const auto bytes = sceneBytes(plane());
          sendAll(std::span(bytes).first(bytes.size() / 2));
      }},
-    {"index", [](const ReaderRequest&) {
+    {"index",
+     [](const ReaderRequest&) {
          Scene scene = plane();
          scene.meshes[0].indices[4] = std::uint32_t(scene.meshes[0].vertexCount());
          sendAll(sceneBytes(scene));
      }},
-    {"count", [](const ReaderRequest&) {
+    {"count",
+     [](const ReaderRequest&) {
          WireOut out(sendAll);
          out.choice(ReaderFrame::value, ReaderFrame::error);
          out.text("scene");
@@ -187,7 +199,8 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
          out.number(std::uint64_t(1) << 28);
          out.flush();
      }},
-    {"flood", [](const ReaderRequest&) {
+    {"flood",
+     [](const ReaderRequest&) {
          const std::string line(1000, 'x');
          for (int i = 0; i < 10'000; ++i)
              std::fputs(line.c_str(), stderr);
@@ -195,7 +208,8 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
      }},
     {"expect", [](const ReaderRequest&) { expectFor([] { return true; }); }},
     {"lines", [](const ReaderRequest&) { answerError("two\nlines\x1b[2J" + std::string(100'000, 'x')); }},
-    {"powers", [](const ReaderRequest& request) {
+    {"powers",
+     [](const ReaderRequest& request) {
          confine();
          answerError("can:" + powers(request) + ".");
      }},

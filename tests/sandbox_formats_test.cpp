@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cotan/files/account.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/model/load.hpp"
-#include "cotan/files/account.hpp"
 #include "cotan/sandbox/confine.hpp"
-#include "run_tool.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
+#include "run_tool.hpp"
 
 namespace cotan {
 namespace {
@@ -58,15 +58,16 @@ LoadLimits inChild()
 TEST(SandboxFormats, everyModelFormatGivesTheSameSceneToTheBit)
 {
     const TemporaryFolder folder;
-    std::ofstream(folder / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-                                       "usemtl m\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::ofstream(folder / "m.obj")
+        << "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+           "usemtl m\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
     std::ofstream(folder / "m.mtl") << "newmtl m\nKd 0.1 0.5 0.9\nNs 30\nmap_Kd c.png\nmap_Bump n.png\n";
     ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
     ASSERT_TRUE(writeImage(folder / "n.png", gradient(4, 4, PixelType::unorm16)));
     Assimp::Importer importer;
     const aiScene* source = importer.ReadFile((folder / "m.obj").string(), 0);
     ASSERT_TRUE(source);
-    const std::pair<const char*, const char*> formats[] = {{"obj", ""},     {"ply", "plyb"}, {"stl", "stlb"},
+    const std::pair<const char*, const char*> formats[] = {{"obj", ""},        {"ply", "plyb"}, {"stl", "stlb"},
                                                            {"dae", "collada"}, {"fbx", "fbxa"}, {"3ds", "3ds"}};
     for (const auto& [extension, exporterName] : formats) {
         const auto file = folder / fmt::format("m.{}", extension);
@@ -94,7 +95,8 @@ TEST(SandboxFormats, errorsOfAReaderAreTheSameLine)
         EXPECT_EQ(there.error().message, here.error().message);
         EXPECT_EQ(there.error().kind, here.error().kind);
     }
-    EXPECT_EQ(loadScene(folder / "none.obj", inChild()).error().message, loadScene(folder / "none.obj").error().message);
+    EXPECT_EQ(loadScene(folder / "none.obj", inChild()).error().message,
+              loadScene(folder / "none.obj").error().message);
 }
 
 TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
@@ -145,12 +147,17 @@ TEST(SandboxFormats, aPictureThatEndsEarlyIsAnErrorOfItsRowsToo)
 
 std::string colladaTriangle(const std::string& array, const std::string& accessor)
 {
-    return "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" "
+    return "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array "
+           "id=\"a\" "
         + array + "</float_array><technique_common><accessor " + accessor
-        + "><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
-          "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles "
-          "count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
-          "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"n\"><instance_geometry url=\"#g\"/>"
+        + "><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" "
+          "type=\"float\"/></accessor>"
+          "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+          "source=\"#p\"/></vertices><triangles "
+          "count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 "
+          "2</p></triangles></mesh></geometry>"
+          "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"n\"><instance_geometry "
+          "url=\"#g\"/>"
           "</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 }
 
@@ -162,8 +169,10 @@ TEST(ColladaAccessors, reachNoFurtherThanTheirArray)
         {nine, "source=\"#a\" count=\"3\" stride=\"3\"", ""},
         {nine, "source='#a'\n count = '3'\tstride='3' ", ""},
         {ten, "source=\"#a\" count=\"3\" stride=\"3\" offset=\"1\"", ""},
-        {nine, "source=\"#a\" count=\"3\" stride=\"3\" offset=\"1\"", "expected an array of 10 numbers or more, found 9"},
-        {nine, "source=\"#a\" count=\"3\" stride=\"4\"", "accessor of #a: expected an array of 11 numbers or more, found 9"},
+        {nine, "source=\"#a\" count=\"3\" stride=\"3\" offset=\"1\"",
+         "expected an array of 10 numbers or more, found 9"},
+        {nine, "source=\"#a\" count=\"3\" stride=\"4\"",
+         "accessor of #a: expected an array of 11 numbers or more, found 9"},
         {nine, "source=\"#a\" count=\"4\" stride=\"3\"", "expected an array of 12 numbers or more, found 9"},
         {nine, "source=\"#a\" count=\"8\"", "expected an array of 10 numbers or more, found 9"}, // stride 1
         {"count=\"0\">0 0 0 1 0 0 0 1 0", "source=\"#a\" count=\"3\" stride=\"3\"", "9 numbers or more, found 0"},
@@ -205,7 +214,8 @@ TEST(SandboxFormats, filesThatTheReaderOpensCountAsOurInputs)
         const auto scene = loadScene(folder / "m.obj", inChild());
         ASSERT_FALSE(scene) << name;
         EXPECT_EQ(scene.error().kind, ErrorKind::usage);
-        EXPECT_NE(scene.error().message.find(std::string(name) + ", which is read"), std::string::npos) << scene.error().message;
+        EXPECT_NE(scene.error().message.find(std::string(name) + ", which is read"), std::string::npos)
+            << scene.error().message;
     }
     guardInputs(/*overwrite*/ true);
 }
@@ -217,7 +227,8 @@ TEST(SandboxTool, whatTheReaderOpensIsNotReplaced)
     std::ofstream(folder / "m.mtl") << "newmtl m\nmap_Kd c.png\n";
     ASSERT_TRUE(writeImage(folder / "c.png", gradient(5, 3, PixelType::unorm8)));
     const std::string before = readWhole(folder / "c.png");
-    const ToolRun run = runTool({"render", "m.obj", "-o", "c.png", "--device", "reference", "--size", "32x32"}, folder.path());
+    const ToolRun run =
+        runTool({"render", "m.obj", "-o", "c.png", "--device", "reference", "--size", "32x32"}, folder.path());
     EXPECT_EQ(run.code, 1) << run.err;
     EXPECT_NE(run.err.find("-o c.png would replace"), std::string::npos) << run.err;
     EXPECT_EQ(readWhole(folder / "c.png"), before);
@@ -229,13 +240,15 @@ TEST(SandboxTool, filesThatCrashedAReaderAreOneLine)
     if (!std::filesystem::exists(found))
         GTEST_SKIP() << "no files: " << found << " is missing";
     const std::pair<const char*, const char*> files[] = {
-        {"cycle.fbx", kSanitized ? "cycle.fbx: the reader of FBX files" : "cycle.fbx: the reader of FBX files crashed (signal 11"},
+        {"cycle.fbx",
+         kSanitized ? "cycle.fbx: the reader of FBX files" : "cycle.fbx: the reader of FBX files crashed (signal 11"},
         {"accessor_beyond_array.dae", "accessor of #a: expected an array of 9 numbers or more, found 0"},
         {"statements_before_newmtl.obj", ""}}; // a line in any case
     for (const auto& [name, expected] : files) {
         const TemporaryFolder folder;
-        const ToolRun run = runTool({"render", (found / name).string(), "-o", "out.png", "--device", "reference", "--size", "32x32"},
-                                    folder.path(), 20);
+        const ToolRun run =
+            runTool({"render", (found / name).string(), "-o", "out.png", "--device", "reference", "--size", "32x32"},
+                    folder.path(), 20);
         EXPECT_TRUE(run.code == 2 || (*expected == '\0' && run.code == 0)) << run.code;
         EXPECT_EQ(lines(run.err), 1) << run.err;
         EXPECT_NE(run.err.find(expected), std::string::npos) << run.err;

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/shapes/shapes.hpp"
 #include "cotan/sandbox/request.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
 #include "cotan/scene/check.hpp"
+#include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
 namespace {
@@ -36,12 +36,14 @@ Bytes bytesOf(const Scene& scene)
 // Bytes that arrive in pieces of up to `piece`.
 WireIn arriving(const Bytes& bytes, std::size_t& at, std::size_t piece, std::uint64_t limit = 1 << 26)
 {
-    return WireIn([&bytes, &at, piece](std::span<std::byte> to) {
-        const std::size_t n = std::min({to.size(), piece, bytes.size() - at});
-        std::copy_n(bytes.begin() + std::ptrdiff_t(at), n, to.begin());
-        at += n;
-        return n;
-    }, limit);
+    return WireIn(
+        [&bytes, &at, piece](std::span<std::byte> to) {
+            const std::size_t n = std::min({to.size(), piece, bytes.size() - at});
+            std::copy_n(bytes.begin() + std::ptrdiff_t(at), n, to.begin());
+            at += n;
+            return n;
+        },
+        limit);
 }
 
 // A scene in which every field has a value of its own, not the default.
@@ -56,8 +58,10 @@ Scene everything()
     m.name = "material";
     m.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
     m.metallic = 0.5f, m.roughness = 0.6f, m.emissive = {0.7f, 0.8f, 0.9f}, m.occlusionStrength = 0.11f;
-    m.normalScale = -2, m.normalFormat = {1, 2, true};
-    m.normalMap = {0, 1, {Wrap::mirror, Wrap::clamp, Filter::nearest, Filter::linear, MipFilter::nearest}, {1, 2, 3}, {4, 5, 6}};
+    m.normalScale = -2,
+    m.normalFormat = {MapKind::objectSpace, Expansion::biased, Channels::stereographic, false, VDirection::up};
+    m.normalMap = {
+        0, 1, {Wrap::mirror, Wrap::clamp, Filter::nearest, Filter::linear, MipFilter::nearest}, {1, 2, 3}, {4, 5, 6}};
     m.alphaMode = AlphaMode::mask, m.alphaCutoff = 0.3f, m.doubleSided = true, m.unlit = true, m.tangentsFor = "X";
     Mesh mesh = makePlane(2, 2, 3);
     mesh.name = "mesh";
@@ -107,7 +111,8 @@ TEST(Wire, largeArraysArriveWhole)
 
 TEST(Wire, countsThatLieTakeNoMemory)
 {
-    for (const std::uint64_t count : {std::uint64_t(1) << 40, std::uint64_t(1) << 62, ~std::uint64_t(0), std::uint64_t(6'000'000)}) {
+    for (const std::uint64_t count :
+         {std::uint64_t(1) << 40, std::uint64_t(1) << 62, ~std::uint64_t(0), std::uint64_t(6'000'000)}) {
         const Bytes bytes = written([&](WireOut& out) { out.number(count); });
         std::vector<glm::vec3> values;
         std::vector<std::string> list;
@@ -168,21 +173,25 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
         {[](Scene& s, float) { s.images[0].height = -2; }, "image 0: expected the bytes"},
         {[](Scene& s, float) { s.images[0].width = 0, s.images[0].data.clear(); }, "image 0: expected the bytes"},
         {[](Scene& s, float) { s.images[0].width = s.images[0].height = 1 << 30; }, "image 0: expected the bytes"},
-        {[](Scene& s, float) { s.materials[0].normalMap.image = 1; }, "material 0: normal map: expected an image below 1, found 1"},
+        {[](Scene& s, float) { s.materials[0].normalMap.image = 1; },
+         "material 0: normal map: expected an image below 1, found 1"},
         {[](Scene& s, float) { s.materials[0].emissiveMap.image = -2; }, "emission: expected an image"},
         {[](Scene& s, float) { s.materials[0].occlusionMap.texcoord = 2; }, "uv set 0 or 1, found 2"},
         {[](Scene& s, float x) { s.materials[0].baseColorMap.vRow.z = x; }, "base colour: expected a finite transform"},
         {[](Scene& s, float x) { s.materials[0].baseColor.w = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].alphaCutoff = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].normalScale = x; }, "material 0: expected finite factors"},
-        {[](Scene& s, float) { s.materials[0].normalFormat.expansion = 4; }, "expected a way to store normals"},
-        {[](Scene& s, float) { s.materials[0].normalFormat.channels = -1; }, "expected a way to store normals"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.expansion = Expansion(4); },
+         "expected a way to store normals"},
+        {[](Scene& s, float) { s.materials[0].normalFormat.channels = Channels(-1); },
+         "expected a way to store normals"},
         {[](Scene& s, float) { s.meshes[0].material = 1; }, "mesh 0: expected a material below 1, found 1"},
         {[](Scene& s, float) { s.meshes[0].material = -1; }, "expected a material below 1, found -1"},
         {[](Scene& s, float) { s.meshes[0].indices[5] = 9; }, "triangle 1: expected an index below 9, found 9"},
         {[](Scene& s, float) { s.meshes[0].indices.pop_back(); }, "three indices a triangle"},
         {[](Scene& s, float) { s.meshes[0].normals.clear(); }, "normals: expected 9 entries"},
-        {[](Scene& s, float) { s.meshes[0].tangents.pop_back(); }, "tangent: expected 9 entries, one a vertex, found 8"},
+        {[](Scene& s, float) { s.meshes[0].tangents.pop_back(); },
+         "tangent: expected 9 entries, one a vertex, found 8"},
         {[](Scene& s, float) { s.meshes[0].texcoords[1].emplace_back(0); }, "uv set 1: expected 9 entries"},
         {[](Scene& s, float) { s.meshes[0].colors.resize(1); }, "colour: expected 9 entries"},
         {[](Scene& s, float) { s.meshes[0].cotangentsV.resize(1); }, "cotangent v: expected 9 entries"},

@@ -36,7 +36,7 @@ View smallView(const Scene& scene)
     View view;
     view.width = view.height = 16;
     view.camera = fitCamera(bounds(scene), view.width, view.height);
-    view.frame = int(Frame::mikktspace);
+    view.frame = Frame::mikktspace;
     view.output = Output::normal;
     return view;
 }
@@ -62,7 +62,8 @@ const Fault kBroken[] = {
      "material 0: normal map: expected an image below 1, found 1"},
     {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; },
      "material 0: normal map: expected uv set 0 or 1, found 2"},
-    {[](Scene& s) { s.materials[0].normalFormat.channels = 77; }, "material 0: expected a way to store normals"},
+    {[](Scene& s) { s.materials[0].normalFormat.channels = Channels(77); },
+     "material 0: expected a way to store normals"},
     {[](Scene& s) { s.materials.clear(); }, "mesh 0: expected a material below 0, found 0"},
     {[](Scene& s) { s.meshes[0].material = -1; }, "mesh 0: expected a material below 1, found -1"},
     {[](Scene& s) { s.meshes[0].indices[4] = 1u << 31; },

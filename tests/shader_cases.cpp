@@ -77,19 +77,21 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
-    if (info(frame).source != FrameSource::vertices) {
+    if (!readsVertices(frame)) {
         c.call = drawn ? "cotan_perturb_normal(n, p, uv, m)" : made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
         c.expected = [=](const Vectors& v) {
             const glm::dvec3 n = total ? glm::dvec3(v.n) : unitOf(v.n);
-            return f64::cotan_apply(evaluate(frame, n, glm::dvec3(v.dpdx), glm::dvec3(v.dpdy), glm::dvec2(v.duvdx), glm::dvec2(v.duvdy)), decoded(v, convention));
+            return f64::cotan_apply(
+                evaluate(frame, n, glm::dvec3(v.dpdx), glm::dvec3(v.dpdy), glm::dvec2(v.duvdx), glm::dvec2(v.duvdy)),
+                decoded(v, convention));
         };
         return c;
     }
-    c.call = made->entry + (frame == Frame::smooth ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
+    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
     c.expected = [=](const Vectors& v) {
-        const f64::cotan_frame f = frame == Frame::smooth ? f64::cotan_frame_smooth(v.n, v.dpdx, v.dpdy)
-            : frame == Frame::vertex                      ? f64::cotan_frame_vertex(v.n, v.dpdx, 1)
-                                                          : f64::cotan_frame_mikktspace(v.n, v.dpdx, 1);
+        const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
+        const f64::cotan_frame f =
+            readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
         return f64::cotan_apply(f, decoded(v));
     };
     return c;
@@ -100,7 +102,8 @@ glm::dvec3 ofTwoSets(const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
     const auto a = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdx, v.duvdy);
     const auto b = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, otherDx, otherDy);
     const glm::dvec2 slope = f64::cotan_slope_of_texel(decoded(v));
-    return f64::cotan_resolve_gradient(a.n, f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
+    return f64::cotan_resolve_gradient(a.n,
+                                       f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
 }
 
 Case uvSetsCase(bool drawn = false)
@@ -112,39 +115,41 @@ Case uvSetsCase(bool drawn = false)
     c.call = drawn ? "cotan_perturb_normal(n, p, uv, m, uv * 3.0, m)"
                    : "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
     c.expected = [drawn](const Vectors& v) {
-        return drawn ? ofTwoSets(v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0) : ofTwoSets(v, v.duvdy, v.duvdx);
+        return drawn ? ofTwoSets(v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0)
+                     : ofTwoSets(v, v.duvdy, v.duvdx);
     };
     return c;
 }
 
 // Functions that are called by a line of portable text; the line is also C++, read with f64's names.
 // n, m, m2 are unit.
-#define COTAN_LINE_CASE(label, ...)                                                                     \
-    lineCase(label, #__VA_ARGS__,                                                                       \
-             [](glm::dvec3 n, glm::dvec3 m, glm::dvec3 m2, glm::dvec3 dpdx, glm::dvec3 dpdy) -> glm::dvec3 { \
-                 using namespace f64;                                                                   \
-                 (void)n, (void)m, (void)m2, (void)dpdx, (void)dpdy;                                    \
-                 return __VA_ARGS__;                                                                    \
+#define COTAN_LINE_CASE(label, ...)                                                                                    \
+    lineCase(label, #__VA_ARGS__,                                                                                      \
+             [](glm::dvec3 n, glm::dvec3 m, glm::dvec3 m2, glm::dvec3 dpdx, glm::dvec3 dpdy) -> glm::dvec3 {           \
+                 using namespace f64;                                                                                  \
+                 (void)n, (void)m, (void)m2, (void)dpdx, (void)dpdy;                                                   \
+                 return __VA_ARGS__;                                                                                   \
              })
 
-template<class Expected>
-Case lineCase(const std::string& label, const std::string& line, Expected expected)
+template<class Expected> Case lineCase(const std::string& label, const std::string& line, Expected expected)
 {
     Case c;
     c.name = label;
     c.call = "cotan_case(n, dpdx, dpdy, m)";
     c.text = [line](Language l) {
-        return shader_text::translate(
-            l, "COTAN_FUNCTION cotan_vec3 cotan_case(cotan_vec3 n_any, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec3 texel)\n"
-               "{\n"
-               "    cotan_vec3 n = n_any * cotan_inversesqrt(dot(n_any, n_any));\n"
-               "    cotan_normal_format format;\n"
-               "    format.expansion = 0;\n    format.channels = 0;\n"
-               "    format.green = cotan_real(1.0);\n    format.strength = cotan_real(1.0);\n"
-               "    cotan_vec3 m = cotan_decode(texel, format);\n"
-               "    m = m * cotan_inversesqrt(dot(m, m));\n"
-               "    cotan_vec3 m2 = cotan_vec3(m.y, -m.x, m.z);\n"
-               "    return " + line + ";\n}\n");
+        return shader_text::translate(l,
+                                      "COTAN_FUNCTION cotan_vec3 cotan_case(cotan_vec3 n_any, cotan_vec3 dpdx, "
+                                      "cotan_vec3 dpdy, cotan_vec3 texel)\n"
+                                      "{\n"
+                                      "    cotan_vec3 n = n_any * cotan_inversesqrt(dot(n_any, n_any));\n"
+                                      "    cotan_normal_format format;\n"
+                                      "    format.expansion = 0;\n    format.channels = 0;\n"
+                                      "    format.green = cotan_real(1.0);\n    format.strength = cotan_real(1.0);\n"
+                                      "    cotan_vec3 m = cotan_decode(texel, format);\n"
+                                      "    m = m * cotan_inversesqrt(dot(m, m));\n"
+                                      "    cotan_vec3 m2 = cotan_vec3(m.y, -m.x, m.z);\n"
+                                      "    return "
+                                          + line + ";\n}\n");
     };
     c.expected = [expected](const Vectors& v) {
         Convention along;
@@ -157,23 +162,128 @@ Case lineCase(const std::string& label, const std::string& line, Expected expect
 
 void addLines(std::vector<Case>& all)
 {
-    all.push_back(COTAN_LINE_CASE("resolve, of normal", cotan_resolve_gradient(n, cotan_gradient_of_normal(n, n * cotan_real(2.0) + m))));
+    all.push_back(COTAN_LINE_CASE("resolve, of normal",
+                                  cotan_resolve_gradient(n, cotan_gradient_of_normal(n, n * cotan_real(2.0) + m))));
     all.push_back(COTAN_LINE_CASE("of volume", cotan_resolve_gradient(n, cotan_gradient_of_volume(n, m))));
-    all.push_back(COTAN_LINE_CASE("of height", cotan_resolve_gradient(n, cotan_gradient_of_height(n, dpdx, dpdy, m.x * cotan_real(0.003), m.y * cotan_real(0.003)))));
-    all.push_back(COTAN_LINE_CASE("triplanar", cotan_resolve_gradient(n, cotan_gradient_triplanar(n, cotan_triplanar_weights(n), cotan_slope_of_texel(m), cotan_slope_of_texel(m2), cotan_slope_of_texel(m)))));
-    all.push_back(COTAN_LINE_CASE("of slope", cotan_resolve_gradient(n, cotan_gradient_of_slope(cotan_frame_smooth(n, dpdx, dpdy), cotan_slope_of_texel(m)))));
-    all.push_back(COTAN_LINE_CASE("encode", cotan_encode(cotan_frame_smooth(n, dpdx, dpdy), cotan_apply(cotan_frame_smooth(n, dpdx, dpdy), m))));
-    all.push_back(COTAN_LINE_CASE("triangle", cotan_apply(cotan_frame_triangle(n, cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).u, cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).v), m)));
-    all.push_back(COTAN_LINE_CASE("triangle, fused", cotan_perturb_triangle(n, cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).u, cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).v, m)));
-    all.push_back(COTAN_LINE_CASE("triangle, scaled", cotan_perturb_triangle_scaled(n, cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).u, cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n).v, m)));
-    all.push_back(COTAN_LINE_CASE("triangle, transformed", cotan_perturb_triangle(n, cotan_triangle_transformed(cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n), cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)), cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)), cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0)).u, cotan_triangle_transformed(cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n), cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)), cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)), cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0)).v, m)));
-    all.push_back(COTAN_LINE_CASE("smooth, fused", cotan_perturb_smooth(n, m2 * cotan_real(0.5), cotan_vec3(m.z, m.x, m.y), m)));
+    all.push_back(COTAN_LINE_CASE(
+        "of height",
+        cotan_resolve_gradient(
+            n, cotan_gradient_of_height(n, dpdx, dpdy, m.x * cotan_real(0.003), m.y * cotan_real(0.003)))));
+    all.push_back(COTAN_LINE_CASE(
+        "triplanar",
+        cotan_resolve_gradient(n,
+                               cotan_gradient_triplanar(n, cotan_triplanar_weights(n), cotan_slope_of_texel(m),
+                                                        cotan_slope_of_texel(m2), cotan_slope_of_texel(m)))));
+    all.push_back(
+        COTAN_LINE_CASE("of slope",
+                        cotan_resolve_gradient(
+                            n, cotan_gradient_of_slope(cotan_frame_smooth(n, dpdx, dpdy), cotan_slope_of_texel(m)))));
+    all.push_back(COTAN_LINE_CASE(
+        "encode", cotan_encode(cotan_frame_smooth(n, dpdx, dpdy), cotan_apply(cotan_frame_smooth(n, dpdx, dpdy), m))));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle",
+        cotan_apply(
+            cotan_frame_of_triangle(n,
+                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                     .u,
+                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                     .v),
+            m)));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle, fused",
+        cotan_perturb_triangle(n,
+                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                   .u,
+                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                   .v,
+                               m)));
+    all.push_back(
+        COTAN_LINE_CASE("triangle, scaled",
+                        cotan_perturb_triangle_scaled(
+                            n,
+                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                .u,
+                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                .v,
+                            m)));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle, transformed",
+        cotan_perturb_triangle(n,
+                               cotan_triangle_transformed(
+                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
+                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
+                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
+                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
+                                   .u,
+                               cotan_triangle_transformed(
+                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
+                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
+                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
+                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
+                                   .v,
+                               m)));
+    all.push_back(
+        COTAN_LINE_CASE("smooth, fused", cotan_perturb_smooth(n, m2 * cotan_real(0.5), cotan_vec3(m.z, m.x, m.y), m)));
     // Times 1, which the compiler cannot know: Mesa 22.3 folds the packing of constants into wrong words.
-    all.push_back(COTAN_LINE_CASE("triangle in 12 bytes", cotan_normalize_or(m + cotan_unpack_triangle_u(cotan_pack_triangle(cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)) * cotan_sign(cotan_real(7.0) - m.z), cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1)) * cotan_sign(cotan_real(7.0) - m.z))) + cotan_unpack_triangle_v(cotan_pack_triangle(cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)) * cotan_sign(cotan_real(7.0) - m.z), cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1)) * cotan_sign(cotan_real(7.0) - m.z))) * cotan_real(0.5), n)));
-    all.push_back(COTAN_LINE_CASE("smooth in 8 bytes", cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth8(n, cotan_pack_smooth8(n, m, m2)).t, n)));
-    all.push_back(COTAN_LINE_CASE("smooth in 4 bytes, packed", cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth4(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), cotan_pack_smooth4(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)), cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1)))).b, n)));
-    all.push_back(COTAN_LINE_CASE("smooth in 4 bytes, unpacked", cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth4(n, 0x92345678u).t + cotan_unpack_smooth4(n, 0x72345678u).b, n)));
-    all.push_back(COTAN_LINE_CASE("tangent in 2 bytes, packed", cotan_normalize_or(m * cotan_real(3.0) + cotan_frame_vertex(n, cotan_vec3(cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), cotan_pack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)), cotan_real(-1.0))).x, cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x5678u).y, cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x8678u).w), cotan_real(1.0)).t, n)));
+    all.push_back(COTAN_LINE_CASE(
+        "triangle in 12 bytes",
+        cotan_normalize_or(
+            m
+                + cotan_unpack_triangle_u(cotan_pack_triangle(
+                    cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)) * cotan_sign(cotan_real(7.0) - m.z),
+                    cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1)) * cotan_sign(cotan_real(7.0) - m.z)))
+                + cotan_unpack_triangle_v(
+                      cotan_pack_triangle(cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65))
+                                              * cotan_sign(cotan_real(7.0) - m.z),
+                                          cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1))
+                                              * cotan_sign(cotan_real(7.0) - m.z)))
+                    * cotan_real(0.5),
+            n)));
+    all.push_back(COTAN_LINE_CASE(
+        "smooth in 8 bytes",
+        cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth8(n, cotan_pack_smooth8(n, m, m2)).t, n)));
+    all.push_back(COTAN_LINE_CASE(
+        "smooth in 4 bytes, packed",
+        cotan_normalize_or(m * cotan_real(3.0)
+                               + cotan_unpack_smooth4(
+                                     cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                     cotan_pack_smooth4(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                                        cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)),
+                                                        cotan_vec3(cotan_real(-0.2), cotan_real(0.6), cotan_real(0.1))))
+                                     .b,
+                           n)));
+    all.push_back(COTAN_LINE_CASE("smooth in 4 bytes, unpacked",
+                                  cotan_normalize_or(m * cotan_real(3.0) + cotan_unpack_smooth4(n, 0x92345678u).t
+                                                         + cotan_unpack_smooth4(n, 0x72345678u).b,
+                                                     n)));
+    all.push_back(COTAN_LINE_CASE(
+        "tangent in 2 bytes, packed",
+        cotan_normalize_or(
+            m * cotan_real(3.0)
+                + cotan_frame_vertex(
+                      n,
+                      cotan_vec3(
+                          cotan_unpack_tangent2(
+                              cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                              cotan_pack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)),
+                                                  cotan_vec3(cotan_real(0.3), cotan_real(-0.7), cotan_real(0.65)),
+                                                  cotan_real(-1.0)))
+                              .x,
+                          cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x5678u)
+                              .y,
+                          cotan_unpack_tangent2(cotan_vec3(cotan_real(0.0), cotan_real(0.6), cotan_real(-0.8)), 0x8678u)
+                              .w),
+                      cotan_real(1.0))
+                      .t,
+            n)));
     all.push_back(COTAN_LINE_CASE("blend reoriented", cotan_blend_reoriented(m, m2)));
     all.push_back(COTAN_LINE_CASE("blend whiteout", cotan_blend_whiteout(m, m2)));
     all.push_back(COTAN_LINE_CASE("blend udn", cotan_blend_udn(m, m2)));
@@ -251,7 +361,7 @@ std::vector<Case> cases()
         choice.convention.v = VDirection::up; // green along v
         choice.convention.expansion = channels == Channels::slope ? Expansion::signedValues : Expansion::biased;
         all.push_back(frameCase(channels == Channels::orthographic ? "two channels, 2c - 1"
-                                : channels == Channels::slope      ? "slopes, signed"
+                                    : channels == Channels::slope  ? "slopes, signed"
                                                                    : "stereographic, 2c - 1",
                                 choice));
     }

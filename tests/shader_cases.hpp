@@ -38,8 +38,8 @@ inline constexpr double kRounding = 1.0 / (1 << 24);
 
 struct Case {
     std::string name;
-    std::string call;              // of (n, dpdx, dpdy, duvdx, duvdy, m)
-    Kind last = Kind::sound;       // the hardest kind that it is defined for
+    std::string call;        // of (n, dpdx, dpdy, duvdx, duvdy, m)
+    Kind last = Kind::sound; // the hardest kind that it is defined for
     std::function<std::string(shader_text::Language)> text;
     std::function<glm::dvec3(const Vectors&)> expected;
     bool light = false; // compared on lit surfaces, as numbers; else as directions
@@ -55,7 +55,7 @@ std::vector<Case> litCases();                     // light.h of them
 
 // A target of kTiles x kTiles tiles, each with differences of its own that are constant in it: the
 // functions that take derivatives themselves.
-inline constexpr int kTile = 4;   // pixels
+inline constexpr int kTile = 4; // pixels
 inline constexpr int kTiles = 8;
 inline constexpr int kTarget = kTile * kTiles;
 

@@ -17,12 +17,13 @@ std::string shaderOf(const Case& c, bool hlsl)
         return text + ")";
     };
     const std::string v2 = hlsl ? "float2" : "vec2", v3 = hlsl ? "float3" : "vec3";
-    const std::string body = "    " + v3 + " n = " + vec(v3, 0, 3) + ";\n    " + v3 + " dpdx = " + vec(v3, 3, 3) + ";\n    "
-        + v3 + " dpdy = " + vec(v3, 6, 3) + ";\n    " + v2 + " duvdx = " + vec(v2, 9, 2) + ";\n    " + v2 + " duvdy = "
-        + vec(v2, 11, 2) + ";\n    " + v3 + " m = " + vec(v3, 13, 3) + ";\n    " + v3 + " r = " + c.call
+    const std::string body = "    " + v3 + " n = " + vec(v3, 0, 3) + ";\n    " + v3 + " dpdx = " + vec(v3, 3, 3)
+        + ";\n    " + v3 + " dpdy = " + vec(v3, 6, 3) + ";\n    " + v2 + " duvdx = " + vec(v2, 9, 2) + ";\n    " + v2
+        + " duvdy = " + vec(v2, 11, 2) + ";\n    " + v3 + " m = " + vec(v3, 13, 3) + ";\n    " + v3 + " r = " + c.call
         + ";\n    outputs[i * 3u] = r.x;\n    outputs[i * 3u + 1u] = r.y;\n    outputs[i * 3u + 2u] = r.z;\n}\n";
     if (hlsl)
-        return "[[vk::binding(0)]] StructuredBuffer<float> inputs;\n[[vk::binding(1)]] RWStructuredBuffer<float> outputs;\n"
+        return "[[vk::binding(0)]] StructuredBuffer<float> inputs;\n[[vk::binding(1)]] RWStructuredBuffer<float> "
+               "outputs;\n"
             + c.text(Language::hlsl)
             + "[numthreads(1, 1, 1)]\nvoid main(uint3 id : SV_DispatchThreadID)\n{\n    uint i = id.x;\n" + body;
     return "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer In { float inputs[]; };\n"
@@ -37,7 +38,8 @@ std::string toSpirv(const std::string& shader, const std::string& stage, bool hl
     TemporaryFolder folder;
     const std::string f = folder.path().string();
     writeText(folder / "a", shader);
-    if (!shell(COTAN_GLSLANG_PATH + std::string(hlsl ? " -D -V -e main" : " -V") + " -S " + stage + " -o '" + f + "/spv' '" + f + "/a'",
+    if (!shell(COTAN_GLSLANG_PATH + std::string(hlsl ? " -D -V -e main" : " -V") + " -S " + stage + " -o '" + f
+                   + "/spv' '" + f + "/a'",
                folder / "log"))
         throw std::runtime_error(label + ": " + readWhole(folder / "log"));
     return readWhole(folder / "spv");

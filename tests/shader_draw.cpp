@@ -21,7 +21,8 @@ std::vector<Corner> corners(const std::vector<Vectors>& tiles)
         auto corner = [&](int right, int down) {
             const float x = kTile * (static_cast<float>(right) - 0.5f), y = kTile * (static_cast<float>(down) - 0.5f);
             const glm::vec2 at(k % kTiles + right, k / kTiles + down);
-            all.push_back({at * (2.0f / kTiles) - 1.0f, v.n, v.dpdx * x + v.dpdy * y, v.duvdx * x + v.duvdy * y, v.texel});
+            all.push_back(
+                {at * (2.0f / kTiles) - 1.0f, v.n, v.dpdx * x + v.dpdy * y, v.duvdx * x + v.duvdy * y, v.texel});
         };
         for (int c : {0, 1, 2, 2, 1, 3})
             corner(c % 2, c / 2);

@@ -38,7 +38,8 @@ std::string fragmentOf(const Case& c, bool hlsl)
         return c.text(Language::hlsl)
             + "[[vk::location(0)]] float4 main([[vk::location(0)]] float3 n : A, [[vk::location(1)]] float3 p : B,\n"
               "    [[vk::location(2)]] float2 uv : C, [[vk::location(3)]] float3 m : D) : SV_Target\n"
-              "{\n    return float4(" + c.call + ", 1.0);\n}\n";
+              "{\n    return float4("
+            + c.call + ", 1.0);\n}\n";
     return "#version 450\nlayout(location = 0) in vec3 n;\nlayout(location = 1) in vec3 p;\n"
            "layout(location = 2) in vec2 uv;\nlayout(location = 3) in vec3 m;\nlayout(location = 0) out vec4 color;\n"
         + c.text(Language::glsl) + "void main()\n{\n    color = vec4(" + c.call + ", 1.0);\n}\n";
@@ -65,7 +66,8 @@ public:
         const vk::raii::Pipeline pipeline = pipelineOf(module(spirv));
         constexpr float size = kTarget;
         std::vector<glm::dvec3> pixels;
-        for (const vk::Viewport& viewport : {vk::Viewport(0, 0, size, size, 0, 1), vk::Viewport(0, size, size, -size, 0, 1)}) {
+        for (const vk::Viewport& viewport :
+             {vk::Viewport(0, 0, size, size, 0, 1), vk::Viewport(0, size, size, -size, 0, 1)}) {
             submit(pipeline, viewport);
             const std::size_t floats = kTarget * kTarget * 4;
             const auto* at = static_cast<const float*>(out_.memory.mapMemory(0, floats * sizeof(float)));
@@ -109,8 +111,8 @@ private:
         const vk::DynamicState turned = vk::DynamicState::eViewport;
         const vk::PipelineDynamicStateCreateInfo dynamic({}, turned);
         const vk::PipelineRenderingCreateInfo rendering(0, kFormat);
-        vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &view, &raster, &multisample, nullptr, &blend,
-                                            &dynamic, *layout_);
+        vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &view, &raster, &multisample,
+                                            nullptr, &blend, &dynamic, *layout_);
         info.pNext = &rendering;
         return vk::raii::Pipeline(device_.device, nullptr, info);
     }
@@ -118,11 +120,12 @@ private:
     void submit(const vk::raii::Pipeline& pipeline, const vk::Viewport& viewport)
     {
         using L = vk::ImageLayout;
-        const vk::raii::CommandBuffer commands =
-            std::move(vk::raii::CommandBuffers(device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+        const vk::raii::CommandBuffer commands = std::move(
+            vk::raii::CommandBuffers(device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
         commands.begin(vk::CommandBufferBeginInfo());
         cost::transition(commands, *target_.image, L::eUndefined, L::eColorAttachmentOptimal);
-        const vk::RenderingAttachmentInfo color(*target_.view, L::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear);
+        const vk::RenderingAttachmentInfo color(*target_.view, L::eColorAttachmentOptimal, {}, {}, {},
+                                                vk::AttachmentLoadOp::eClear);
         commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, {kTarget, kTarget}}, 1, 0, color));
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
         commands.setViewport(0, viewport);
@@ -133,7 +136,8 @@ private:
         const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {kTarget, kTarget, 1});
         commands.copyImageToBuffer(*target_.image, L::eTransferSrcOptimal, *out_.buffer, whole);
         const vk::MemoryBarrier seen(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead);
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, seen, {}, {});
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, seen, {},
+                                 {});
         commands.end();
         const vk::raii::Queue queue = device_.device.getQueue(device_.queueFamily, 0);
         queue.submit(vk::SubmitInfo({}, {}, *commands));

@@ -23,8 +23,8 @@ using Numbers = std::array<double, 16>;
 
 Numbers numbersOf(const Vectors& v)
 {
-    return {v.n.x,     v.n.y,     v.n.z,     v.dpdx.x,  v.dpdx.y,  v.dpdx.z,  v.dpdy.x,  v.dpdy.y,
-            v.dpdy.z,  v.duvdx.x, v.duvdx.y, v.duvdy.x, v.duvdy.y, v.texel.x, v.texel.y, v.texel.z};
+    return {v.n.x,    v.n.y,     v.n.z,     v.dpdx.x,  v.dpdx.y,  v.dpdx.z,  v.dpdy.x,  v.dpdy.y,
+            v.dpdy.z, v.duvdx.x, v.duvdx.y, v.duvdy.x, v.duvdy.y, v.texel.x, v.texel.y, v.texel.z};
 }
 
 Lit litOf(const Numbers& v)
@@ -50,8 +50,7 @@ constexpr char kLitText[] =
     "    s.occlusion = xy.y;\n    s.emissive = color;\n    s.n = n;\n    s.v = v;\n"
     "    cotan_real x = xy.x;\n    cotan_real y = xy.y;\n    return ";
 
-template<class Function>
-Case litCase(const std::string& label, const std::string& line, Function function)
+template<class Function> Case litCase(const std::string& label, const std::string& line, Function function)
 {
     Case c;
     c.name = label;
@@ -80,14 +79,14 @@ Case litCase(const std::string& label, const std::string& line, Function functio
 }
 
 // A line of portable text that is also C++, read with f64's names.
-#define COTAN_LIT_CASE(label, ...)                              \
-    litCase(label, #__VA_ARGS__, [](const Lit& lit) -> glm::dvec3 { \
-        using namespace f64;                                    \
-        const cotan_surface& s = lit.s;                         \
-        const glm::dvec3 l = lit.l;                             \
-        const double x = lit.x, y = lit.y;                      \
-        (void)s, (void)l, (void)x, (void)y;                     \
-        return __VA_ARGS__;                                     \
+#define COTAN_LIT_CASE(label, ...)                                                                                     \
+    litCase(label, #__VA_ARGS__, [](const Lit& lit) -> glm::dvec3 {                                                    \
+        using namespace f64;                                                                                           \
+        const cotan_surface& s = lit.s;                                                                                \
+        const glm::dvec3 l = lit.l;                                                                                    \
+        const double x = lit.x, y = lit.y;                                                                             \
+        (void)s, (void)l, (void)x, (void)y;                                                                            \
+        return __VA_ARGS__;                                                                                            \
     })
 
 // A unit vector at the cosine `c` from z.
@@ -121,22 +120,39 @@ std::vector<Sample> litSamples()
     const glm::vec3 up(0, 1, 0);
     using Change = void (*)(Random&, Vectors&, glm::vec3);
     const Change changes[] = {
-        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, -0.3); },              // lit from behind
-        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, -0.3); },              // seen from behind
-        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, 1e-4); },              // grazing light
-        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, 1e-5); },              // grazing view
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, -0.3); }, // lit from behind
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, -0.3); }, // seen from behind
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.n, 1e-4); }, // grazing light
+        [](Random& r, Vectors& v, glm::vec3) { v.dpdy = leaned(r, v.n, 1e-5); }, // grazing view
         [](Random& r, Vectors& v, glm::vec3) { v.dpdx = leaned(r, v.dpdy = leaned(r, v.n, 0.01), 0.99); },
-        [](Random&, Vectors& v, glm::vec3) { v.dpdx = -v.dpdy; },                             // no half vector
-        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n = v.dpdy; },                        // head on
-        [](Random&, Vectors& v, glm::vec3) { v.duvdx.y = 0; },                                // a mirror
-        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy; v.duvdx.y = 0; }, // its glint
-        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy; v.duvdx.y = 0.2f; },
-        [](Random&, Vectors& v, glm::vec3) { v.duvdx = {0, 1}; },                             // chalk
-        [](Random&, Vectors& v, glm::vec3) { v.duvdx = {1, 0.5f}; v.texel = {0, 0, 0}; },     // black metal
-        [](Random&, Vectors& v, glm::vec3) { v.texel = {1, 1, 1}; v.duvdy = {1, 1}; },        // distance = range
-        [](Random&, Vectors& v, glm::vec3) { v.texel = {0.0031308f, 0.04045f, 1e-9f}; v.duvdy = {0, 0}; },
-        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = y; },                           // straight up
-        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = -y; },                          // straight down
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = -v.dpdy; },      // no half vector
+        [](Random&, Vectors& v, glm::vec3) { v.dpdx = v.n = v.dpdy; }, // head on
+        [](Random&, Vectors& v, glm::vec3) { v.duvdx.y = 0; },         // a mirror
+        [](Random&, Vectors& v, glm::vec3) {
+            v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy;
+            v.duvdx.y = 0;
+        }, // its glint
+        [](Random&, Vectors& v, glm::vec3) {
+            v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy;
+            v.duvdx.y = 0.2f;
+        },
+        [](Random&, Vectors& v, glm::vec3) {
+            v.duvdx = {0, 1};
+        }, // chalk
+        [](Random&, Vectors& v, glm::vec3) {
+            v.duvdx = {1, 0.5f};
+            v.texel = {0, 0, 0};
+        }, // black metal
+        [](Random&, Vectors& v, glm::vec3) {
+            v.texel = {1, 1, 1};
+            v.duvdy = {1, 1};
+        }, // distance = range
+        [](Random&, Vectors& v, glm::vec3) {
+            v.texel = {0.0031308f, 0.04045f, 1e-9f};
+            v.duvdy = {0, 0};
+        },
+        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = y; },  // straight up
+        [](Random&, Vectors& v, glm::vec3 y) { v.n = v.dpdx = -y; }, // straight down
     };
     for (Change change : changes)
         for (int k = 0; k < 4; ++k) {
@@ -150,16 +166,24 @@ std::vector<Sample> litSamples()
 std::vector<Case> litCases()
 {
     std::vector<Case> all;
-    all.push_back(COTAN_LIT_CASE("saturate, smooth", cotan_vec3(cotan_saturate(x), cotan_smooth(-y, y + cotan_real(0.1), x), cotan_smooth(y + cotan_real(0.1), -y, x))));
+    all.push_back(COTAN_LIT_CASE("saturate, smooth",
+                                 cotan_vec3(cotan_saturate(x), cotan_smooth(-y, y + cotan_real(0.1), x),
+                                            cotan_smooth(y + cotan_real(0.1), -y, x))));
     all.push_back(COTAN_LIT_CASE("half vector", cotan_half_vector(l, s.v)));
     all.push_back(COTAN_LIT_CASE("reflect pbr", cotan_reflect_pbr(s, l)));
     all.push_back(COTAN_LIT_CASE("reflect Blinn-Phong", cotan_reflect_blinn_phong(s, l)));
     all.push_back(COTAN_LIT_CASE("environment", cotan_environment(l, s.roughness)));
     all.push_back(COTAN_LIT_CASE("reflect environment", cotan_reflect_environment(s)));
-    all.push_back(COTAN_LIT_CASE("falloff", cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)), cotan_light_falloff(y, cotan_real(0.0)))));
+    all.push_back(COTAN_LIT_CASE("falloff",
+                                 cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)),
+                                            cotan_light_falloff(y, cotan_real(0.0)))));
     all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
-    all.push_back(COTAN_LIT_CASE("linear to sRGB", cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y), cotan_linear_to_srgb(s.base_color.z))));
-    all.push_back(COTAN_LIT_CASE("sRGB to linear", cotan_vec3(cotan_srgb_to_linear(s.base_color.x), cotan_srgb_to_linear(s.base_color.y), cotan_srgb_to_linear(s.base_color.z))));
+    all.push_back(COTAN_LIT_CASE("linear to sRGB",
+                                 cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y),
+                                            cotan_linear_to_srgb(s.base_color.z))));
+    all.push_back(COTAN_LIT_CASE("sRGB to linear",
+                                 cotan_vec3(cotan_srgb_to_linear(s.base_color.x), cotan_srgb_to_linear(s.base_color.y),
+                                            cotan_srgb_to_linear(s.base_color.z))));
     return all;
 }
 

@@ -12,11 +12,11 @@
 
 namespace cotan::test {
 
-template<class Item>
-void writeItems(const std::filesystem::path& file, const std::vector<Item>& items)
+template<class Item> void writeItems(const std::filesystem::path& file, const std::vector<Item>& items)
 {
     std::ofstream stream(file, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(items.data()), static_cast<std::streamsize>(items.size() * sizeof(Item)));
+    stream.write(reinterpret_cast<const char*>(items.data()),
+                 static_cast<std::streamsize>(items.size() * sizeof(Item)));
 }
 
 inline void writeText(const std::filesystem::path& file, const std::string& text)

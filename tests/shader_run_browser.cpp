@@ -7,8 +7,8 @@ namespace cotan::test {
 
 namespace {
 
-using shader_text::Language;
 using nlohmann::json;
+using shader_text::Language;
 
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -53,10 +53,12 @@ json fragmentOf(const FrameInfo& f)
     choice.gradients = choice.blends = choice.lights = true;
     choice.language = Language::essl;
     const std::string essl = makeShaderText(choice)->text
-        + "in vec3 n, p, t; in vec2 uv; out vec4 o;\nvoid main() { o = vec4(cotan_perturb_normal(n, p, uv, t), 1.0); }\n";
+        + "in vec3 n, p, t; in vec2 uv; out vec4 o;\nvoid main() { o = vec4(cotan_perturb_normal(n, p, uv, t), 1.0); "
+          "}\n";
     choice.language = Language::wgsl;
     const std::string wgsl = makeShaderText(choice)->text
-        + "@fragment fn main(@location(0) n: vec3f, @location(1) p: vec3f, @location(2) t: vec3f, @location(3) uv: vec2f)"
+        + "@fragment fn main(@location(0) n: vec3f, @location(1) p: vec3f, @location(2) t: vec3f, @location(3) uv: "
+          "vec2f)"
           " -> @location(0) vec4f { return vec4f(cotan_perturb_normal(n, p, uv, t), 1.0); }\n";
     return {{"name", f.name}, {"essl", essl}, {"wgsl", wgsl}};
 }
@@ -99,17 +101,21 @@ BrowserResults runBrowser(const std::vector<Case>& cases, const std::vector<Samp
               {"fragments", json::array()}};
     for (const auto& [key, list] : {std::pair("cases", &cases), {"drawn", &drawn}})
         for (const Case& c : *list)
-            work[key].push_back(
-                {{"name", c.name}, {"call", c.call}, {"essl", c.text(Language::essl)}, {"wgsl", c.text(Language::wgsl)}});
+            work[key].push_back({{"name", c.name},
+                                 {"call", c.call},
+                                 {"essl", c.text(Language::essl)},
+                                 {"wgsl", c.text(Language::wgsl)}});
     for (const FrameInfo& frame : frames())
         if (frame.source == FrameSource::differences)
             work["fragments"].push_back(fragmentOf(frame));
     std::string page = readWhole(COTAN_SOURCE_DIR "/tests/shader_browser.html.in");
     page.replace(page.find("WORK"), 4, work.dump());
     writeText(folder / "page.html", page);
-    shell("timeout 200 chromium --headless --no-sandbox --user-data-dir='" + f + "/profile' --use-angle=swiftshader"
-              " --enable-unsafe-swiftshader --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader"
-              " --dump-dom 'file://" + f + "/page.html' > '" + f + "/dom'",
+    shell("timeout 200 chromium --headless --no-sandbox --user-data-dir='" + f
+              + "/profile' --use-angle=swiftshader"
+                " --enable-unsafe-swiftshader --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader"
+                " --dump-dom 'file://"
+              + f + "/page.html' > '" + f + "/dom'",
           folder / "log");
     const std::string dom = readWhole(folder / "dom");
     const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
@@ -121,7 +127,8 @@ BrowserResults runBrowser(const std::vector<Case>& cases, const std::vector<Samp
             text.replace(at, from.size(), to);
     const json found = json::parse(text);
     const std::size_t pixels = 2 * kTarget * kTarget;
-    return {resultsOf("essl", found["essl"], "results", samples.size()), resultsOf("wgsl", found["wgsl"], "results", samples.size()),
+    return {resultsOf("essl", found["essl"], "results", samples.size()),
+            resultsOf("wgsl", found["wgsl"], "results", samples.size()),
             resultsOf("essl", found["essl"], "pixels", pixels), resultsOf("wgsl", found["wgsl"], "pixels", pixels)};
 }
 

@@ -17,15 +17,16 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 // Compiles `source` and runs it on the samples' file: what it wrote.
-std::string runSource(const std::string& label, const std::string& source, const std::vector<Sample>& samples, const std::string& flags)
+std::string runSource(const std::string& label, const std::string& source, const std::vector<Sample>& samples,
+                      const std::string& flags)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
     writeText(folder / "main.cpp", source);
     writeItems(folder / "in", vectorsOf(samples));
-    if (!shell(COTAN_CXX " -std=c++17 -ffp-contract=off -Wall -Wextra -Wno-unused -Wno-unused-parameter -Werror " + flags
-                   + " -I" COTAN_SOURCE_DIR "/tests/metal_shim -o '" + f + "/main' '" + f + "/main.cpp' && '" + f + "/main' '"
-                   + f + "/in' '" + f + "/out'",
+    if (!shell(COTAN_CXX " -std=c++17 -ffp-contract=off -Wall -Wextra -Wno-unused -Wno-unused-parameter -Werror "
+                   + flags + " -I" COTAN_SOURCE_DIR "/tests/metal_shim -o '" + f + "/main' '" + f + "/main.cpp' && '"
+                   + f + "/main' '" + f + "/in' '" + f + "/out'",
                folder / "log"))
         throw std::runtime_error(label + ": " + readWhole(folder / "log"));
     return readWhole(folder / "out");
@@ -36,7 +37,8 @@ std::string mainOf(std::size_t cases, const std::string& real)
 {
     std::string source = "int main(int, char** a)\n{\nstd::FILE* in = std::fopen(a[1], \"rb\");\n"
                          "std::FILE* out = std::fopen(a[2], \"wb\");\nstatic float v[16 * 4096];\n"
-                         "const std::size_t n = std::fread(v, 64, 4096, in);\n" + real + " r[3];\n";
+                         "const std::size_t n = std::fread(v, 64, 4096, in);\n"
+        + real + " r[3];\n";
     for (std::size_t k = 0; k < cases; ++k)
         source += "for (std::size_t i = 0; i < n; ++i) { case" + std::to_string(k)
             + "::run(v + 16 * i, r); std::fwrite(r, sizeof r, 1, out); }\n";
@@ -53,7 +55,8 @@ Results run(const std::string& label, const std::vector<Case>& cases, const std:
         std::string text = cases[k].text(language);
         if (real == "double")
             text = replaced(text, "using cotan_real = float; // or double", "using cotan_real = double;");
-        const std::string inner = language == Language::cpp ? "using namespace cotan_shader;\n" : "using namespace metal;\n";
+        const std::string inner =
+            language == Language::cpp ? "using namespace cotan_shader;\n" : "using namespace metal;\n";
         source += "namespace case" + std::to_string(k) + " {\n" + text + inner + "void run(const float* in, " + real
             + "* out)\n{\n" + vec3 + " n{in[0], in[1], in[2]}, dpdx{in[3], in[4], in[5]}, dpdy{in[6], in[7], in[8]};\n"
             + vec2 + " duvdx{in[9], in[10]}, duvdy{in[11], in[12]};\n" + vec3 + " m{in[13], in[14], in[15]};\n"
@@ -101,10 +104,9 @@ Results runSpirvCross(const std::vector<Case>& cases, const std::vector<Sample>&
             + "void run(float* in, float* out)\n{\n"
               "main0(reinterpret_cast<In&>(*in), reinterpret_cast<Out&>(*out), uint3(0));\n}\n}\n";
     }
-    results.values = valuesOf<float>(
-        runSource(results.language, source + mainOf(cases.size(), "float"), samples,
-                  "-O1 -Wno-attributes -Wno-unknown-pragmas -Wno-array-bounds"),
-        cases.size(), samples.size());
+    results.values = valuesOf<float>(runSource(results.language, source + mainOf(cases.size(), "float"), samples,
+                                               "-O1 -Wno-attributes -Wno-unknown-pragmas -Wno-array-bounds"),
+                                     cases.size(), samples.size());
     return results;
 }
 

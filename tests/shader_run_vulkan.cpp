@@ -21,13 +21,13 @@ public:
         layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *setLayout_));
         const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, 2);
         pool_ = vk::raii::DescriptorPool(
-            device.device,
-            vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
+            device.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
         set_ = std::move(vk::raii::DescriptorSets(device.device, {*pool_, *setLayout_})[0]);
         const vk::DescriptorBufferInfo a(*in_.buffer, 0, VK_WHOLE_SIZE), b(*out_.buffer, 0, VK_WHOLE_SIZE);
-        device.device.updateDescriptorSets({vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, a),
-                                            vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, b)},
-                                           {});
+        device.device.updateDescriptorSets(
+            {vk::WriteDescriptorSet(*set_, 0, 0, vk::DescriptorType::eStorageBuffer, {}, a),
+             vk::WriteDescriptorSet(*set_, 1, 0, vk::DescriptorType::eStorageBuffer, {}, b)},
+            {});
         commandPool_ = vk::raii::CommandPool(device.device, {{}, device.queueFamily});
     }
 
@@ -36,14 +36,15 @@ public:
         const vk::raii::ShaderModule module(device_.device, vk::ShaderModuleCreateInfo({}, spirv));
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
         const vk::raii::Pipeline pipeline(device_.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
-        const vk::raii::CommandBuffer commands = std::move(vk::raii::CommandBuffers(
-            device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+        const vk::raii::CommandBuffer commands = std::move(
+            vk::raii::CommandBuffers(device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
         commands.begin(vk::CommandBufferBeginInfo());
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, *set_, {});
         commands.dispatch(static_cast<std::uint32_t>(samples_.size()), 1, 1);
         const vk::MemoryBarrier seen(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, seen, {}, {});
+        commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, seen,
+                                 {}, {});
         commands.end();
         const vk::raii::Queue queue = device_.device.getQueue(device_.queueFamily, 0);
         queue.submit(vk::SubmitInfo({}, {}, *commands));

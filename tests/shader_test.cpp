@@ -111,7 +111,8 @@ void expectLight(const Case& c, const Results& r, std::size_t index)
     const LightError most = worstLight(c, r, index);
     fmt::print("| {:24} | {:10} | {:.1e} relative, glossy {:.1e}, {:.1f} roundings |\n", c.name, r.language,
                most.relative, most.glossy, most.roundings);
-    EXPECT_LT(most.roundings, r.language == "cpp double" ? kDoubleRoundings : kFloatRoundings) << r.language << ", " << c.name;
+    EXPECT_LT(most.roundings, r.language == "cpp double" ? kDoubleRoundings : kFloatRoundings)
+        << r.language << ", " << c.name;
 }
 
 void expectParity(const Results& r, const std::vector<Case>& run = allCases())
@@ -173,7 +174,8 @@ void expectDrawn(const Results& r)
                     const std::size_t pixel = static_cast<std::size_t>((turn * kTarget + row) * kTarget + column);
                     most = std::max(most, degreesApart(r.values[c][pixel], drawn[c].expected(v)));
                 }
-            fmt::print("| {:24} | {:10} | {:.1e} | drawn, y {} |\n", drawn[c].name, r.language, most, along ? "along" : "against");
+            fmt::print("| {:24} | {:10} | {:.1e} | drawn, y {} |\n", drawn[c].name, r.language, most,
+                       along ? "along" : "against");
             EXPECT_LT(most, kDrawnDegrees) << r.language << ", " << drawn[c].name << ", along: " << along;
         }
 }
@@ -283,16 +285,15 @@ TEST(ShaderText, everySetCompilesAsAFragmentShader)
 TEST(ShaderCommand, badWordsGetOneLineAndExitCode1)
 {
     TemporaryFolder folder;
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"shader"},
-          {"shader", "--lang", "cg"},
-          {"shader", "--lang", "glsl", "--frame", "nothing"},
-          {"shader", "--lang", "glsl", "--frame", "unit", "--form", "fused"},
-          {"shader", "--lang", "glsl", "--preset", "quake"},
-          {"shader", "--lang", "glsl", "--green", "up"},
-          {"shader", "--lang", "glsl", "--channels", "4"},
-          {"shader", "--lang", "glsl", "--uv-sets", "9"},
-          {"shader", "--lang", "glsl", "--set", "nothing"}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"shader"},
+                                                  {"shader", "--lang", "cg"},
+                                                  {"shader", "--lang", "glsl", "--frame", "nothing"},
+                                                  {"shader", "--lang", "glsl", "--frame", "unit", "--form", "fused"},
+                                                  {"shader", "--lang", "glsl", "--preset", "quake"},
+                                                  {"shader", "--lang", "glsl", "--green", "up"},
+                                                  {"shader", "--lang", "glsl", "--channels", "4"},
+                                                  {"shader", "--lang", "glsl", "--uv-sets", "9"},
+                                                  {"shader", "--lang", "glsl", "--set", "nothing"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 1) << words.back();
         EXPECT_EQ(lines(run.err), 1) << run.err;

@@ -25,7 +25,8 @@ std::string textOf(const Choice& choice)
 
 TEST(PreprocessedText, oneBranchOfAChainIsRead)
 {
-    const char* const text = "#if defined(COTAN_LANG_GLSL)\nglsl\n#elif defined(COTAN_LANG_CPP)\ncpp\n#else\nother\n#endif\nall\n";
+    const char* const text =
+        "#if defined(COTAN_LANG_GLSL)\nglsl\n#elif defined(COTAN_LANG_CPP)\ncpp\n#else\nother\n#endif\nall\n";
     EXPECT_EQ(preprocess(text, "COTAN_LANG_GLSL").text, "glsl\nall\n");
     EXPECT_EQ(preprocess(text, "COTAN_LANG_CPP").text, "cpp\nall\n");
     EXPECT_EQ(preprocess(text, "COTAN_LANG_HLSL").text, "other\nall\n");
@@ -33,15 +34,17 @@ TEST(PreprocessedText, oneBranchOfAChainIsRead)
 
 TEST(PreprocessedText, branchesInsideOfUnreadOnesAreNotRead)
 {
-    const char* const text = "#ifndef GUARD\n#if defined(COTAN_LANG_CPP)\n#if defined(COTAN_LANG_GLSL)\ninner\n#endif\n#else\nouter\n#endif\n#endif\n";
+    const char* const text = "#ifndef GUARD\n#if defined(COTAN_LANG_CPP)\n#if "
+                             "defined(COTAN_LANG_GLSL)\ninner\n#endif\n#else\nouter\n#endif\n#endif\n";
     EXPECT_EQ(preprocess(text, "COTAN_LANG_GLSL").text, "outer\n");
 }
 
 TEST(PreprocessedText, constantsAreThoseOfOurPrefixWithAValue)
 {
-    const auto found = preprocess("#define COTAN_HUGE cotan_real(1e37) // why\n#define COTAN_FUNCTION inline\n#define COTAN_ON\n"
-                                  "#define cotan_mix mix\n",
-                                  "COTAN_LANG_GLSL");
+    const auto found =
+        preprocess("#define COTAN_HUGE cotan_real(1e37) // why\n#define COTAN_FUNCTION inline\n#define COTAN_ON\n"
+                   "#define cotan_mix mix\n",
+                   "COTAN_LANG_GLSL");
     ASSERT_EQ(found.constants.size(), 1u);
     EXPECT_EQ(found.constants.begin()->first, "COTAN_HUGE");
     EXPECT_EQ(found.constants.begin()->second.substr(0, 16), "cotan_real(1e37)");
@@ -56,24 +59,28 @@ const char* const kSmall = "COTAN_FUNCTION cotan_real half_or_less(cotan_real x,
 
 TEST(PrintedText, glslHlslAndMetalDifferInWords)
 {
-    EXPECT_TRUE(has(translate(Language::glsl, kSmall), "float half_or_less(float x, float y)\n{\n    x = x * 0.5;\n"
-                                                       "    vec2 v = vec2(x, y);\n    return x < y ? v.x : v.y;\n}\n"));
+    EXPECT_TRUE(has(translate(Language::glsl, kSmall),
+                    "float half_or_less(float x, float y)\n{\n    x = x * 0.5;\n"
+                    "    vec2 v = vec2(x, y);\n    return x < y ? v.x : v.y;\n}\n"));
     EXPECT_TRUE(has(translate(Language::hlsl, kSmall), "    float2 v = float2(x, y);\n"));
-    EXPECT_TRUE(has(translate(Language::msl, kSmall), "inline float half_or_less(float x, float y)\n{\n    x = x * 0.5f;\n"));
+    EXPECT_TRUE(
+        has(translate(Language::msl, kSmall), "inline float half_or_less(float x, float y)\n{\n    x = x * 0.5f;\n"));
 }
 
 TEST(PrintedText, wgslCopiesParametersThatChangeAndSelectsTheOtherWayRound)
 {
     const std::string text = translate(Language::wgsl, kSmall);
-    EXPECT_TRUE(has(text, "fn half_or_less(x_in: f32, y: f32) -> f32 {\n    var x = x_in;\n    x = x * 0.5;\n"
-                          "    let v = vec2f(x, y);\n    return select(v.y, v.x, x < y);\n}\n"))
+    EXPECT_TRUE(has(text,
+                    "fn half_or_less(x_in: f32, y: f32) -> f32 {\n    var x = x_in;\n    x = x * 0.5;\n"
+                    "    let v = vec2f(x, y);\n    return select(v.y, v.x, x < y);\n}\n"))
         << text;
 }
 
 TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
 {
-    const char* const text = "struct cotan_two {\n    cotan_real a; // first\n    cotan_real b; // second\n};\n"
-                             "COTAN_FUNCTION cotan_real first_of(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    return t.a;\n}\n";
+    const char* const text =
+        "struct cotan_two {\n    cotan_real a; // first\n    cotan_real b; // second\n};\n"
+        "COTAN_FUNCTION cotan_real first_of(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    return t.a;\n}\n";
     EXPECT_TRUE(has(translate(Language::glsl, text), "struct cotan_two"));
     EXPECT_FALSE(has(translate(Language::glsl, kSmall), "struct")) << "one that nothing uses";
 }
@@ -85,7 +92,8 @@ std::string simplified(const std::string& body)
 {
     Module module;
     std::map<std::string, Expression> constants;
-    parsePart(module, constants, "test", "COTAN_FUNCTION cotan_real f(cotan_real x)\n{\n" + body + "}\n", "COTAN_LANG_GLSL");
+    parsePart(module, constants, "test", "COTAN_FUNCTION cotan_real f(cotan_real x)\n{\n" + body + "}\n",
+              "COTAN_LANG_GLSL");
     simplify(module.functions.at(0));
     const std::string text = print(module, Language::glsl);
     return text.substr(text.find("{\n") + 2);
@@ -117,14 +125,17 @@ TEST(ChosenText, theStoredFormIsWrittenOutAndTheOthersAreGone)
     choice.convention.v = VDirection::up;
     choice.convention.expansion = Expansion::biased;
     std::string text = textOf(choice);
-    EXPECT_TRUE(has(text, "float cotan_expand(float c)\n{\n    float x = c * 2.0 - 1.0;\n    return max(x, -1.0);\n}\n")) << text;
+    EXPECT_TRUE(
+        has(text, "float cotan_expand(float c)\n{\n    float x = c * 2.0 - 1.0;\n    return max(x, -1.0);\n}\n"))
+        << text;
     EXPECT_TRUE(has(text, "    vec3 m = vec3(x, y, z);\n    return vec3(m.x, m.y, m.z);\n}\n"));
     choice.convention.expansion = Expansion::signedValues;
     EXPECT_TRUE(has(textOf(choice), "float cotan_expand(float c)\n{\n    float x = c;\n"));
     choice.convention.channels = Channels::slope;
     text = textOf(choice);
-    EXPECT_TRUE(has(text, "    float x = cotan_expand(texel.x);\n    float y = cotan_expand(texel.y);\n"
-                          "    vec3 m = vec3(-x, -y, 1.0);\n    return vec3(m.x, m.y, m.z);\n}\n"))
+    EXPECT_TRUE(has(text,
+                    "    float x = cotan_expand(texel.x);\n    float y = cotan_expand(texel.y);\n"
+                    "    vec3 m = vec3(-x, -y, 1.0);\n    return vec3(m.x, m.y, m.z);\n}\n"))
         << text;
     EXPECT_FALSE(has(text, "if (")) << text;
     choice.convention.channels = Channels::orthographic;
@@ -190,7 +201,8 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
             choice.callerDifferences = caller;
             const auto text = makeShaderText(choice);
             ASSERT_TRUE(text);
-            EXPECT_EQ(text->functions.back() == "cotan_perturb_normal", !caller && language != Language::cpp) << name(language);
+            EXPECT_EQ(text->functions.back() == "cotan_perturb_normal", !caller && language != Language::cpp)
+                << name(language);
             choice.frame = Frame::exact; // from edges
             EXPECT_NE(makeShaderText(choice)->functions.back(), "cotan_perturb_normal") << name(language);
         }

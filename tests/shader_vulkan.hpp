@@ -10,8 +10,7 @@ namespace cotan::test {
 
 // The values of cases on the first device that has what pricing needs: work(device, results) adds them. Without one,
 // results say why they were skipped.
-template<class Work>
-Results onFirstDevice(bool hlsl, const Work& work)
+template<class Work> Results onFirstDevice(bool hlsl, const Work& work)
 {
     Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
     try {

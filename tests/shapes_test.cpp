@@ -67,9 +67,8 @@ double angleBetween(glm::dvec3 a, glm::dvec3 b)
 double volume(const Mesh& mesh)
 {
     double sum = 0;
-    eachTriangle(mesh, [&](const Corners& c) {
-        sum += glm::dot(glm::dvec3(mesh.positions[c[0]]), faceVector(mesh, c)) / 6;
-    });
+    eachTriangle(mesh,
+                 [&](const Corners& c) { sum += glm::dot(glm::dvec3(mesh.positions[c[0]]), faceVector(mesh, c)) / 6; });
     return sum;
 }
 
@@ -135,9 +134,8 @@ TEST(Shapes, imagesAreNotMirroredSeenFromOutside)
 {
     // Counter-clockwise from outside and v downwards: the signed uv area is negative.
     for (const auto& [name, mesh] : allShapes())
-        eachTriangle(mesh, [&, &name = name, &mesh = mesh](const Corners& c) {
-            ASSERT_LT(signedUvArea(mesh, c), 0) << name;
-        });
+        eachTriangle(
+            mesh, [&, &name = name, &mesh = mesh](const Corners& c) { ASSERT_LT(signedUvArea(mesh, c), 0) << name; });
     const Mesh mirrored = cotan::makePatch(2, 0.5f, true, 2);
     eachTriangle(mirrored, [&](const Corners& c) { ASSERT_GT(signedUvArea(mirrored, c), 0); });
 }
@@ -197,8 +195,7 @@ TEST(Shapes, planeRepeatsItsTexture)
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
         EXPECT_EQ(mesh.positions[i].y, 0);
         EXPECT_EQ(mesh.normals[i], glm::vec3(0, 1, 0));
-        EXPECT_EQ(mesh.texcoords[0][i],
-                  glm::vec2(mesh.positions[i].x + 2, mesh.positions[i].z + 2) * 2.0f);
+        EXPECT_EQ(mesh.texcoords[0][i], glm::vec2(mesh.positions[i].x + 2, mesh.positions[i].z + 2) * 2.0f);
     }
 }
 
@@ -224,12 +221,9 @@ double normalError(const Mesh& mesh, std::size_t first, std::size_t n)
     const auto at = [&](std::size_t i, std::size_t j) { return first + j * (n + 1) + i; };
     for (std::size_t j = 1; j < n; ++j)
         for (std::size_t i = 1; i < n; ++i) {
-            const glm::dvec3 du =
-                glm::dvec3(mesh.positions[at(i + 1, j)] - mesh.positions[at(i - 1, j)]);
-            const glm::dvec3 dv =
-                glm::dvec3(mesh.positions[at(i, j + 1)] - mesh.positions[at(i, j - 1)]);
-            worst = std::max(worst,
-                             angleBetween(glm::cross(dv, du), glm::dvec3(mesh.normals[at(i, j)])));
+            const glm::dvec3 du = glm::dvec3(mesh.positions[at(i + 1, j)] - mesh.positions[at(i - 1, j)]);
+            const glm::dvec3 dv = glm::dvec3(mesh.positions[at(i, j + 1)] - mesh.positions[at(i, j - 1)]);
+            worst = std::max(worst, angleBetween(glm::cross(dv, du), glm::dvec3(mesh.normals[at(i, j)])));
         }
     return worst;
 }
@@ -250,8 +244,7 @@ TEST(Shapes, spoutSquashesTheTextureTowardsTheTip)
     const auto ring = [&](std::size_t row) {
         double length = 0;
         for (std::size_t i = 0; i < n; ++i)
-            length += glm::length(mesh.positions[row * (n + 1) + i + 1]
-                                  - mesh.positions[row * (n + 1) + i]);
+            length += glm::length(mesh.positions[row * (n + 1) + i + 1] - mesh.positions[row * (n + 1) + i]);
         return length;
     };
     EXPECT_GT(ring(n), 5 * ring(0));
@@ -384,7 +377,7 @@ TEST(BuiltinScene, isConsistent)
         ASSERT_LT(std::size_t(mesh.material), scene.materials.size());
         const cotan::Material& material = scene.materials[std::size_t(mesh.material)];
         ASSERT_LT(std::size_t(material.normalMap.image), scene.images.size()) << material.name;
-        EXPECT_FALSE(material.normalFormat.greenAlongV) << material.name;
+        EXPECT_TRUE(material.normalFormat.greenUp) << material.name;
     }
 }
 
@@ -402,8 +395,7 @@ TEST(BuiltinScene, hasMirroredAndUnmirroredTexcoords)
     int mirrored = 0, plain = 0;
     for (const Mesh& mesh : scene.meshes)
         if (mesh.name == "sphere")
-            eachTriangle(
-                mesh, [&](const Corners& c) { ++(signedUvArea(mesh, c) > 0 ? mirrored : plain); });
+            eachTriangle(mesh, [&](const Corners& c) { ++(signedUvArea(mesh, c) > 0 ? mirrored : plain); });
     EXPECT_GT(mirrored, 0);
     EXPECT_EQ(mirrored, plain);
 }

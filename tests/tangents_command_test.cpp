@@ -42,15 +42,14 @@ TEST_P(TangentVerdicts, sayWhatIsKnownAboutTheModel)
     EXPECT_EQ(report["whole"]["verdict"], GetParam().verdict) << report["model_verdict"];
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, TangentVerdicts,
-    ::testing::Values(Verdict{"NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "equal"},
-                      Verdict{"ClearCoatTest/ClearCoatTest.glb", "equal"},
-                      Verdict{"FlightHelmet/FlightHelmet.gltf", "off"},
-                      Verdict{"SketchfabCat/scene.gltf", "w inverted"},
-                      Verdict{"TwoSidedPlane/TwoSidedPlane.glb", "w inverted"},
-                      Verdict{"MultiUVTest/MultiUVTest.glb", "half turned"}),
-    [](const auto& v) { return std::filesystem::path(v.param.model).parent_path().string(); });
+INSTANTIATE_TEST_SUITE_P(Models, TangentVerdicts,
+                         ::testing::Values(Verdict{"NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "equal"},
+                                           Verdict{"ClearCoatTest/ClearCoatTest.glb", "equal"},
+                                           Verdict{"FlightHelmet/FlightHelmet.gltf", "off"},
+                                           Verdict{"SketchfabCat/scene.gltf", "w inverted"},
+                                           Verdict{"TwoSidedPlane/TwoSidedPlane.glb", "w inverted"},
+                                           Verdict{"MultiUVTest/MultiUVTest.glb", "half turned"}),
+                         [](const auto& v) { return std::filesystem::path(v.param.model).parent_path().string(); });
 
 // The model's description says median 0.35 degrees and 99 % within 10; its last digit is rounded and
 // "99 % within 10" is at 10.4 here.
@@ -67,8 +66,7 @@ TEST(TangentVerdicts, measureHowFarFlightHelmetIsOff)
 // A sphere-like model is nowhere without a frame, and a plane has no shear.
 TEST(TangentsCommand, reportsOnSmoothCotangents)
 {
-    const json report =
-        reportOn("TwoSidedPlane/TwoSidedPlane.glb", {"--frame", "smooth"});
+    const json report = reportOn("TwoSidedPlane/TwoSidedPlane.glb", {"--frame", "smooth"});
     if (report.is_null())
         GTEST_SKIP() << "no TwoSidedPlane in " << kModels;
     EXPECT_EQ(report["primitives"][0]["without_frame"], 0);
@@ -92,8 +90,7 @@ std::string writeTriangle(const TemporaryFolder& folder)
 {
     std::ofstream(folder / "model.gltf") << squareText();
     const float data[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-    std::ofstream(folder / "triangle.bin", std::ios::binary)
-        .write(reinterpret_cast<const char*>(data), sizeof data);
+    std::ofstream(folder / "triangle.bin", std::ios::binary).write(reinterpret_cast<const char*>(data), sizeof data);
     return (folder / "model.gltf").string();
 }
 
@@ -137,9 +134,9 @@ TEST(TangentsCommand, bytesDoNotDependOnTheNumberOfThreads)
         GTEST_SKIP() << "no " << model;
     TemporaryFolder folder;
     for (const char* const threads : {"1", "2", "7"}) {
-        const ToolRun run = runTool({"tangents", model.string(), "--replace", "--threads", threads,
-                                     "-o", std::string(threads) + ".glb"},
-                                    folder.path());
+        const ToolRun run = runTool(
+            {"tangents", model.string(), "--replace", "--threads", threads, "-o", std::string(threads) + ".glb"},
+            folder.path());
         EXPECT_EQ(run.code, 0) << run.err;
     }
     EXPECT_EQ(readWhole(folder / "1.glb"), readWhole(folder / "2.glb"));
@@ -157,8 +154,7 @@ TEST_P(TangentsBadInput, getsWhatTheListSays)
     for (const Expected& row : rows) {
         SCOPED_TRACE(row.file.string());
         TemporaryFolder folder;
-        const ToolRun run =
-            runTool({"tangents", row.file.string(), "-o", "out.glb", "--replace"}, folder.path(), 20);
+        const ToolRun run = runTool({"tangents", row.file.string(), "-o", "out.glb", "--replace"}, folder.path(), 20);
         EXPECT_TRUE(run.code == 0 || run.code == 2) << run.code << " " << run.err;
         if (row.verdict == "reject") {
             EXPECT_EQ(run.code, 2);

@@ -48,10 +48,7 @@ struct CornerEdges {
         return glm::inverse(rows) * glm::dvec3(d1, d2, 0);
     }
 
-    double angle() const
-    {
-        return std::acos(glm::dot(glm::normalize(flattened(p1)), glm::normalize(flattened(p2))));
-    }
+    double angle() const { return std::acos(glm::dot(glm::normalize(flattened(p1)), glm::normalize(flattened(p2)))); }
 };
 
 // Five triangles around vertex 0, of all widths and lengths, uneven, every one with texcoords of its own;
@@ -115,7 +112,8 @@ TEST(IrregularFan, everyProcedureWeighsAsItsDefinitionSays)
 Arrays bothSides(float unmirrored, float mirrored)
 {
     const float up = 90 * std::numbers::pi_v<float> / 180;
-    const float right = up - unmirrored * std::numbers::pi_v<float> / 180, left = up + mirrored * std::numbers::pi_v<float> / 180;
+    const float right = up - unmirrored * std::numbers::pi_v<float> / 180,
+                left = up + mirrored * std::numbers::pi_v<float> / 180;
     const glm::vec3 n(0, 0, 1);
     Arrays a;
     a.add({0, 0, 0}, n, {0, 0});
@@ -132,7 +130,8 @@ TEST(MirroredSides, aSharedVertexTakesTheGradientsOfTheLargerAngle)
         const cotan::Cotangents found = cotan::smoothCotangents(bothSides(unmirrored, mirrored).view());
         for (const std::size_t vertex : {0, 1}) { // at vertex 1 the angles are 50 and 60, or 60 and 50: the other way
             const bool isUnmirrored = vertex == 0 ? unmirrored > mirrored : unmirrored < mirrored;
-            EXPECT_LT(glm::length(found.u[vertex] - glm::vec3(isUnmirrored ? 1 : -2, 0, 0)), 1e-5f) << vertex << ' ' << unmirrored;
+            EXPECT_LT(glm::length(found.u[vertex] - glm::vec3(isUnmirrored ? 1 : -2, 0, 0)), 1e-5f)
+                << vertex << ' ' << unmirrored;
             EXPECT_LT(glm::length(found.v[vertex] - glm::vec3(0, -1, 0)), 1e-5f) << vertex << ' ' << unmirrored;
         }
         EXPECT_LT(glm::length(found.u[2] - glm::vec3(1, 0, 0)), 1e-5f);
@@ -175,7 +174,8 @@ TEST(MirroredSides, aMirrorLineIsSplitOnceAVertex)
 TEST(MirroredSides, aCornerWithoutASideTakesThatOfItsVertex)
 {
     Arrays a = bothSides(80, 60);
-    a.indices.insert(a.indices.end(), {0, 2, 2, 3, 3, 0}); // no area: at 2 unmirrored only, at 3 mirrored only, at 0 both
+    a.indices.insert(a.indices.end(),
+                     {0, 2, 2, 3, 3, 0}); // no area: at 2 unmirrored only, at 3 mirrored only, at 0 both
     const std::vector<glm::vec4> found = cotan::vertexTangents(a.view());
     for (const std::size_t c : {6, 7, 8, 11})
         EXPECT_LT(glm::length(found[c] - glm::vec4(1, 0, 0, 1)), 1e-6f) << c;
@@ -235,7 +235,8 @@ void expectPairs(const std::string& order, const std::vector<std::pair<std::size
     for (const auto& [i, j] : pairs)
         expected[i] = expected[j] = expected[i] + expected[j];
     for (std::size_t k = 0; k < order.size(); ++k) {
-        EXPECT_LT(glm::length(glm::dvec3(glm::vec3(found[3 * k])) - glm::normalize(expected[k])), 3e-6) << order << ", page " << k;
+        EXPECT_LT(glm::length(glm::dvec3(glm::vec3(found[3 * k])) - glm::normalize(expected[k])), 3e-6)
+            << order << ", page " << k;
         EXPECT_EQ(found[3 * k].w, 1);
     }
 }

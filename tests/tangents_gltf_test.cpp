@@ -15,8 +15,7 @@ TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
 {
     const std::filesystem::path data(COTAN_SHARED_DATA);
     const std::filesystem::path model = data / GetParam();
-    const std::filesystem::path oracle =
-        data / "mikktspace" / (model.stem().string() + ".mikk.f32");
+    const std::filesystem::path oracle = data / "mikktspace" / (model.stem().string() + ".mikk.f32");
     if (!std::filesystem::exists(model) || !std::filesystem::exists(oracle))
         GTEST_SKIP() << "needs " << model << " and " << oracle;
     const cotan::Result<cotan::Scene> scene = cotan::loadScene(model);
@@ -32,11 +31,10 @@ TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
     EXPECT_EQ(apart, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, MikktspaceGltfOracle,
-    testing::Values("models/NormalTangentTest/NormalTangentTest.glb",
-                    "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-                    "models/BoomBox/BoomBox.gltf", "synthetic/uv_cases.gltf"),
-    [](const auto& model) { return std::filesystem::path(model.param).stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Models, MikktspaceGltfOracle,
+                         testing::Values("models/NormalTangentTest/NormalTangentTest.glb",
+                                         "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                                         "models/BoomBox/BoomBox.gltf", "synthetic/uv_cases.gltf"),
+                         [](const auto& model) { return std::filesystem::path(model.param).stem().string(); });
 
 } // namespace

@@ -40,8 +40,8 @@ inline bool hasNoDirection(const MeshView& mesh, std::size_t corner)
 // Our tangents of one mesh against the oracle's, from oracle[first] on: w is equal everywhere; the
 // result counts the corners that are over 0.05 degrees apart (float sums in another order, next
 // to nearly cancelling ones, stay below).
-inline std::size_t cornersApart(const MeshView& mesh, const std::vector<glm::vec4>& oracle,
-                                std::size_t first, const std::string& name)
+inline std::size_t cornersApart(const MeshView& mesh, const std::vector<glm::vec4>& oracle, std::size_t first,
+                                const std::string& name)
 {
     const std::vector<glm::vec4> ours = mikktspaceTangents(mesh);
     EXPECT_EQ(ours.size(), mesh.indices.size()) << name;

@@ -33,8 +33,7 @@ Arrays readObj(const std::filesystem::path& file)
         } else if (word == "f") {
             std::vector<std::uint32_t> polygon;
             std::array<unsigned, 3> k{};
-            while (line >> word
-                   && std::sscanf(word.c_str(), "%u/%u/%u", &k[0], &k[1], &k[2]) == 3) {
+            while (line >> word && std::sscanf(word.c_str(), "%u/%u/%u", &k[0], &k[1], &k[2]) == 3) {
                 const auto [place, isNew] = seen.try_emplace(k, std::uint32_t(a.positions.size()));
                 if (isNew)
                     a.add(positions.at(k[0] - 1), normals.at(k[2] - 1), texcoords.at(k[1] - 1));
@@ -52,8 +51,8 @@ class MikktspaceOracle : public testing::TestWithParam<const char*> {};
 TEST_P(MikktspaceOracle, agreesOnObjModel)
 {
     const std::filesystem::path model = std::filesystem::path(COTAN_SHARED_DATA) / GetParam();
-    const std::filesystem::path oracle = std::filesystem::path(COTAN_SHARED_DATA) / "mikktspace"
-        / (model.stem().string() + ".mikk.f32");
+    const std::filesystem::path oracle =
+        std::filesystem::path(COTAN_SHARED_DATA) / "mikktspace" / (model.stem().string() + ".mikk.f32");
     if (!std::filesystem::exists(model) || !std::filesystem::exists(oracle))
         GTEST_SKIP() << "needs " << model << " and " << oracle;
     const Arrays a = readObj(model);
@@ -65,11 +64,8 @@ TEST_P(MikktspaceOracle, agreesOnObjModel)
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, MikktspaceOracle,
-                         testing::Values("bake/bunny/bunny_low.obj",
-                                         "classic/normal_map_stress_test_low.obj",
+                         testing::Values("bake/bunny/bunny_low.obj", "classic/normal_map_stress_test_low.obj",
                                          "classic/teapot_patches.obj"),
-                         [](const auto& model) {
-                             return std::filesystem::path(model.param).stem().string();
-                         });
+                         [](const auto& model) { return std::filesystem::path(model.param).stem().string(); });
 
 } // namespace

@@ -49,13 +49,11 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Tangents,
-                         testing::Values(Kind{"mikktspace",
-                                              [](const cotan::MeshView& mesh) {
-                                                  return cotan::mikktspaceTangents(mesh);
-                                              }},
-                                         Kind{"vertex", cotan::vertexTangents}),
-                         [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Tangents,
+    testing::Values(Kind{"mikktspace", [](const cotan::MeshView& mesh) { return cotan::mikktspaceTangents(mesh); }},
+                    Kind{"vertex", cotan::vertexTangents}),
+    [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST_P(Tangents, followIncreasingU) { expectAll(flatGrid(4, {1, 0}, {0, 1}), {1, 0, 0}, 1); }
 
@@ -67,15 +65,9 @@ TEST_P(Tangents, bitangentPointsUpInTheImage)
     EXPECT_LT(glm::length(up - glm::vec3(0, 1, 0)), 1e-6f); // v grows along -y in this grid
 }
 
-TEST_P(Tangents, mirroredUFlipsTangentAndHandedness)
-{
-    expectAll(flatGrid(4, {-1, 0}, {0, 1}), {-1, 0, 0}, -1);
-}
+TEST_P(Tangents, mirroredUFlipsTangentAndHandedness) { expectAll(flatGrid(4, {-1, 0}, {0, 1}), {-1, 0, 0}, -1); }
 
-TEST_P(Tangents, mirroredVFlipsHandednessOnly)
-{
-    expectAll(flatGrid(4, {1, 0}, {0, -1}), {1, 0, 0}, -1);
-}
+TEST_P(Tangents, mirroredVFlipsHandednessOnly) { expectAll(flatGrid(4, {1, 0}, {0, -1}), {1, 0, 0}, -1); }
 
 TEST_P(Tangents, rotationRotates)
 {
@@ -169,9 +161,7 @@ TEST_P(Tangents, pointEastOnASphere)
 TEST_P(Tangents, mirrorLineKeepsBothSides)
 {
     // u = |x - 1/2|: the corners on the line x = 1/2 belong to either side.
-    const Arrays a = gridOf(4, [](float x, float y) {
-        return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}};
-    });
+    const Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     const std::vector<glm::vec4> found = tangents(a);
     for (std::size_t f = 0; f < found.size(); f += 3) {
         float middle = 0;
@@ -303,8 +293,7 @@ TEST_P(Tangents, manyTrianglesAtOneVertexOrEdgeStayLinear)
     for (std::uint32_t i = 0; i < n; ++i) {
         fan.indices.insert(fan.indices.end(), {0, i + 1, i + 2});
         book.indices.insert(book.indices.end(), {n + 1, n + 2, i}); // all edges run the same way
-        closedBook.indices.insert(closedBook.indices.end(),
-                                  {i % 2 ? n + 1 : n + 2, i % 2 ? n + 2 : n + 1, i});
+        closedBook.indices.insert(closedBook.indices.end(), {i % 2 ? n + 1 : n + 2, i % 2 ? n + 2 : n + 1, i});
     }
     expectSound(fan);
     expectSound(book);
@@ -321,8 +310,7 @@ TEST(MikktspaceTangents, weighByTheAngleAtTheCorner)
     const std::uint32_t right = a.add({1, 0, 0}, n, {1, 0}), left = a.add({-1, 1, 0}, n, {-1, 0});
     a.indices = {o, right, up, o, up, left};
     // Second triangle: P(u,v) with P(0,-1) = (0,1) and P(-1,0) = (-1,1): dP/du = (1,-1).
-    const glm::vec3 expected =
-        glm::normalize(90.0f * glm::vec3(1, 0, 0) + 45.0f * glm::normalize(glm::vec3(1, -1, 0)));
+    const glm::vec3 expected = glm::normalize(90.0f * glm::vec3(1, 0, 0) + 45.0f * glm::normalize(glm::vec3(1, -1, 0)));
     const std::vector<glm::vec4> found = cotan::mikktspaceTangents(a.view());
     EXPECT_LT(glm::length(glm::vec3(found[0]) - expected), 1e-6f);
     EXPECT_EQ(found[0], found[3]);
@@ -335,8 +323,7 @@ TEST(VertexTangents, weighEveryTriangleAlike)
     const std::uint32_t o = a.add({0, 0, 0}, n, {0, 0}), up = a.add({0, 1, 0}, n, {0, -1});
     const std::uint32_t right = a.add({1, 0, 0}, n, {1, 0}), left = a.add({-1, 1, 0}, n, {-1, 0});
     a.indices = {o, right, up, o, up, left};
-    const glm::vec3 expected =
-        glm::normalize(glm::vec3(1, 0, 0) + glm::normalize(glm::vec3(1, -1, 0)));
+    const glm::vec3 expected = glm::normalize(glm::vec3(1, 0, 0) + glm::normalize(glm::vec3(1, -1, 0)));
     const std::vector<glm::vec4> found = cotan::vertexTangents(a.view());
     EXPECT_LT(glm::length(glm::vec3(found[0]) - expected), 1e-6f);
     EXPECT_EQ(found[0], found[3]);
@@ -408,9 +395,7 @@ TEST(Mikktspace, doesNotDependOnTheNumberOfThreads)
 
 TEST(SplitMirrored, separatesTheSidesOfAMirrorLineOnly)
 {
-    const Arrays a = gridOf(4, [](float x, float y) {
-        return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}};
-    });
+    const Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     const cotan::VertexSplit split = cotan::splitMirrored(a.view());
     ASSERT_EQ(split.sources.size(), a.positions.size() + 5); // five vertices on the line
     for (std::size_t i = a.positions.size(); i < split.sources.size(); ++i)

@@ -23,8 +23,7 @@ protected:
         if (!std::filesystem::exists(model()))
             GTEST_SKIP() << "no " << model();
         for (const char* const name : {"out.glb", "out.gltf"}) {
-            const ToolRun run = runTool({"tangents", model().string(), "--replace", "-o", name},
-                                        folder.path(), 60);
+            const ToolRun run = runTool({"tangents", model().string(), "--replace", "-o", name}, folder.path(), 60);
             ASSERT_EQ(run.code, 0) << run.err;
         }
     }
@@ -38,9 +37,9 @@ TEST_P(TangentsWritten, passKhronosValidator)
     const std::filesystem::path npm = COTAN_NPM;
     if (!std::filesystem::exists(npm / "installed-lock.json"))
         GTEST_SKIP() << "scripts/npm-packages could not install gltf-validator in " << npm;
-    const std::string command = "node '" COTAN_SOURCE_DIR "/tests/npm/validate.mjs' '"
-        + (npm / "node_modules").string() + "' '" + (folder / "out.glb").string() + "' '"
-        + (folder / "out.gltf").string() + "' > '" + (folder / "log").string() + "' 2>&1";
+    const std::string command = "node '" COTAN_SOURCE_DIR "/tests/npm/validate.mjs' '" + (npm / "node_modules").string()
+        + "' '" + (folder / "out.glb").string() + "' '" + (folder / "out.gltf").string() + "' > '"
+        + (folder / "log").string() + "' 2>&1";
     const int code = std::system(command.c_str());
     const std::string log = readWhole(folder / "log");
     EXPECT_EQ(code, 0) << log;
@@ -119,8 +118,7 @@ TEST_P(TangentsWritten, keepAllOtherJson)
     for (const char* const name : {"out.glb", "out.gltf"}) {
         const auto after = openGltfDocument(folder / name);
         ASSERT_TRUE(after);
-        EXPECT_EQ(json::diff(unrelated(before->root), unrelated(after->root)), json::array())
-            << name;
+        EXPECT_EQ(json::diff(unrelated(before->root), unrelated(after->root)), json::array()) << name;
     }
 }
 
@@ -135,14 +133,13 @@ TEST_P(TangentsWritten, areEqualToMikktspace)
     EXPECT_EQ(report["whole"]["directions"]["max_degrees"], 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, TangentsWritten,
-    ::testing::Values("NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-                      "FlightHelmet/FlightHelmet.gltf", "GlamVelvetSofa/GlamVelvetSofa.glb",
-                      "SketchfabCat/scene.gltf", "SunglassesKhronos/SunglassesKhronos.glb",
-                      "VertexColorTest/VertexColorTest.glb",
-                      "AnisotropyStrengthTest/AnisotropyStrengthTest.glb"),
-    [](const auto& m) { return std::filesystem::path(m.param).parent_path().string(); });
+INSTANTIATE_TEST_SUITE_P(Models, TangentsWritten,
+                         ::testing::Values("NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                                           "FlightHelmet/FlightHelmet.gltf", "GlamVelvetSofa/GlamVelvetSofa.glb",
+                                           "SketchfabCat/scene.gltf", "SunglassesKhronos/SunglassesKhronos.glb",
+                                           "VertexColorTest/VertexColorTest.glb",
+                                           "AnisotropyStrengthTest/AnisotropyStrengthTest.glb"),
+                         [](const auto& m) { return std::filesystem::path(m.param).parent_path().string(); });
 
 } // namespace
 } // namespace cotan

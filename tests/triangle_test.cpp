@@ -88,7 +88,7 @@ TEST(Triangle, changesSlopesByAFactorBetweenTheCosineOfTheLeanAndOne)
     for (int i = 0; i < 20000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f64::cotan_triangle v = f64::cotan_triangle_of_edges(t.dp1, t.dp2, t.duv1, t.duv2, t.n);
-        const f64::cotan_frame triangle = f64::cotan_frame_triangle(t.n, v.u, v.v), pixel = frameOf(t);
+        const f64::cotan_frame triangle = f64::cotan_frame_of_triangle(t.n, v.u, v.v), pixel = frameOf(t);
         const double factor = glm::length(triangle.t) / glm::length(pixel.t);
         const double lean = std::abs(glm::dot(t.n, glm::normalize(glm::cross(t.dp1, t.dp2))));
         ASSERT_LE(factor, 1 + 1e-12);
@@ -105,7 +105,7 @@ TEST(Triangle, fusedEqualsTotal)
     for (int i = 0; i < 20000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f32::cotan_triangle v = vectorsOf(t);
-        const Vec expected = f64::cotan_apply(f64::cotan_frame_triangle(t.n, v.u, v.v), t.m);
+        const Vec expected = f64::cotan_apply(f64::cotan_frame_of_triangle(t.n, v.u, v.v), t.m);
         ASSERT_LT(degreesBetween(f32::cotan_perturb_triangle(t.n * 0.05, v.u, v.v, t.m), expected), 1e-4);
         const f32::cotan_triangle sound = f32::cotan_triangle_of_sound_edges(t.dp1, t.dp2, t.duv1, t.duv2, t.n);
         ASSERT_LT(glm::length(sound.u - v.u) + glm::length(sound.v - v.v), 1e-5);
@@ -182,7 +182,7 @@ TEST(Triangle, neverGivesNaN)
         const glm::vec3 p = f32::cotan_perturb_triangle(n, t.u, t.v, m);
         ASSERT_NEAR(glm::length(p), 1, 1e-5);
         // Also where U and V themselves are anything.
-        const glm::vec3 q = f32::cotan_apply(f32::cotan_frame_triangle(side, dp1, dp2), m);
+        const glm::vec3 q = f32::cotan_apply(f32::cotan_frame_of_triangle(side, dp1, dp2), m);
         ASSERT_NEAR(glm::length(q), 1, 1e-5);
         const f32::cotan_triangle moved = f32::cotan_triangle_transformed(t, dp1, dp2, side, 1.0f);
         ASSERT_TRUE(std::isfinite(moved.u.x + moved.u.y + moved.u.z + moved.v.x + moved.v.y + moved.v.z));
@@ -274,7 +274,8 @@ TEST(Pack, smoothInEightAndInFourBytes)
 TEST(Pack, smoothOfNothingStaysNothing)
 {
     const std::array normals{glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0)};
-    const Cotangents none{{glm::vec3(0), glm::vec3(kNan), glm::vec3(kInfinity)}, {glm::vec3(0), glm::vec3(0), glm::vec3(1)}};
+    const Cotangents none{{glm::vec3(0), glm::vec3(kNan), glm::vec3(kInfinity)},
+                          {glm::vec3(0), glm::vec3(0), glm::vec3(1)}};
     for (const std::uint32_t word : packSmooth4(normals, none)) {
         const f32::cotan_covectors c = f32::cotan_unpack_smooth4(normals[0], word);
         EXPECT_EQ(c.t, glm::vec3(0));
@@ -327,7 +328,8 @@ TEST(Pack, theBasisOfANormalIsOrthonormalEverywhere)
 
 TEST(Pack, unitCotangentsHaveALongerOneOfLengthOne)
 {
-    const Cotangents c{{{3, 0, 0}, {0, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e30f}}, {{0, 4, 0}, {0, 0, 0}, {1e-31f, 0, 0}, {1, 0, 0}}};
+    const Cotangents c{{{3, 0, 0}, {0, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e30f}},
+                       {{0, 4, 0}, {0, 0, 0}, {1e-31f, 0, 0}, {1, 0, 0}}};
     const Cotangents unit = unitCotangents(c);
     EXPECT_LT(glm::length(unit.u[0] - glm::vec3(0.75f, 0, 0)), 1e-6f);
     EXPECT_LT(glm::length(unit.v[0] - glm::vec3(0, 1, 0)), 1e-6f);

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "cotan/truth/tessellation.hpp"
 #include "cotan/truth/patch.hpp"
+#include "cotan/truth/tessellation.hpp"
 
 namespace cotan {
 namespace {
@@ -40,10 +40,8 @@ TEST(TruthSurface, derivativesAgreeWithFiniteDifferences)
         for (int i = 0; i < 100; ++i) {
             const double s = random.range(0.05, 0.95), t = random.range(0.05, 0.95);
             const SurfacePoint p = surface.at({s, t});
-            const glm::dvec3 ps =
-                (positionAt(surface, s + kStep, t) - positionAt(surface, s - kStep, t)) / (2 * kStep);
-            const glm::dvec3 nt =
-                (surface.at({s, t + kStep}).normal - surface.at({s, t - kStep}).normal) / (2 * kStep);
+            const glm::dvec3 ps = (positionAt(surface, s + kStep, t) - positionAt(surface, s - kStep, t)) / (2 * kStep);
+            const glm::dvec3 nt = (surface.at({s, t + kStep}).normal - surface.at({s, t - kStep}).normal) / (2 * kStep);
             EXPECT_LT(glm::length(ps - p.ps), 1e-6) << surface.name; // third derivatives up to 250, h^2 = 1e-10
             EXPECT_LT(glm::length(nt - p.nt), 1e-6) << surface.name;
         }

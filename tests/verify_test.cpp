@@ -65,7 +65,7 @@ TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
     EXPECT_GT(compared->views[2].degrees.count, 1000u); // from behind
     for (std::size_t side : {1, 3, 4})                  // from the sides and from above the quad is a line
         EXPECT_EQ(compared->views[side].degrees.count, 0u) << side;
-    EXPECT_NEAR(compared->all.mean, tilt, 1e-3);        // float
+    EXPECT_NEAR(compared->all.mean, tilt, 1e-3); // float
     EXPECT_NEAR(compared->all.maximum, tilt, 1e-2);
 }
 
@@ -129,7 +129,7 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
     options.frame = Frame::smooth;
     options.width = options.height = 32;
     options.maxDistance = 1;
-    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentSource::generated);
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({pair.high}, 0);
     ASSERT_TRUE(low && high);
     const auto baked = bake(*low, *high, options);
@@ -156,7 +156,7 @@ TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)
 {
     const Pair pair = tiltedPair(0.1);
     const BakeOptions options;
-    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentSource::generated);
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({pair.high}, 0);
     ASSERT_TRUE(low && high);
     const Image map = solidImage({kFlatTexel, 255});

@@ -61,7 +61,7 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
     if (s.twice > 0)
         warn(o, "{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
              percent(s.twice, s.covered));
-    const bool perTriangle = info(job.frame()).source != FrameSource::vertices && job.frame() != Frame::orthonormal;
+    const bool perTriangle = !readsVertices(job.frame()) && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o,
              "the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
@@ -161,9 +161,10 @@ Status run(const BakeCommandOptions& o)
                 {"seconds", {{"load", loadSeconds}, {"pad", baked->statistics.padSeconds}, {"write", writeSeconds}}},
                 {"peak_megabytes", peakMegabytes()}};
     if (!o.verify.empty()) {
-        const auto verified = verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake,
-                                          image, job->setup.options.stored.format, o.material, o.tangents != "stored"},
-                                         o.device, o.verify, o);
+        const auto verified =
+            verifyBake({job->lowScene, job->setup.low, job->setup.high, job->setup.options.bake, image,
+                        job->setup.options.stored.format, o.material, job->setup.options.tangents},
+                       o.device, o.verify, o);
         if (!verified)
             return verified.error();
         report["verify"] = *verified;

@@ -8,6 +8,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
 
@@ -15,7 +16,7 @@ namespace cotan::app {
 
 namespace {
 
-Result<NormalMapFormat> formatFromName(const std::string& option, const std::string& name)
+Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {
     const auto convention = conventionFromName(name);
     if (!convention) {
@@ -24,7 +25,7 @@ Result<NormalMapFormat> formatFromName(const std::string& option, const std::str
             names += (names.empty() ? "" : ", ") + std::string(preset.name);
         return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
     }
-    return formatInScene(*convention);
+    return inScene(*convention);
 }
 
 Result<StoredAs> storedAs(const BakeCommandOptions& o)
@@ -34,8 +35,8 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
-    as.format.expansion = o.expansion == "biased" ? COTAN_EXPAND_BIASED : COTAN_EXPAND_EXACT;
-    if (namedAsGltf(o.output) && (as.format.greenAlongV || as.format.channels != 0))
+    as.format.expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact;
+    if (namedAsGltf(o.output) && (greenAlongV(as.format) || as.format.channels != Channels::xyz))
         return usageError(
             fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
     as.type = o.bits == 8 ? PixelType::unorm8 : o.bits == 16 ? PixelType::unorm16 : PixelType::float32;
@@ -109,7 +110,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     options.bake.threads = o.threads;
     options.tiles = {o.udim};
     options.material = o.material;
-    options.tangents = o.tangents == "stored" ? TangentSource::stored : TangentSource::generated;
+    options.tangents = o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated;
     options.matchByName = o.matchByName;
     options.padding = o.padding;
     options.stored = *stored;

@@ -149,7 +149,7 @@ Status run(const ConvertCommandOptions& o)
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
         auto verified = verifyConversion(
-            {o.model, o.output, frames->from, frames->to, o.tangents == "generated", o.verify, o.device, o.memory}, o);
+            {o.model, o.output, frames->from, frames->to, frames->fromTangents, o.verify, o.device, o.memory}, o);
         if (!verified)
             return verified.error();
         report["verify"] = std::move(*verified);

@@ -72,15 +72,6 @@ Result<Scene> loadTold(const CommonOptions& common, int memory, const std::strin
     return loadSceneWithin(memory, file, pixels);
 }
 
-NormalMapFormat formatInScene(const Convention& convention)
-{
-    NormalMapFormat format;
-    format.expansion = int(convention.expansion);
-    format.channels = int(convention.channels);
-    format.greenAlongV = !convention.greenUp;
-    return format;
-}
-
 Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)
 {
     auto painter = openPainter(device, common.threads);

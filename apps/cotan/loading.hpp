@@ -38,9 +38,6 @@ Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
 // loadSceneWithin under a line of progress.
 Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels = Pixels::all);
 
-// The same as a material has it: v runs down in everything that was loaded.
-NormalMapFormat formatInScene(const Convention& convention);
-
 // Opens the device of that name, as openPainter does; where "auto" falls back to the reference renderer, a warning
 // says why. Errors: those of openPainter.
 Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common);

@@ -38,9 +38,9 @@ int runCommandLine(std::vector<std::string> words)
     using namespace cotan::app;
     Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
-                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
-                           addCostCommand})
+    for (const auto add :
+         {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,
+          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand})
         add(tool);
     return finish(tool.run(std::move(words), print));
 }

@@ -36,7 +36,7 @@ Status run(const MapConvertCommandOptions& o)
         const auto frame = parseFrame(o.frame);
         if (!frame)
             return frame.error();
-        options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentSource::stored : TangentSource::generated,
+        options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated,
                         o.material};
     }
     const auto done =

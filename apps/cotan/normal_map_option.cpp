@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/maps/texels.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/put_normal_map.hpp"
 #include "map_options.hpp"
 
@@ -59,7 +60,7 @@ Status applyNormalMap(const NormalMapOption& o, int memory, Scene& scene)
         return image.error();
     if (convention->channels != Channels::xyz)
         maps::unswizzle(*image, maps::swizzleOf(*image));
-    putNormalMap(scene, std::move(*image), formatInScene(*convention), o.material);
+    putNormalMap(scene, std::move(*image), inScene(*convention), o.material);
     return Done{};
 }
 

@@ -94,7 +94,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
-        deriveVertexFrames(picture.scene, frame, options.tangents == "generated");
+        deriveVertexFrames(picture.scene, frame,
+                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
     for (const std::string& line : picture.scene.warnings)
         warn(common, line);
     auto view = makeView(options, picture.scene);

@@ -66,7 +66,7 @@ Status run(const RenderCommandOptions& o)
     auto picture = openPicture(o.picture, o, {*frame, Frame::exact});
     if (!picture)
         return picture.error();
-    picture->view.frame = int(*frame);
+    picture->view.frame = *frame;
     picture->view.output = kShows.at(o.show);
 
     Stopwatch watch;

@@ -16,7 +16,7 @@ using shader_text::Form;
 struct ShaderCommandOptions : CommonOptions {
     std::string language;
     std::string frame = "cotangent";
-    std::string form;
+    std::string form, stage;
     std::string preset, channels, green, expansion;
     std::vector<std::string> sets;
     std::string differences = "shader";
@@ -88,6 +88,17 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
             return form.error();
         choice.form = *form;
     }
+    if (!o.stage.empty()) {
+        using shader_text::Stage;
+        const Result<Stage> stage = oneOf<Stage>("--stage", o.stage,
+                                                 {{"fragment", Stage::fragment},
+                                                  {"vertex", Stage::vertex},
+                                                  {"mesh", Stage::mesh},
+                                                  {"compute", Stage::compute}});
+        if (!stage)
+            return stage.error();
+        choice.stage = *stage;
+    }
     const Result<bool> caller = oneOf<bool>("--differences", o.differences, {{"shader", false}, {"caller", true}});
     if (!caller)
         return caller.error();
@@ -138,9 +149,15 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl or cpp").required().in("NAME");
     a.option("--frame", o.frame, "one of " + frameNames()).in("NAME");
-    a.option("--form", o.form,
-             "fused: frame and texel in one step (cotangent, gradient, orthonormal); total: the frame as "
-             "three covectors, for any input; readable: another word for total. Default: fused where there is one")
+    a.option(
+         "--form", o.form,
+         "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
+         "three covectors, for any input; readable: another word for total. Default: fused where there is one, but for "
+         "smooth")
+        .in("NAME");
+    a.option("--stage", o.stage,
+             "of the frame triangle: fragment, the pixel's part; vertex or mesh, what makes its two vectors there; "
+             "compute, both in one. Default: all")
         .in("NAME");
     a.option("--preset", o.preset,
              "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "

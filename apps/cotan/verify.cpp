@@ -29,7 +29,7 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
     if (!painter)
         return painter.error();
     device = (*painter)->device();
-    const auto first = drawModel(**painter, o.before, {std::move(*before), o.from, o.fromGenerated}, common);
+    const auto first = drawModel(**painter, o.before, {std::move(*before), o.from, o.fromTangents}, common);
     if (!first)
         return first.error();
     auto after = loadSceneWithin(o.memory, o.after);

@@ -14,8 +14,8 @@ namespace cotan::app {
 struct VerifyOptions {
     std::filesystem::path before, after; // models
     Frame from = Frame::mikktspace, to = Frame::cotangent;
-    bool fromGenerated = false;   // tangents of the original: generated instead of stored
-    std::filesystem::path folder; // for before-N.png, after-N.png, difference-N.png
+    TangentOrigin fromTangents = TangentOrigin::stored; // of the original
+    std::filesystem::path folder;                       // for before-N.png, after-N.png, difference-N.png
     std::string device;
     int memory = 0;
 };

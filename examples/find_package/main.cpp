@@ -2,8 +2,8 @@
 // installed Cotan.
 #include <cstdio>
 
-#include <cotan/cotangent_frame.hpp>
 #include <cotan/convention.hpp>
+#include <cotan/cotangent_frame.hpp>
 
 int main()
 {
@@ -23,8 +23,8 @@ int main()
 
     const CotangentFrame<float> frame = makeFrame(Frame::cotangent, n, d);
     const Covector3f perturbed = perturb(frame, m);
-    std::printf("t (%g %g %g)  b (%g %g %g)  n' (%.3f %.3f %.3f)\n", frame.t.x, frame.t.y, frame.t.z,
-                frame.b.x, frame.b.y, frame.b.z, perturbed.x, perturbed.y, perturbed.z);
+    std::printf("t (%g %g %g)  b (%g %g %g)  n' (%.3f %.3f %.3f)\n", frame.t.x, frame.t.y, frame.t.z, frame.b.x,
+                frame.b.y, frame.b.z, perturbed.x, perturbed.y, perturbed.z);
     // +u points along -x here, so the normal leans to -x; +v along +y, so it leans to -y.
     return perturbed.x < 0 && perturbed.y < 0 ? 0 : 1;
 }

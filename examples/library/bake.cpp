@@ -15,7 +15,8 @@ int main(int argc, char** argv)
     options.bake.frame = Frame::cotangent;
     options.bake.width = options.bake.height = 256;
     const auto baked = bakeModel(*low, {.scenes = {*std::move(high)}, .maps = {}}, options);
-    const auto written = baked ? writeImage(argc > 3 ? argv[3] : "map.png", baked->maps[0].image) : Status(baked.error());
+    const auto written =
+        baked ? writeImage(argc > 3 ? argv[3] : "map.png", baked->maps[0].image) : Status(baked.error());
     if (!written)
         return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 2;
 }

@@ -59,8 +59,8 @@ Vec3 shadingNormal(const Mesh& mesh, const RTCRayHit& r)
     const Vec2 edge1{uv1.x - uv0.x, uv1.y - uv0.y}, edge2{uv2.x - uv0.x, uv2.y - uv0.y};
     const Vec2 uv{uv0.x + edge1.x * r.hit.u + edge2.x * r.hit.v, uv0.y + edge1.y * r.hit.u + edge2.y * r.hit.v};
     const Vec3 p0 = mesh.positions[c[0]];
-    const Vec3 n = cotan_shader::cotan_perturb_normal_from_edges(normal, mesh.positions[c[1]] - p0,
-                                                                 mesh.positions[c[2]] - p0, edge1, edge2, sampleDomes(uv));
+    const Vec3 n = cotan_shader::cotan_perturb_normal_from_edges(
+        normal, mesh.positions[c[1]] - p0, mesh.positions[c[2]] - p0, edge1, edge2, sampleDomes(uv));
     // A thin sheet: a bump in front is a dent behind.
     const bool behind = dot(normal, Vec3{r.ray.dir_x, r.ray.dir_y, r.ray.dir_z}) > 0;
     return n * (behind ? -1.0f : 1.0f);

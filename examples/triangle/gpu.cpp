@@ -14,7 +14,8 @@ Gpu openGpu()
         throw std::runtime_error("no Vulkan device");
     gpu.physical = all.front();
     for (const auto& extension : gpu.physical.enumerateDeviceExtensionProperties())
-        gpu.meshShaders = gpu.meshShaders || std::string(extension.extensionName.data()) == VK_EXT_MESH_SHADER_EXTENSION_NAME;
+        gpu.meshShaders =
+            gpu.meshShaders || std::string(extension.extensionName.data()) == VK_EXT_MESH_SHADER_EXTENSION_NAME;
 
     vk::PhysicalDeviceMeshShaderFeaturesEXT meshShader;
     meshShader.meshShader = VK_TRUE;
@@ -53,7 +54,8 @@ Buffer makeBuffer(const Gpu& gpu, const void* data, std::size_t bytes)
     const std::size_t size = bytes > 0 ? bytes : 4;
     using U = vk::BufferUsageFlagBits;
     using M = vk::MemoryPropertyFlagBits;
-    b.buffer = vk::raii::Buffer(gpu.device, {{}, size, U::eStorageBuffer | U::eShaderDeviceAddress | U::eIndexBuffer | U::eTransferDst});
+    b.buffer = vk::raii::Buffer(
+        gpu.device, {{}, size, U::eStorageBuffer | U::eShaderDeviceAddress | U::eIndexBuffer | U::eTransferDst});
     const auto needs = b.buffer.getMemoryRequirements();
     const vk::MemoryAllocateFlagsInfo flags(vk::MemoryAllocateFlagBits::eDeviceAddress);
     b.memory = vk::raii::DeviceMemory(
@@ -66,11 +68,20 @@ Buffer makeBuffer(const Gpu& gpu, const void* data, std::size_t bytes)
     return b;
 }
 
-Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::ImageUsageFlags usage, vk::ImageAspectFlags aspect)
+Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::ImageUsageFlags usage,
+                  vk::ImageAspectFlags aspect)
 {
     Target t;
-    t.image = vk::raii::Image(gpu.device, {{}, vk::ImageType::e2D, format, {size.width, size.height, 1}, 1, 1,
-                                           vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage});
+    t.image = vk::raii::Image(gpu.device,
+                              {{},
+                               vk::ImageType::e2D,
+                               format,
+                               {size.width, size.height, 1},
+                               1,
+                               1,
+                               vk::SampleCountFlagBits::e1,
+                               vk::ImageTiling::eOptimal,
+                               usage});
     const auto needs = t.image.getMemoryRequirements();
     t.memory = vk::raii::DeviceMemory(gpu.device, {needs.size, memoryType(gpu, needs.memoryTypeBits, {})});
     t.image.bindMemory(*t.memory, 0);
@@ -78,18 +89,19 @@ Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::Imag
     return t;
 }
 
-void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect, vk::ImageLayout from,
-             vk::ImageLayout to)
+void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
+             vk::ImageLayout from, vk::ImageLayout to)
 {
     using S = vk::PipelineStageFlagBits2;
     using A = vk::AccessFlagBits2;
-    const vk::ImageMemoryBarrier2 b(S::eAllCommands, A::eMemoryWrite, S::eAllCommands, A::eMemoryRead | A::eMemoryWrite, from,
-                                    to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image, {aspect, 0, 1, 0, 1});
+    const vk::ImageMemoryBarrier2 b(S::eAllCommands, A::eMemoryWrite, S::eAllCommands, A::eMemoryRead | A::eMemoryWrite,
+                                    from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
+                                    {aspect, 0, 1, 0, 1});
     commands.pipelineBarrier2(vk::DependencyInfo({}, nullptr, nullptr, b));
 }
 
-vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::span<const Stage> stages, vk::Format color,
-                                vk::Extent2D size)
+vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::span<const Stage> stages,
+                                vk::Format color, vk::Extent2D size)
 {
     std::vector<vk::raii::ShaderModule> modules;
     std::vector<vk::PipelineShaderStageCreateInfo> infos;
@@ -113,7 +125,8 @@ vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::
     attachment.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
     const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, attachment);
     const vk::PipelineRenderingCreateInfo rendering(0, color, vk::Format::eD32Sfloat);
-    vk::GraphicsPipelineCreateInfo info({}, infos, &input, &assembly, nullptr, &view, &raster, &samples, &depth, &blend, nullptr, layout);
+    vk::GraphicsPipelineCreateInfo info({}, infos, &input, &assembly, nullptr, &view, &raster, &samples, &depth, &blend,
+                                        nullptr, layout);
     info.pNext = &rendering;
     return vk::raii::Pipeline(gpu.device, nullptr, info);
 }

@@ -36,15 +36,16 @@ struct Target {
     vk::raii::DeviceMemory memory{nullptr};
     vk::raii::ImageView view{nullptr};
 };
-Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::ImageUsageFlags usage, vk::ImageAspectFlags aspect);
+Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::ImageUsageFlags usage,
+                  vk::ImageAspectFlags aspect);
 
 // Waits for all that was written, and turns the image round for what comes.
-void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect, vk::ImageLayout from,
-             vk::ImageLayout to);
+void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
+             vk::ImageLayout from, vk::ImageLayout to);
 
 struct Stage {
     vk::ShaderStageFlagBits stage;
     std::span<const std::uint32_t> code; // SPIR-V
 };
-vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::span<const Stage> stages, vk::Format color,
-                                vk::Extent2D size);
+vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::span<const Stage> stages,
+                                vk::Format color, vk::Extent2D size);

@@ -79,7 +79,8 @@ Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
     p.packed = makeBuffer(gpu, nullptr, 0);
     p.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
     if (name == "provoking") {
-        const cotan::ProvokingMesh own = cotan::provokingMesh(mesh.indices, mesh.positions.size(), cotan::ProvokingVertex::first);
+        const cotan::ProvokingMesh own =
+            cotan::provokingMesh(mesh.indices, mesh.positions.size(), cotan::ProvokingVertex::first);
         p.corners = makeBuffer(gpu, own.corners);
         p.sources = makeBuffer(gpu, own.sources);
         p.indices = makeBuffer(gpu, own.indices);
@@ -113,18 +114,20 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
         resolve = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, visibility_comp}}, format, kSize);
 
     const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
-    const Draw constants{p.positions.address, p.normals.address, p.texcoords.address, p.corners.address, p.sources.address,
-                         p.packed.address, ids.address, result.address, triangles};
+    const Draw constants{p.positions.address, p.normals.address, p.texcoords.address,
+                         p.corners.address,   p.sources.address, p.packed.address,
+                         ids.address,         result.address,    triangles};
     const vk::raii::CommandBuffers list(gpu.device, {*gpu.pool, vk::CommandBufferLevel::ePrimary, 1});
     const vk::raii::CommandBuffer& commands = list.front();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     commands.pushConstants<Draw>(*layout, everywhere, 0, constants);
     barrier(commands, *color.image, A::eColor, L::eUndefined, L::eColorAttachmentOptimal);
     barrier(commands, *depth.image, A::eDepth, L::eUndefined, L::eDepthAttachmentOptimal);
-    const vk::RenderingAttachmentInfo colorInfo(*color.view, L::eColorAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-                                                vk::AttachmentStoreOp::eStore);
-    const vk::RenderingAttachmentInfo depthInfo(*depth.view, L::eDepthAttachmentOptimal, {}, {}, {}, vk::AttachmentLoadOp::eClear,
-                                                vk::AttachmentStoreOp::eDontCare, vk::ClearDepthStencilValue(1, 0));
+    const vk::RenderingAttachmentInfo colorInfo(*color.view, L::eColorAttachmentOptimal, {}, {}, {},
+                                                vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore);
+    const vk::RenderingAttachmentInfo depthInfo(*depth.view, L::eDepthAttachmentOptimal, {}, {}, {},
+                                                vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eDontCare,
+                                                vk::ClearDepthStencilValue(1, 0));
     commands.beginRendering(vk::RenderingInfo({}, vk::Rect2D({0, 0}, kSize), 1, 0, colorInfo, &depthInfo));
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     if (way.meshShader) {
@@ -136,7 +139,8 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     commands.endRendering();
     barrier(commands, *color.image, A::eColor, L::eColorAttachmentOptimal, L::eTransferSrcOptimal);
     const vk::BufferImageCopy region(0, 0, 0, {A::eColor, 0, 0, 1}, {}, {kSize.width, kSize.height, 1});
-    commands.copyImageToBuffer(*color.image, L::eTransferSrcOptimal, way.visibility ? *ids.buffer : *result.buffer, region);
+    commands.copyImageToBuffer(*color.image, L::eTransferSrcOptimal, way.visibility ? *ids.buffer : *result.buffer,
+                               region);
     if (way.visibility) {
         using P = vk::PipelineStageFlagBits2;
         const vk::MemoryBarrier2 written(P::eTransfer, vk::AccessFlagBits2::eTransferWrite, P::eComputeShader,
@@ -160,7 +164,8 @@ bool write(const char* file, const float* pixels, bool picture)
     std::fprintf(out, picture ? "P6\n%u %u\n255\n" : "PF\n%u %u\n-1.0\n", kSize.width, kSize.height);
     for (std::uint32_t row = 0; row < kSize.height; ++row)
         for (std::uint32_t column = 0; column < kSize.width; ++column) {
-            const float* n = pixels + 4 * ((picture ? row : kSize.height - 1 - row) * kSize.width + column); // PFM begins at the bottom
+            const float* n = pixels
+                + 4 * ((picture ? row : kSize.height - 1 - row) * kSize.width + column); // PFM begins at the bottom
             const float light = std::max(0.0f, -0.4264f * n[0] + 0.6396f * n[1] + 0.6396f * n[2]);
             const auto grey = static_cast<unsigned char>(n[3] > 0 ? 255 * std::pow(0.1f + 0.9f * light, 1 / 2.2f) : 34);
             const unsigned char rgb[3] = {grey, grey, grey};
@@ -178,8 +183,10 @@ try {
         if (count > 2 && std::string(words[1]) == w.name)
             way = &w;
     if (!way)
-        return std::fprintf(stderr, "usage: triangle_example provoking|read|smooth|mesh|visibility|derivatives picture.ppm "
-                                    "[normals.pfm] [sheets|teapot|MODEL]\n"), 1;
+        return std::fprintf(stderr,
+                            "usage: triangle_example provoking|read|smooth|mesh|visibility|derivatives picture.ppm "
+                            "[normals.pfm] [sheets|teapot|MODEL]\n"),
+               1;
     const std::string what = count > 4 ? words[4] : "sheets";
     const Mesh mesh = what == "sheets" ? sheets() : what == "teapot" ? teapot() : model(what);
     const Gpu gpu = openGpu();

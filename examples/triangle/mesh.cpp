@@ -66,8 +66,7 @@ Mesh teapot() { return placed(cotan::makeTeapot(12)); }
 
 Mesh splitAtMirrors(const Mesh& mesh)
 {
-    const cotan::VertexSplit split =
-        cotan::splitMirrored({mesh.positions, mesh.normals, mesh.texcoords, mesh.indices});
+    const cotan::VertexSplit split = cotan::splitMirrored({mesh.positions, mesh.normals, mesh.texcoords, mesh.indices});
     Mesh out;
     out.indices = split.indices;
     for (const std::uint32_t source : split.sources) {

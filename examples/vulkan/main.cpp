@@ -68,7 +68,8 @@ Buffer makeBuffer(VkPhysicalDevice gpu, VkDevice device, VkDeviceSize size, VkBu
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device, b.buffer, &needs);
     const VkMemoryAllocateInfo allocation{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size,
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+        .allocationSize = needs.size,
         .memoryTypeIndex = memoryType(gpu, needs.memoryTypeBits,
                                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
     check(vkAllocateMemory(device, &allocation, nullptr, &b.memory), "vkAllocateMemory");
@@ -79,7 +80,8 @@ Buffer makeBuffer(VkPhysicalDevice gpu, VkDevice device, VkDeviceSize size, VkBu
 
 VkShaderModule makeShader(VkDevice device, const uint32_t* code, size_t bytes)
 {
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = bytes, .pCode = code};
+    const VkShaderModuleCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = bytes, .pCode = code};
     VkShaderModule module;
     check(vkCreateShaderModule(device, &info, nullptr, &module), "vkCreateShaderModule");
     return module;
@@ -87,35 +89,57 @@ VkShaderModule makeShader(VkDevice device, const uint32_t* code, size_t bytes)
 
 VkPipeline makePipeline(VkDevice device, VkPipelineLayout layout, VkShaderModule vertex, VkShaderModule fragment)
 {
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, .stage = VK_SHADER_STAGE_VERTEX_BIT, .module = vertex, .pName = "main"},
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, .stage = VK_SHADER_STAGE_FRAGMENT_BIT, .module = fragment, .pName = "main"}};
+    const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                       .stage = VK_SHADER_STAGE_VERTEX_BIT,
+                                                       .module = vertex,
+                                                       .pName = "main"},
+                                                      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                       .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+                                                       .module = fragment,
+                                                       .pName = "main"}};
     const VkVertexInputBindingDescription binding{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
-                                                            {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
-                                                            {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)}};
-    const VkPipelineVertexInputStateCreateInfo input{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO, .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &binding, .vertexAttributeDescriptionCount = 3, .pVertexAttributeDescriptions = attributes};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-                                                          .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkVertexInputAttributeDescription attributes[] = {
+        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
+        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
+        {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)}};
+    const VkPipelineVertexInputStateCreateInfo input{.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+                                                     .vertexBindingDescriptionCount = 1,
+                                                     .pVertexBindingDescriptions = &binding,
+                                                     .vertexAttributeDescriptionCount = 3,
+                                                     .pVertexAttributeDescriptions = attributes};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
     const VkViewport viewport{0, 0, float(kWidth), float(kHeight), 0, 1};
     const VkRect2D scissor{{0, 0}, {kWidth, kHeight}};
-    const VkPipelineViewportStateCreateInfo view{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1,
-                                                 .pViewports = &viewport, .scissorCount = 1, .pScissors = &scissor};
-    const VkPipelineRasterizationStateCreateInfo raster{.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+    const VkPipelineViewportStateCreateInfo view{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+                                                 .viewportCount = 1,
+                                                 .pViewports = &viewport,
+                                                 .scissorCount = 1,
+                                                 .pScissors = &scissor};
+    const VkPipelineRasterizationStateCreateInfo raster{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo samples{.sType =
+                                                           VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
                                                        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
     const VkPipelineColorBlendAttachmentState noBlend{.colorWriteMask = 0xf};
     const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                    .attachmentCount = 1, .pAttachments = &noBlend};
+                                                    .attachmentCount = 1,
+                                                    .pAttachments = &noBlend};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount = 1, .pColorAttachmentFormats = &kFormat};
-    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, .pNext = &rendering,
-                                            .stageCount = 2, .pStages = stages, .pVertexInputState = &input,
-                                            .pInputAssemblyState = &assembly, .pViewportState = &view,
-                                            .pRasterizationState = &raster, .pMultisampleState = &samples,
-                                            .pColorBlendState = &blend, .layout = layout};
+                                                  .colorAttachmentCount = 1,
+                                                  .pColorAttachmentFormats = &kFormat};
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &rendering,
+                                            .stageCount = 2,
+                                            .pStages = stages,
+                                            .pVertexInputState = &input,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &view,
+                                            .pRasterizationState = &raster,
+                                            .pMultisampleState = &samples,
+                                            .pColorBlendState = &blend,
+                                            .layout = layout};
     VkPipeline pipeline;
     check(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "vkCreateGraphicsPipelines");
     return pipeline;
@@ -127,11 +151,14 @@ void barrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImag
     const VkImageMemoryBarrier b{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
                                  .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
                                  .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
-                                 .oldLayout = from, .newLayout = to, .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = image,
+                                 .oldLayout = from,
+                                 .newLayout = to,
+                                 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                 .image = image,
                                  .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
-                         nullptr, 1, &b);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                         nullptr, 0, nullptr, 1, &b);
 }
 
 bool write(const char* file, const float* pixels, bool picture)
@@ -142,9 +169,11 @@ bool write(const char* file, const float* pixels, bool picture)
     std::fprintf(out, picture ? "P6\n%u %u\n255\n" : "PF\n%u %u\n-1.0\n", kWidth, kHeight);
     for (uint32_t row = 0; row < kHeight; ++row)
         for (uint32_t column = 0; column < kWidth; ++column) {
-            const float* n = pixels + 4 * ((picture ? row : kHeight - 1 - row) * kWidth + column); // PFM begins at the bottom
+            const float* n =
+                pixels + 4 * ((picture ? row : kHeight - 1 - row) * kWidth + column); // PFM begins at the bottom
             const float light = std::max(0.0f, -0.4264f * n[0] + 0.6396f * n[1] + 0.6396f * n[2]);
-            const unsigned char grey = static_cast<unsigned char>(n[3] > 0 ? 255 * std::pow(0.1f + 0.9f * light, 1 / 2.2f) : 34);
+            const unsigned char grey =
+                static_cast<unsigned char>(n[3] > 0 ? 255 * std::pow(0.1f + 0.9f * light, 1 / 2.2f) : 34);
             const unsigned char rgb[3] = {grey, grey, grey};
             std::fwrite(picture ? static_cast<const void*>(rgb) : n, picture ? 1 : 4, 3, out);
         }
@@ -160,7 +189,8 @@ int main(int count, char** words)
     addSheet(vertices, 1.2f, 3.14159265f - 0.4f);
 
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
-    const VkInstanceCreateInfo instanceInfo{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
+    const VkInstanceCreateInfo instanceInfo{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                            .pApplicationInfo = &application};
     VkInstance instance;
     check(vkCreateInstance(&instanceInfo, nullptr, &instance), "vkCreateInstance");
     VkPhysicalDevice gpu = VK_NULL_HANDLE;
@@ -168,10 +198,14 @@ int main(int count, char** words)
     vkEnumeratePhysicalDevices(instance, &one, &gpu); // the first
     check(one == 1 ? VK_SUCCESS : VK_ERROR_INCOMPATIBLE_DRIVER, "no device");
     const float priority = 1; // queue family 0 draws on every desktop driver
-    const VkDeviceQueueCreateInfo queueInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
-    const VkPhysicalDeviceVulkan13Features features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, .dynamicRendering = VK_TRUE};
-    const VkDeviceCreateInfo deviceInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &features,
-                                        .queueCreateInfoCount = 1, .pQueueCreateInfos = &queueInfo};
+    const VkDeviceQueueCreateInfo queueInfo{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    const VkPhysicalDeviceVulkan13Features features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                                    .dynamicRendering = VK_TRUE};
+    const VkDeviceCreateInfo deviceInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                        .pNext = &features,
+                                        .queueCreateInfoCount = 1,
+                                        .pQueueCreateInfos = &queueInfo};
     VkDevice device;
     check(vkCreateDevice(gpu, &deviceInfo, nullptr, &device), "vkCreateDevice");
     VkQueue queue;
@@ -181,20 +215,28 @@ int main(int count, char** words)
     std::memcpy(input.data, vertices.data(), vertices.size() * sizeof(Vertex));
     const Buffer output = makeBuffer(gpu, device, kWidth * kHeight * 16, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 
-    const VkImageCreateInfo imageInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, .imageType = VK_IMAGE_TYPE_2D, .format = kFormat,
-                                      .extent = {kWidth, kHeight, 1}, .mipLevels = 1, .arrayLayers = 1, .samples = VK_SAMPLE_COUNT_1_BIT,
+    const VkImageCreateInfo imageInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                      .imageType = VK_IMAGE_TYPE_2D,
+                                      .format = kFormat,
+                                      .extent = {kWidth, kHeight, 1},
+                                      .mipLevels = 1,
+                                      .arrayLayers = 1,
+                                      .samples = VK_SAMPLE_COUNT_1_BIT,
                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     VkImage image;
     check(vkCreateImage(device, &imageInfo, nullptr, &image), "vkCreateImage");
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(device, image, &needs);
-    const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size,
+    const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                          .allocationSize = needs.size,
                                           .memoryTypeIndex = memoryType(gpu, needs.memoryTypeBits, 0)};
     VkDeviceMemory imageMemory;
     check(vkAllocateMemory(device, &allocation, nullptr, &imageMemory), "vkAllocateMemory");
     check(vkBindImageMemory(device, image, imageMemory, 0), "vkBindImageMemory");
-    const VkImageViewCreateInfo viewInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = image,
-                                         .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = kFormat,
+    const VkImageViewCreateInfo viewInfo{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                         .image = image,
+                                         .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                         .format = kFormat,
                                          .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
     VkImageView view;
     check(vkCreateImageView(device, &viewInfo, nullptr, &view), "vkCreateImageView");
@@ -209,18 +251,24 @@ int main(int count, char** words)
     const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     VkCommandPool pool;
     check(vkCreateCommandPool(device, &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-    const VkCommandBufferAllocateInfo commandsInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool, .commandBufferCount = 1};
+    const VkCommandBufferAllocateInfo commandsInfo{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool, .commandBufferCount = 1};
     VkCommandBuffer commands;
     check(vkAllocateCommandBuffers(device, &commandsInfo, &commands), "vkAllocateCommandBuffers");
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     barrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    const VkRenderingAttachmentInfo target{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO, .imageView = view,
+    const VkRenderingAttachmentInfo target{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                           .imageView = view,
                                            .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                           .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR, .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
-    const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = {{0, 0}, {kWidth, kHeight}},
-                                    .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target};
+                                           .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                           .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingInfo rendering{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                    .renderArea = {{0, 0}, {kWidth, kHeight}},
+                                    .layerCount = 1,
+                                    .colorAttachmentCount = 1,
+                                    .pColorAttachments = &target};
     vkCmdBeginRendering(commands, &rendering);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     const VkDeviceSize start = 0;
@@ -228,10 +276,12 @@ int main(int count, char** words)
     vkCmdDraw(commands, uint32_t(vertices.size()), 1, 0, 0);
     vkCmdEndRendering(commands);
     barrier(commands, image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {kWidth, kHeight, 1}};
+    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                   .imageExtent = {kWidth, kHeight, 1}};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, output.buffer, 1, &region);
     check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-    const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+    const VkSubmitInfo submit{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
     check(vkQueueSubmit(queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
     check(vkQueueWaitIdle(queue), "vkQueueWaitIdle");
 

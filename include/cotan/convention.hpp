@@ -10,6 +10,7 @@
 
 namespace cotan {
 
+// Expansion and Channels have the numbers of COTAN_EXPAND_... and COTAN_CHANNELS_... in shaders/cotan/normal.h.
 enum class Expansion {
     exact,        // zero is the middle code: (255c - 128)/127, and what its bits ask for elsewhere (expansionFor)
     biased,       // 2c - 1
@@ -34,12 +35,14 @@ enum class VDirection {
     up,   // v = 0 at the bottom row: OBJ, OpenGL tutorials, Blender, Unity
 };
 
+// How a normal map is stored: the one value that presets, words, materials, reports and codecs share. The portable text
+// takes it by toFormat.
 struct Convention {
     MapKind kind = MapKind::tangentSpace;
     Expansion expansion = Expansion::exact;
     Channels channels = Channels::xyz;
-    bool greenUp = true;               // green points up the picture
-    VDirection v = VDirection::down;   // of the uv that the map is used with
+    bool greenUp = true;             // green points up the picture
+    VDirection v = VDirection::down; // of the uv that the map is used with
 
     friend bool operator==(const Convention&, const Convention&) = default;
 };
@@ -63,19 +66,19 @@ std::string describe(const Convention& convention);
 
 // The form of an expansion for components of so many bits, as codes of shaders/cotan/normal.h. Exact has its
 // zero at the middle code, 128 or 32768; floats (32 bits) hold 0.5 as it is, so theirs is 2c - 1.
-constexpr int expansionFor(int expansion, int bits)
+constexpr int expansionFor(Expansion expansion, int bits)
 {
-    if (expansion != COTAN_EXPAND_EXACT)
-        return expansion;
+    if (expansion != Expansion::exact)
+        return static_cast<int>(expansion);
     return bits == 8 ? COTAN_EXPAND_EXACT : bits == 16 ? COTAN_EXPAND_EXACT16 : COTAN_EXPAND_BIASED;
 }
 
-// What the portable text needs. strength: factor on the slopes. bits: 8, 16 or 32 (floats) a component.
-template<class Format>
-Format toFormat(const Convention& c, double strength = 1, int bits = 8)
+// The same value for the portable text, f32:: or f64::cotan_normal_format, which also has to know of what precision
+// it reads. strength: factor on the slopes. bits: 8, 16 or 32 (floats) a component.
+template<class Format> Format toFormat(const Convention& c, double strength = 1, int bits = 8)
 {
     Format f;
-    f.expansion = expansionFor(static_cast<int>(c.expansion), bits);
+    f.expansion = expansionFor(c.expansion, bits);
     f.channels = static_cast<int>(c.channels);
     f.green = greenAlongV(c) ? 1 : -1;
     f.strength = static_cast<decltype(f.strength)>(strength);

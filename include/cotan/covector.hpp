@@ -22,8 +22,7 @@
 namespace cotan {
 
 // Three components of one kind. Arithmetic stays within the kind.
-template<class Real, class Kind>
-struct Triple {
+template<class Real, class Kind> struct Triple {
     using Raw = glm::vec<3, Real, glm::defaultp>;
 
     Real x = 0;
@@ -56,55 +55,51 @@ using Covector3d = Covector3<double>;
 
 // The pairing of a covector with a vector; for grad u and an edge it is the change of u along the
 // edge. It is the same number in every space, whatever the map between them.
-template<class Real>
-constexpr Real dot(Covector3<Real> c, Vector3<Real> v) { return c.x * v.x + c.y * v.y + c.z * v.z; }
-template<class Real>
-constexpr Real dot(Vector3<Real> v, Covector3<Real> c) { return dot(c, v); }
+template<class Real> constexpr Real dot(Covector3<Real> c, Vector3<Real> v)
+{
+    return c.x * v.x + c.y * v.y + c.z * v.z;
+}
+template<class Real> constexpr Real dot(Vector3<Real> v, Covector3<Real> c) { return dot(c, v); }
 
 // The plane spanned by two vectors, as a covector; its length is the area between them.
-template<class Real>
-constexpr Covector3<Real> cross(Vector3<Real> a, Vector3<Real> b)
+template<class Real> constexpr Covector3<Real> cross(Vector3<Real> a, Vector3<Real> b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 // The direction common to two planes.
-template<class Real>
-constexpr Vector3<Real> cross(Covector3<Real> a, Covector3<Real> b)
+template<class Real> constexpr Vector3<Real> cross(Covector3<Real> a, Covector3<Real> b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 // The Euclidean length. Lengths and angles are a property of the space (of its metric), not of
 // the kind; a non-uniform map changes them.
-template<class Real, class Kind>
-Real length(Triple<Real, Kind> a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
+template<class Real, class Kind> Real length(Triple<Real, Kind> a)
+{
+    return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
+}
 
 // a at length one; `otherwise` where a is zero or not finite.
-template<class Real, class Kind>
-Triple<Real, Kind> normalizeOr(Triple<Real, Kind> a, Triple<Real, Kind> otherwise)
+template<class Real, class Kind> Triple<Real, Kind> normalizeOr(Triple<Real, Kind> a, Triple<Real, Kind> otherwise)
 {
     const Real l = length(a);
     return l > 0 && std::isfinite(l) ? a * (1 / l) : otherwise;
 }
 
 // Angle between two of a kind in radians, accurate near 0 and pi. 0 if one of them is zero.
-template<class Real, class Kind>
-Real angle(Triple<Real, Kind> a, Triple<Real, Kind> b)
+template<class Real, class Kind> Real angle(Triple<Real, Kind> a, Triple<Real, Kind> b)
 {
     return std::atan2(glm::length(glm::cross(a.raw(), b.raw())), glm::dot(a.raw(), b.raw()));
 }
 
 // A vector and a covector with the same components: turning one kind into the other uses the
 // metric of the space they are in, so it is written out.
-template<class Real>
-constexpr Covector3<Real> lower(Vector3<Real> v) { return {v.x, v.y, v.z}; }
-template<class Real>
-constexpr Vector3<Real> raise(Covector3<Real> c) { return {c.x, c.y, c.z}; }
+template<class Real> constexpr Covector3<Real> lower(Vector3<Real> v) { return {v.x, v.y, v.z}; }
+template<class Real> constexpr Vector3<Real> raise(Covector3<Real> c) { return {c.x, c.y, c.z}; }
 
 // A linear map between spaces (the upper left 3x3 of an affine matrix; columns are the images of
 // the axes), with what covectors need beside it.
-template<class Real>
-class LinearMap {
+template<class Real> class LinearMap {
 public:
     using Matrix = glm::mat<3, 3, Real, glm::defaultp>;
 
@@ -164,8 +159,7 @@ enum class NormalTransform { undoScale, rotationOnly, inverseTranspose };
 // from M's columns: S their lengths (negative in x if M mirrors), R the columns divided by them.
 // Degenerate: a column of length zero, or a result of length zero, gives `n` normalised.
 template<class Real>
-Covector3<Real> transformNormal(NormalTransform way, const glm::mat<3, 3, Real, glm::defaultp>& m,
-                                Covector3<Real> n)
+Covector3<Real> transformNormal(NormalTransform way, const glm::mat<3, 3, Real, glm::defaultp>& m, Covector3<Real> n)
 {
     const Covector3<Real> fallback = normalizeOr(n, Covector3<Real>{0, 0, 1});
     if (way == NormalTransform::inverseTranspose)

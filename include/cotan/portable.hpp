@@ -17,8 +17,8 @@
 
 namespace cotan {
 
-// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: positive, from 2^-125 to below 2^127 (double: 2^-1021,
-// 2^1023).
+// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: positive, from 2^-125 to below 2^127 (double:
+// 2^-1021, 2^1023).
 inline float cotan_inverse_power_of_two(float m)
 {
     return std::bit_cast<float>(0x7f000000u - (std::bit_cast<std::uint32_t>(m) & 0x7f800000u));

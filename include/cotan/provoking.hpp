@@ -39,13 +39,13 @@ struct ProvokingMesh {
 //   vertexCount   all indices are below it. A vertex that no triangle uses is left out
 // An index out of range, a number of indices that is not a multiple of three, or 2^31 indices and more
 // give an empty result. Linear in time and memory.
-ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount,
-                            ProvokingVertex provoking);
+ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount, ProvokingVertex provoking);
 
 // Triangles from a strip or a fan, wound alike, for the function above. restart: the index that ends a
 // strip or fan and begins the next (0xff, 0xffff or 0xffffffff by the width of the indices). Left over
 // corners make no triangle. Triangles that repeat a vertex, as strips use to turn a corner, are dropped.
-std::vector<std::uint32_t> trianglesOfStrip(std::span<const std::uint32_t> indices, std::uint32_t restart = 0xffffffffu);
+std::vector<std::uint32_t> trianglesOfStrip(std::span<const std::uint32_t> indices,
+                                            std::uint32_t restart = 0xffffffffu);
 std::vector<std::uint32_t> trianglesOfFan(std::span<const std::uint32_t> indices, std::uint32_t restart = 0xffffffffu);
 
 } // namespace cotan

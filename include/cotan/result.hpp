@@ -23,8 +23,7 @@ struct Error {
 };
 
 // A value or an Error. Check with `if (!result)` before `*result`.
-template<class T>
-class Result {
+template<class T> class Result {
 public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
@@ -47,10 +46,7 @@ using Status = Result<Done>;
 
 inline Error inputError(std::string message) { return {ErrorKind::input, std::move(message)}; }
 inline Error usageError(std::string message) { return {ErrorKind::usage, std::move(message)}; }
-inline Error unavailableError(std::string message)
-{
-    return {ErrorKind::unavailable, std::move(message)};
-}
+inline Error unavailableError(std::string message) { return {ErrorKind::unavailable, std::move(message)}; }
 inline Error outputError(std::string message) { return {ErrorKind::output, std::move(message)}; }
 
 } // namespace cotan

@@ -14,6 +14,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/frame.hpp"
+
 namespace cotan {
 
 // A mesh as plain arrays. positions, normals and texcoords have one entry a vertex; normals are
@@ -48,6 +50,13 @@ std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0)
 // tangent of the vertex. Where there is none: some unit vector perpendicular to the normal, w = +1.
 std::vector<glm::vec4> vertexTangents(const MeshView& mesh);
 
+// The tangents that a frame reads, which readsTangents(frame): one of the two above. Empty for other frames.
+std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads = 0);
+
+// A tangent as frames take it: w * cross(n, xyz) along increasing v. glTF's TANGENT, and what the functions above make,
+// has it against increasing v. Its own inverse.
+inline glm::vec4 tangentAlongV(glm::vec4 gltf) { return {gltf.x, gltf.y, gltf.z, -gltf.w}; }
+
 // Gradients of u and v, per length unit of position. Covectors: transform them like normals.
 struct Cotangents {
     std::vector<glm::vec3> u; // one per vertex of the given arrays
@@ -80,5 +89,24 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
 // Copies the vertices that mirrored and unmirrored triangles share. Triangles without area in space
 // or uv go with the unmirrored ones where there are both.
 VertexSplit splitMirrored(const MeshView& mesh);
+
+// An attribute of the old vertices, given to the new ones. Empty stays empty.
+template<class T> std::vector<T> gathered(std::span<const T> values, const VertexSplit& split)
+{
+    std::vector<T> result;
+    if (values.empty())
+        return result;
+    result.reserve(split.sources.size());
+    for (const std::uint32_t source : split.sources)
+        result.push_back(values[source]);
+    return result;
+}
+
+// Both steps to the frame `smooth`: the mesh with mirrored and unmirrored triangles apart, and its cotangents.
+struct SplitCotangents {
+    VertexSplit split;
+    Cotangents cotangents; // one per new vertex
+};
+SplitCotangents splitSmoothCotangents(const MeshView& mesh);
 
 } // namespace cotan

@@ -71,7 +71,7 @@ COTAN_FUNCTION cotan_vec3 cost_triangle_scaled(cost_inputs i)
 }
 COTAN_FUNCTION cotan_vec3 cost_triangle(cost_inputs i)
 {
-    return cotan_apply(cotan_frame_triangle(i.n, i.triangle_u, i.triangle_v), i.m);
+    return cotan_apply(cotan_frame_of_triangle(i.n, i.triangle_u, i.triangle_v), i.m);
 }
 
 // ---- plain forms of the formulas, without totality ----------------------------------------

@@ -123,7 +123,7 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_transformed(
 //   u, v   U and V in the space of n
 // Total: non-finite U and V give t = b = 0.
 // Source: [2013], with the sum taken before the product; see the head of this file.
-COTAN_FUNCTION cotan_frame cotan_frame_triangle(cotan_vec3 n, cotan_vec3 u, cotan_vec3 v)
+COTAN_FUNCTION cotan_frame cotan_frame_of_triangle(cotan_vec3 n, cotan_vec3 u, cotan_vec3 v)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     bool finite = cotan_sum_abs(u) + cotan_sum_abs(v) <= COTAN_HUGE;
@@ -132,6 +132,22 @@ COTAN_FUNCTION cotan_frame cotan_frame_triangle(cotan_vec3 n, cotan_vec3 u, cota
     f.t = cross(f.n, finite ? u : zero);
     f.b = cross(f.n, finite ? v : zero);
     return f;
+}
+
+// The same in one step, from the edges of the triangle. n also says which side is outside, so it may be
+// turned on back faces. Equal to U and V of the vertices wherever n leans by less than 90 degrees from
+// the triangle's own normal.
+//   n             interpolated normal at the shaded point, any length; f.n is unit
+//   dpdx, dpdy    edges p1 - p0 and p2 - p0
+//   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
+// Total: a triangle without area, constant uv, non-finite input give t = b = 0.
+COTAN_FUNCTION cotan_frame cotan_frame_triangle(
+    cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+{
+    cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
+    cotan_vec3 unit = cotan_safe_normal(n, d.dpdx, d.dpdy);
+    cotan_triangle vectors = cotan_triangle_of_edges(dpdx, dpdy, duvdx, duvdy, unit);
+    return cotan_frame_of_triangle(unit, vectors.u, vectors.v);
 }
 
 #endif

@@ -60,13 +60,14 @@ public:
         if (options_.highMaps && showsNormals(options_.kind))
             for (std::size_t i = 0; i < probes.count; ++i)
                 if (hits.found(i))
-                    hits.normal.set(i, options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
-                                                                   double(hits.b2[i]), hits.normal.at(i)));
+                    hits.normal.set(i,
+                                    options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
+                                                                double(hits.b2[i]), hits.normal.at(i)));
     }
 
     // What the map says of each hit. Returns how many rays that took.
-    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits, std::span<const glm::ivec2> samples,
-                         Lanes3& values) const
+    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
+                         std::span<const glm::ivec2> samples, Lanes3& values) const
     {
         switch (options_.kind) {
         case BakeKind::normal: encode(points, hits.normal, values); return 0;
@@ -81,7 +82,8 @@ public:
         for (std::size_t i = 0; i < samples.size(); ++i)
             if (hits.found(i)) {
                 const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
-                const std::uint32_t pattern = std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
+                const std::uint32_t pattern =
+                    std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
                 values.set(i, {openness(where, hits.normal.at(i), pattern), 0, 1});
                 rays += std::size_t(options_.occlusionRays);
             }
@@ -132,12 +134,14 @@ struct Counts {
 // Bakes the texels of blocks of rows. One for each thread: keeps its memory.
 class BlockBaker {
 public:
-    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options, Baked& out)
+    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
+               Baked& out)
         : low_(low), baker_(baker), raster_(raster), options_(options), out_(out)
     {
     }
 
-    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and rays.
+    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and
+    // rays.
     void bake(int block, int first, int last, Counts& counts)
     {
         raster_.firsts(block, samples_);
@@ -170,7 +174,7 @@ private:
     // Returns how many rays were traced.
     std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
     {
-        pointsOf(low_, options_.frame, places, points_);
+        pointsOf(low_, places, points_);
         baker_.aim(points_, places, probes_);
         baker_.find(probes_, hits_);
         const std::size_t more = baker_.valuesOf(points_, probes_, hits_, samples, values_);
@@ -209,8 +213,8 @@ private:
     const BakeOptions& options_;
     Baked& out_;
     UvFirsts samples_;
-    std::size_t base_ = 0;          // the block's first texel
-    std::vector<glm::vec3> sums_;   // over samples
+    std::size_t base_ = 0;            // the block's first texel
+    std::vector<glm::vec3> sums_;     // over samples
     std::vector<std::uint8_t> found_; // how many samples of each texel found something
     LowPoints points_;
     Probes probes_;
@@ -234,9 +238,7 @@ void countTexels(const StateCounts& states, BakeStatistics& s)
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f) {
-        const glm::dvec2 a(low.texcoords[low.indices[3 * f]]), b(low.texcoords[low.indices[3 * f + 1]]),
-            c(low.texcoords[low.indices[3 * f + 2]]);
-        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        const double area = edgesOf(low.positions, low.texcoords, low.cornersOf(f)).uvArea2();
         statistics.mirroredTriangles += area > 0; // v runs down: charts that are not mirrored turn the other way
         statistics.degenerateTriangles += !(std::abs(area) > 0);
     }
@@ -254,7 +256,8 @@ glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
 
 } // namespace
 
-Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view)
+Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
+                              const View& view)
 {
     Image image = makeImage(view.width, view.height, PixelType::float32, "expected normals");
     Scene scene;
@@ -278,7 +281,7 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
             LowPoints point;
             Probes probe;
             Hits hit;
-            pointsOf(low, options.frame, {&place, 1}, point);
+            pointsOf(low, {&place, 1}, point);
             baker.aim(point, {&place, 1}, probe);
             baker.find(probe, hit);
             if (!hit.found(0))
@@ -294,12 +297,14 @@ Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, co
     return image;
 }
 
-Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                   const Progress& progress)
+Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Progress& progress)
 {
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
                                       low.positions.size(), options.cage.size()));
+    if (options.frame != low.frame)
+        return usageError(fmt::format("options.frame: expected {}, which the low surface was made for; found {}",
+                                      name(low.frame), name(options.frame)));
     const auto start = std::chrono::steady_clock::now();
     Baked out;
     out.width = options.width;

@@ -149,8 +149,8 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
     const glm::vec3 sidewards = direction - face * along;
     if (!(std::abs(along) > 0.05f * glm::length(direction)))
         return glm::vec3(0);
-    const float longest = std::sqrt(std::max({glm::dot(edge1, edge1), glm::dot(edge2, edge2),
-                                              glm::dot(edge2 - edge1, edge2 - edge1)}));
+    const float longest =
+        std::sqrt(std::max({glm::dot(edge1, edge1), glm::dot(edge2, edge2), glm::dot(edge2 - edge1, edge2 - edge1)}));
     for (const glm::vec3& n : t.normals)
         if (!(glm::dot(n, face) > 0.1f))
             return glm::vec3(0);
@@ -169,7 +169,8 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
     glm::vec3 y = flat;
     const int kSteps = 2; // the second moves y by the square of the first
     for (int step = 0;; ++step) {
-        const float c1 = glm::dot(glm::cross(y, edge2), area) / area2, c2 = glm::dot(glm::cross(edge1, y), area) / area2;
+        const float c1 = glm::dot(glm::cross(y, edge2), area) / area2,
+                    c2 = glm::dot(glm::cross(edge1, y), area) / area2;
         const float b[3] = {1 - c1 - c2, c1, c2};
         if (step == kSteps) {
             glm::vec3 normal = 6 * b[0] * b[1] * b[2] * middle;
@@ -183,7 +184,8 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
         float height = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::vec3 n = t.normals[i], d = y - (t.positions[i] - t.positions[0]), s = above(d, n, face);
-            height += b[i] * (2.0f / 3 * glm::dot(s, face) - glm::dot(s, times(t.shapes[i], s)) / glm::dot(n, face) / 6);
+            height +=
+                b[i] * (2.0f / 3 * glm::dot(s, face) - glm::dot(s, times(t.shapes[i], s)) / glm::dot(n, face) / 6);
         }
         y = flat + sidewards * (height / along);
         if (!(glm::length(y - flat) < longest))

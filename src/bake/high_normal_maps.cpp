@@ -44,7 +44,6 @@ glm::vec4 texelAt(const Image& image, const Sampler& sampler, glm::dvec2 uv)
 Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame frame)
 {
     HighNormalMaps maps;
-    maps.frame_ = frame;
     bool anyMap = false;
     for (Scene& scene : scenes) {
         std::map<int, const Image*> kept;
@@ -64,15 +63,17 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
                 image->second = &maps.images_.back();
             }
             const Image& picture = *image->second;
-            if (picture.pixelCount() == 0 || picture.data.size() < picture.pixelCount() * picture.bytesPerPixel())
+            if (!hasPixels(picture))
                 continue;
-            auto surface = makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentSource::stored);
+            auto surface =
+                makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentOrigin::stored);
             if (!surface)
                 return surface.error();
             part.surface = std::move(*surface);
             part.image = &picture;
             part.sampler = map.sampler;
-            part.format = toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
+            part.format =
+                toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
             ++maps.mapped_;
         }
     }
@@ -82,23 +83,23 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
     return maps;
 }
 
-glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2, glm::vec3 smooth) const
+glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangle, double b1, double b2,
+                                   glm::vec3 smooth) const
 {
     const Part& part = parts_[instance];
     if (!part.image)
         return smooth;
     const LowSurface& s = part.surface;
-    const std::uint32_t* v = &s.indices[3 * std::size_t(triangle)];
-    const glm::dvec2 corner(s.texcoords[v[0]]);
-    const glm::dvec2 e1 = glm::dvec2(s.texcoords[v[1]]) - corner, e2 = glm::dvec2(s.texcoords[v[2]]) - corner;
-    const double area = std::abs(e1.x * e2.y - e1.y * e2.x);
-    const glm::dvec2 uv = corner + e1 * b1 + e2 * b2;
+    const Corners at = s.cornersOf(triangle);
+    const TriangleEdges edges = edgesOf(s.positions, s.texcoords, at);
+    const double area = std::abs(edges.uvArea2());
+    const glm::dvec2 uv = glm::dvec2(s.texcoords[at[0]]) + edges.uv1 * b1 + edges.uv2 * b2;
     const bool readable = area > 0 && area < double(kFarthestUv) && std::abs(uv.x) <= double(kFarthestUv)
         && std::abs(uv.y) <= double(kFarthestUv);
     if (!readable)
         return smooth;
     const glm::dvec3 m = f64::cotan_decode(glm::dvec3(texelAt(*part.image, part.sampler, uv)), part.format);
-    const LowPoint point = pointOf(s, frame_, triangle, b1, b2);
+    const LowPoint point = pointOf(s, triangle, b1, b2);
     const glm::dvec3 n = perturb(point.frame, m).raw(); // the frame's own n for a texel without direction
     const double size = glm::length(n);
     return size > 0 && std::isfinite(size) ? glm::vec3(n / size) : smooth;

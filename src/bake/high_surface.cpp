@@ -30,8 +30,9 @@ Part placed(const Mesh& mesh, const glm::mat4& toWorld)
     Part part;
     const glm::mat3 linear(toWorld);
     const float side = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
-    const glm::mat3 cofactors = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                                          glm::cross(linear[0], linear[1])) * side;
+    const glm::mat3 cofactors =
+        glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]))
+        * side;
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         part.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
         const glm::vec3 n = cofactors * mesh.normals[v];
@@ -101,7 +102,8 @@ struct Packet {
         const int count = int(probes.count);
         for (int lane = 0; lane < int(kLanes); ++lane) {
             const auto i = std::size_t(lane);
-            const glm::vec3 direction = probes.direction.at(i) * way, origin = probes.point.at(i) - direction * offset[i];
+            const glm::vec3 direction = probes.direction.at(i) * way,
+                            origin = probes.point.at(i) - direction * offset[i];
             r.org_x[i] = origin.x;
             r.org_y[i] = origin.y;
             r.org_z[i] = origin.z;
@@ -124,10 +126,9 @@ struct Packet {
     bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 };
 
-// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes no
-// branch of it.
-template<class T>
-void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
+// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes
+// no branch of it.
+template<class T> void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const auto a = std::bit_cast<std::uint32_t>(first[i]), b = std::bit_cast<std::uint32_t>(second[i]);
@@ -184,7 +185,8 @@ struct HighSurface::State {
         }
     }
     // Zero where there is none.
-    glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2, glm::vec3 direction) const
+    glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2,
+                           glm::vec3 direction) const
     {
         const Part& part = parts[instance];
         if (part.shapes.empty())
@@ -257,7 +259,8 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
     if (!state->device)
         return unavailableError("Embree: no device");
     state->scene = rtcNewScene(state->device);
-    // Robust: rays along edges find one of the two triangles. The filter is that of a match by name, where there is one.
+    // Robust: rays along edges find one of the two triangles. The filter is that of a match by name, where there is
+    // one.
     rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     for (Part& part : state->parts)
         state->attach(part);
@@ -300,8 +303,9 @@ Hit HighSurface::trace(const Ray& ray) const
     rtcIntersect1(state_->scene, &context, &r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
-    return {true, r.ray.tfar, glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z)), r.hit.geomID, r.hit.primID,
-            r.hit.u, r.hit.v};
+    return {true,         r.ray.tfar,   glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z)),
+            r.hit.geomID, r.hit.primID, r.hit.u,
+            r.hit.v};
 }
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const

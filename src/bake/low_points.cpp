@@ -14,8 +14,7 @@ struct Run { // of lanes on one triangle
     std::size_t from, to;
 };
 
-template<class Vec>
-void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
+template<class Vec> void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
 {
     const glm::vec3 p(a), q(b), r(c);
     for (std::size_t i = run.from; i < run.to; ++i) {
@@ -24,21 +23,21 @@ void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run 
     }
 }
 
-void gather(const LowSurface& s, Frame frame, std::uint32_t triangle, Run run, Ingredients& in, LowPoints& points)
+void gather(const LowSurface& s, std::uint32_t triangle, Run run, Ingredients& in, LowPoints& points)
 {
     const std::size_t first = 3 * std::size_t(triangle);
     const std::uint32_t *v = &s.indices[first], a = v[0], b = v[1], c = v[2];
     blend(s.positions[a], s.positions[b], s.positions[c], in, run, points.position);
     blend(s.normals[a], s.normals[b], s.normals[c], in, run, in.raw);
-    if (frame == Frame::smooth) {
+    if (readsCotangents(s.frame)) {
         blend(s.cotangentsU[a], s.cotangentsU[b], s.cotangentsU[c], in, run, in.u);
         blend(s.cotangentsV[a], s.cotangentsV[b], s.cotangentsV[c], in, run, in.v);
-    } else if (!s.tangents.empty()) {
+    } else if (readsTangents(s.frame)) {
         blend(s.tangents[first], s.tangents[first + 1], s.tangents[first + 2], in, run, in.u);
         for (std::size_t i = run.from; i < run.to; ++i)
-            in.handedness[i] = -s.tangents[first].w; // glTF's w has v up
+            in.handedness[i] = s.tangents[first].w;
     } else {
-        const Differences<double> d = differencesOf(s, frame, triangle);
+        const Differences<double> d = differencesOf(s, triangle);
         const glm::vec3 dpdx(d.dpdx.raw()), dpdy(d.dpdy.raw());
         const glm::vec2 duvdx(d.duvdx), duvdy(d.duvdy);
         for (std::size_t i = run.from; i < run.to; ++i) {
@@ -53,8 +52,7 @@ void gather(const LowSurface& s, Frame frame, std::uint32_t triangle, Run run, I
 }
 
 // Everything that is called becomes part of the loop: only so the compiler takes several lanes at a time.
-template<class Make>
-[[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
+template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const f32::cotan_frame f = make(i);
@@ -68,35 +66,32 @@ template<class Make>
 [[gnu::flatten]] void makeFromDifferences(const Ingredients& in, LowPoints& points, const Make& make)
 {
     makeEach(points, [&](std::size_t i) {
-        return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]), glm::vec2(in.uy[i], in.vy[i]));
+        return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]),
+                    glm::vec2(in.uy[i], in.vy[i]));
     });
 }
 
-#define COTAN_TEXT(name) [](const auto&... arguments) { return f32::cotan_frame_##name(arguments...); }
-
-void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoints& points)
+// A loop for every row of the table of frames, with the portable text in it.
+void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
 {
-    if (frame == Frame::smooth)
-        return makeEach(points, [&](std::size_t i) { return f32::cotan_frame_smooth(in.raw.at(i), in.u.at(i), in.v.at(i)); });
-    if (!s.tangents.empty() && frame == Frame::mikktspace)
-        return makeEach(points, [&](std::size_t i) {
-            return f32::cotan_frame_mikktspace(in.raw.at(i), in.u.at(i), in.handedness[i]);
-        });
-    if (!s.tangents.empty())
-        return makeEach(points, [&](std::size_t i) {
-            return f32::cotan_frame_vertex(in.raw.at(i), in.u.at(i), in.handedness[i]);
-        });
-    switch (frame) { // the frames that one would bake; the others one at a time
-    case Frame::cotangent: return makeFromDifferences(in, points, COTAN_TEXT(cotangent));
-    case Frame::orthonormal: return makeFromDifferences(in, points, COTAN_TEXT(orthonormal));
-    case Frame::gradient: return makeFromDifferences(in, points, COTAN_TEXT(gradient));
-    case Frame::exact: return makeFromDifferences(in, points, COTAN_TEXT(exact));
-    default: break;
+    switch (frame) {
+#define COTAN_MAKE_differences(word)                                                                                   \
+    makeFromDifferences(in, points, [](const auto&... arguments) { return f32::cotan_frame_##word(arguments...); })
+#define COTAN_MAKE_triangle(word) COTAN_MAKE_differences(word)
+#define COTAN_MAKE_cotangents(word)                                                                                    \
+    makeEach(points, [&](std::size_t i) { return f32::cotan_frame_##word(in.raw.at(i), in.u.at(i), in.v.at(i)); })
+#define COTAN_MAKE_tangents(word)                                                                                      \
+    makeEach(points, [&](std::size_t i) { return f32::cotan_frame_##word(in.raw.at(i), in.u.at(i), in.handedness[i]); })
+#define COTAN_FRAME_ROW(number, enumerator, word, source, ...)                                                         \
+    case Frame::enumerator:                                                                                            \
+        return COTAN_MAKE_##source(word);
+#include "cotan/frames.inc"
+#undef COTAN_MAKE_differences
+#undef COTAN_MAKE_triangle
+#undef COTAN_MAKE_cotangents
+#undef COTAN_MAKE_tangents
     }
-    makeFromDifferences(in, points, [&](const auto&... arguments) { return evaluate(frame, arguments...); });
 }
-
-#undef COTAN_TEXT
 
 // Zero stays zero.
 [[gnu::flatten, gnu::noinline]] void normalise(const Lanes3& raw, Lanes3& unit)
@@ -110,7 +105,7 @@ void makeFrames(const LowSurface& s, Frame frame, const Ingredients& in, LowPoin
 
 } // namespace
 
-void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points)
+void pointsOf(const LowSurface& surface, std::span<const UvPlace> places, LowPoints& points)
 {
     Ingredients& in = points.from;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -121,10 +116,10 @@ void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> p
         const std::uint32_t triangle = places[run.from].triangle;
         while (run.to < places.size() && places[run.to].triangle == triangle)
             ++run.to;
-        gather(surface, frame, triangle, run, in, points);
+        gather(surface, triangle, run, in, points);
     }
     normalise(in.raw, points.normal);
-    makeFrames(surface, frame, in, points);
+    makeFrames(surface.frame, in, points);
 }
 
 [[gnu::flatten]] void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels)

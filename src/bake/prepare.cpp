@@ -17,12 +17,14 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
-        return usageError(fmt::format("options.bake: expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
-                                      b.width, b.height));
+        return usageError(fmt::format("options.bake: expected a width and a height from 1 to {}; found {}x{}",
+                                      kLargestSide, b.width, b.height));
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return usageError(fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
+        return usageError(
+            fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
     if (options.material >= int(low.materials.size()))
-        return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material));
+        return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1,
+                                      options.material));
     if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
         return usageError(fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
                                       high.scenes.size(), high.maps.size()));
@@ -58,7 +60,7 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
-void applyMaps(HighModel& high, const std::optional<NormalMapFormat>& format)
+void applyMaps(HighModel& high, const std::optional<Convention>& format)
 {
     for (std::size_t i = 0; i < high.scenes.size() && !high.maps.empty(); ++i) {
         Scene& scene = high.scenes[i];
@@ -80,8 +82,9 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
     if (!maps)
         return maps.error();
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
-        setup.warnings.push_back(fmt::format("{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there",
-                                             bare, maps->instanceCount()));
+        setup.warnings.push_back(fmt::format(
+            "{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there", bare,
+            maps->instanceCount()));
     setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
     return Done{};
 }
@@ -89,9 +92,11 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
 // Whether what is baked has tangents everywhere and they count.
 bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
 {
-    return options.tangents == TangentSource::stored && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
-        return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty() || !mesh.tangents.empty();
-    });
+    return options.tangents == TangentOrigin::stored
+        && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+               return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty()
+                   || !mesh.tangents.empty();
+           });
 }
 
 // "door_low" and "door_high" are of one name: what stands before the last low or high.
@@ -108,8 +113,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 {
     std::vector<std::int64_t> result;
     for (const Instance& instance : low.instances) {
-        const std::string& name =
-            !instance.name.empty() ? instance.name : low.meshes[std::size_t(instance.mesh)].name;
+        const std::string& name = !instance.name.empty() ? instance.name : low.meshes[std::size_t(instance.mesh)].name;
         const auto& names = high.names();
         const auto found =
             std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });

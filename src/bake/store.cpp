@@ -39,19 +39,18 @@ struct Writer {
             else if (image.type == PixelType::unorm16)
                 image.words()[4 * i + k] = std::uint16_t(v * 65535 + 0.5f);
             else
-                image.bytes8()[4 * i + k] = std::uint8_t(std::min(std::floor(v * 255 + (k < 3 ? offset : 0.5f)), 255.0f));
+                image.bytes8()[4 * i + k] =
+                    std::uint8_t(std::min(std::floor(v * 255 + (k < 3 ? offset : 0.5f)), 255.0f));
         }
     }
 };
 
 } // namespace
 
-NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format)
+Convention storedFormat(BakeKind kind, Convention format)
 {
-    if (kind == BakeKind::objectNormal) {
-        format.channels = COTAN_CHANNELS_XYZ;
-        format.greenAlongV = true;
-    }
+    if (kind == BakeKind::objectNormal) // three axes of a mesh, as they are
+        format = {MapKind::objectSpace, format.expansion, Channels::xyz, true, VDirection::up};
     return format;
 }
 
@@ -72,7 +71,7 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
     }
     const f32::cotan_normal_format portableFormat =
         toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type);
-    const glm::vec3 empty = !direction               ? glm::vec3(0)
+    const glm::vec3 empty = !direction   ? glm::vec3(0)
         : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, portableFormat.expansion))
                                          : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);
     const auto stored = [&](glm::vec3 v) {
@@ -92,12 +91,13 @@ Image maskOf(const Baked& baked)
     Writer writer{makeImage(baked.width, baked.height, PixelType::unorm8), false};
     for (std::size_t i = 0; i < baked.states.size(); ++i) {
         const std::uint8_t s = baked.states[i];
-        writer.put(i, s & texelMissed     ? glm::vec3(1, 0, 0)
-                      : s & texelNegative ? glm::vec3(0, 0.3f, 1)
-                      : s & texelTwice    ? glm::vec3(1, 1, 0)
-                      : s & texelCovered  ? glm::vec3(0, 0.7f, 0)
-                      : s & texelTouched  ? glm::vec3(0, 0.35f, 0)
-                                          : glm::vec3(0));
+        writer.put(i,
+                   s & texelMissed         ? glm::vec3(1, 0, 0)
+                       : s & texelNegative ? glm::vec3(0, 0.3f, 1)
+                       : s & texelTwice    ? glm::vec3(1, 1, 0)
+                       : s & texelCovered  ? glm::vec3(0, 0.7f, 0)
+                       : s & texelTouched  ? glm::vec3(0, 0.35f, 0)
+                                           : glm::vec3(0));
     }
     return std::move(writer.image);
 }

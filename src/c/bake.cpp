@@ -66,13 +66,11 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     b.maxDistance = o.max_distance;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
     b.threads = o.threads;
-    options.tangents = TangentSource::generated;
+    options.tangents = TangentOrigin::generated;
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
-    const Convention convention =
-        storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
-    options.stored.format = {int(convention.expansion), int(convention.channels), !convention.greenUp};
+    options.stored.format = storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
     return options;
 }
 
@@ -89,8 +87,8 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
             checked(result, "result");
         HighModel model;
         model.scenes.push_back(sceneOf(detailed));
-        const BakedModel baked =
-            valueOf(bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
+        const BakedModel baked = valueOf(
+            bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
         put(baked.maps[0].image, out);
         if (result) {
             const BakeStatistics& s = baked.maps[0].statistics;

@@ -24,7 +24,7 @@ glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], arra
 Frame frameFromDifferences(const char* name)
 {
     const auto frame = frameFromName(word(name, "frame"));
-    if (!frame || info(*frame).source == FrameSource::vertices)
+    if (!frame || readsVertices(*frame))
         fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(name) + "'");
     return *frame;
 }
@@ -57,11 +57,11 @@ public:
     VertexFrames(const char* frame, const cotan_vertex_places* given) : p_(checked(given, "places"))
     {
         const auto kind = frameFromName(word(frame, "frame"));
-        if (!kind || info(*kind).source != FrameSource::vertices)
+        if (!kind || !readsVertices(*kind))
             fail(ErrorKind::usage,
                  "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
         kind_ = *kind;
-        const bool smooth = kind_ == Frame::smooth;
+        const bool smooth = readsCotangents(kind_);
         require(p_.count == 0 || (p_.normals && (smooth ? p_.cotangents_u && p_.cotangents_v : p_.tangents != nullptr)),
                 smooth ? "places: expected normals and two arrays of cotangents, found null"
                        : "places: expected normals and tangents, found null");
@@ -72,12 +72,11 @@ public:
     f32::cotan_frame at(std::size_t i) const
     {
         const glm::vec3 n = vec3At(p_.normals, i);
-        if (kind_ == Frame::smooth)
-            return f32::cotan_frame_smooth(n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
+        if (readsCotangents(kind_))
+            return evaluateCotangents(kind_, n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
         const float* t = p_.tangents + 4 * i;
-        const glm::vec3 tangent(t[0], t[1], t[2]);
-        return kind_ == Frame::vertex ? f32::cotan_frame_vertex(n, tangent, -t[3])
-                                      : f32::cotan_frame_mikktspace(n, tangent, -t[3]);
+        const glm::vec4 tangent = tangentAlongV({t[0], t[1], t[2], t[3]});
+        return evaluateTangents(kind_, n, glm::vec3(tangent), tangent.w);
     }
 
 private:
@@ -100,7 +99,7 @@ int cotan_frame_count(void) { return kFrameCount; }
 
 const char* cotan_frame_name(int frame)
 {
-    return frame >= 0 && frame < kFrameCount ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
+    return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
 }
 
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
@@ -152,13 +151,13 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
 {
     return call(message, message_size, [&] {
         const std::string_view which = word(kind, "kind");
-        if (which != "mikktspace" && which != "vertex")
+        const auto frame = frameFromName(which);
+        if (!frame || !readsTangents(*frame))
             fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made =
-            which == "vertex" ? vertexTangents(view) : mikktspaceTangents(view, threads);
+        const std::vector<glm::vec4> made = generateTangents(*frame, view, threads);
         std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
     });
 }

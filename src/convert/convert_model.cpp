@@ -17,7 +17,10 @@ constexpr double kMostCopies = 2e6; // of the image under all triangles together
 
 class ModelConverter {
 public:
-    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options) : options_(options), document_(document) {}
+    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options)
+        : options_(options), document_(document)
+    {
+    }
 
     Status run()
     {
@@ -39,10 +42,13 @@ public:
         }
         if (Status settled = settleTangents(); !settled)
             return settled;
-        const bool changed = std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
+        const bool changed =
+            std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
         if (changed && options_.frames.to != Frame::mikktspace)
-            report_.notes.push_back(fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
-                                                "missing, as glTF asks, will show them wrongly", name(options_.frames.to)));
+            report_.notes.push_back(
+                fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
+                            "missing, as glTF asks, will show them wrongly",
+                            name(options_.frames.to)));
         return Done{};
     }
 
@@ -70,7 +76,8 @@ private:
         if (done.kept)
             return done;
         if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
-            return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}", field, copies, kMostCopies));
+            return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}",
+                                          field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
         const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
@@ -100,12 +107,15 @@ private:
         const ReencodeFigures& r = map.figures;
         const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
         if (share * r.disagreement.mean > kSeen)
-            report_.notes.push_back(fmt::format("{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
-                                                "on average at the worst of them: no one map fits; give such parts texels of their own",
-                                                map.name, 100 * share, r.disagreement.mean));
+            report_.notes.push_back(fmt::format(
+                "{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
+                "on average at the worst of them: no one map fits; give such parts texels of their own",
+                map.name, 100 * share, r.disagreement.mean));
         else if (r.error.mean > kSeen)
-            report_.notes.push_back(fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for "
-                                                "how the surface changes under them", map.name, r.error.mean));
+            report_.notes.push_back(
+                fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for "
+                            "how the surface changes under them",
+                            map.name, r.error.mean));
     }
 
     Status settleTangents()
@@ -113,7 +123,8 @@ private:
         if (readsTangents(options_.frames.to)) {
             report_.tangents = TangentsAfter::given;
             const auto given = giveTangents(
-                document_, {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads});
+                document_,
+                {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads});
             if (!given)
                 return given.error();
             report_.primitivesGiven = given->generated;
@@ -138,15 +149,15 @@ private:
 
 } // namespace
 
-bool readsTangents(Frame frame) { return frame == Frame::mikktspace || frame == Frame::vertex; }
-
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
 {
     for (const Frame frame : {options.frames.from, options.frames.to})
         if (dependsOnView(frame))
-            return usageError(fmt::format("convert: the frame {} depends on the view: no map can be made for it", name(frame)));
+            return usageError(
+                fmt::format("convert: the frame {} depends on the view: no map can be made for it", name(frame)));
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
-        return usageError(fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
+        return usageError(
+            fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
     ModelConverter converter(document, options);
     if (Status done = converter.run(); !done)
         return done.error();

@@ -16,27 +16,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string fieldOf(std::size_t mesh, std::size_t primitive)
-{
-    return fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
-}
-
-Wrap wrapOf(const Json& root, const Json& texture, const char* axis)
-{
-    if (!texture.contains("sampler"))
-        return Wrap::repeat;
-    const int mode = root["samplers"][texture["sampler"].get<std::size_t>()].value(axis, 10497);
-    return mode == 33071 ? Wrap::clamp : mode == 33648 ? Wrap::mirror : Wrap::repeat;
-}
-
 bool readElsewhere(const Json& root, std::size_t image)
 {
     std::set<std::size_t> textures;
     for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
         textures.merge(texturesBesideNormalMap(root["materials"][m]));
     return std::any_of(textures.begin(), textures.end(), [&](std::size_t t) {
-        return t < countOf(root, "textures") && root["textures"][t].contains("source")
-            && root["textures"][t]["source"].get<std::size_t>() == image;
+        return t < countOf(root, "textures") && textureAt(root, int(t)).image == int(image);
     });
 }
 
@@ -59,28 +45,30 @@ void dropOtherForms(Json& texture, std::size_t index, std::vector<std::string>& 
 
 // One primitive with one of its materials, added to the job of that material's normal map.
 // document: with the material in the primitive's place, for its uv.
-Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material,
-              bool foreign, const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material, bool foreign,
+              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
     const Json& root = document.root;
-    const Json* info = normalTextureOf(root, material);
-    if (!info)
+    const gltf::TextureUse map = normalMapOf(root, material);
+    if (map.texture < 0)
         return Done{};
     if (foreign) {
-        notes.push_back(fieldOf(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
+        notes.push_back(primitiveField(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
         return Done{};
     }
     auto geometry = gltfGeometry(document, m, p);
     if (!geometry)
         return geometry.error();
     if (geometry->texcoords.empty() || geometry->indices.empty()) {
-        notes.push_back(fieldOf(m, p) + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
+        notes.push_back(primitiveField(m, p)
+                        + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
                         + "; its normal map is not converted for it");
         return Done{};
     }
-    const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
-    const std::size_t image = texture["source"].get<std::size_t>();
+    const gltf::Texture texture = textureAt(root, map.texture);
+    const Sampler sampler = samplerOf(root, texture);
+    const auto image = std::size_t(texture.image);
     MapJob& job = jobs[image];
     job.image = image;
     job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
@@ -92,9 +80,9 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
     for (const glm::dmat3& linear : placed) {
         MapUse use;
         use.surface = makeSurface(mesh, Texture{}, linear);
-        use.format = {0, 0, -1.0, info->value("scale", 1.0)}; // glTF: exact, xyz, green against +v
-        use.wrapU = wrapOf(root, texture, "wrapS");
-        use.wrapV = wrapOf(root, texture, "wrapT");
+        use.strength = map.scale;
+        use.wrapU = sampler.wrapU;
+        use.wrapV = sampler.wrapV;
         job.uses.push_back(std::move(use));
     }
     return Done{};
@@ -108,14 +96,14 @@ std::vector<bool> foreignNormalMaps(const GltfDocument& document)
     std::map<std::size_t, bool> images;
     std::vector<bool> foreign(countOf(root, "materials"), false);
     for (std::size_t m = 0; m < foreign.size(); ++m) {
-        const Json* info = normalTextureOf(root, m);
-        if (!info)
+        const gltf::TextureUse map = normalMapOf(root, m);
+        if (map.texture < 0)
             continue;
-        const Json& texture = root["textures"][(*info)["index"].get<std::size_t>()];
-        foreign[m] = !texture.contains("source");
+        const int source = textureAt(root, map.texture).image;
+        foreign[m] = source < 0;
         if (foreign[m])
             continue;
-        const std::size_t image = texture["source"].get<std::size_t>();
+        const auto image = std::size_t(source);
         if (!images.contains(image)) {
             const auto bytes = gltfImageBytes(document, image);
             images[image] = bytes && !foreignFormat(*bytes).empty();
@@ -155,9 +143,8 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     if (!job.alsoElsewhere) {
         replaceGltfImage(document, job.image, std::move(png), "image/png");
         for (std::size_t t = 0; t < countOf(document.root, "textures"); ++t) {
-            Json& texture = document.root["textures"][t];
-            if (texture.contains("source") && texture["source"].get<std::size_t>() == job.image)
-                dropOtherForms(texture, t, notes);
+            if (textureAt(document.root, int(t)).image == int(job.image))
+                dropOtherForms(document.root["textures"][t], t, notes);
         }
         return;
     }

@@ -29,7 +29,8 @@ Result<std::size_t> materialNamed(const Json& root, const std::string& name)
         if (root["materials"][m].value("name", "") == name)
             found.push_back(m);
     if (found.size() != 1)
-        return inputError(fmt::format("document: expected one material of the name '{}' to put the map in; found {}", name, found.size()));
+        return inputError(fmt::format("document: expected one material of the name '{}' to put the map in; found {}",
+                                      name, found.size()));
     return found.front();
 }
 
@@ -101,8 +102,10 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
     if (Status settled = settleTangents(document, options, notes); !settled)
         return settled;
     if (options.frame != Frame::mikktspace)
-        notes.push_back(fmt::format("the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
-                                    "glTF asks, will show it wrongly", name(options.frame)));
+        notes.push_back(fmt::format(
+            "the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
+            "glTF asks, will show it wrongly",
+            name(options.frame)));
     return Done{};
 }
 

@@ -6,10 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/convention.hpp"
 #include "cotan/convert/solve_texel.hpp"
 #include "cotan/lint/texel.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_sample.hpp"
 #include "cotan/surface/padding.hpp"
 #include "tally.hpp"
 #include "use_raster.hpp"
@@ -21,9 +22,12 @@ namespace {
 using convert::Place;
 using convert::UseRaster;
 
-glm::dmat3 matrixOf(const f64::cotan_frame& f, const f64::cotan_normal_format& format)
+// Along green: 1 where it points along +v, else -1.
+double greenOf(const MapUse& use) { return greenAlongV(use.stored) ? 1 : -1; }
+
+glm::dmat3 matrixOf(const f64::cotan_frame& f, const MapUse& use)
 {
-    return {f.t * format.strength, f.b * (format.strength * format.green), f.n};
+    return {f.t * use.strength, f.b * (use.strength * greenOf(use)), f.n};
 }
 
 struct RowCounts {
@@ -34,19 +38,15 @@ struct RowCounts {
 class Reencoder {
 public:
     Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits)
-        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)),
-          owner_(map.pixelCount(), kNoTexel)
+        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)), owner_(map.pixelCount(), kNoTexel)
     {
-        plain_ = uses.empty() ? f64::cotan_normal_format{} : uses.front().format;
-        plain_.strength = 1;
-        plain_.green = 1;
-        written_ = plain_;
-        plain_.expansion = expansionFor(plain_.expansion, bitsPerComponent(map.type));
-        written_.expansion = expansionFor(written_.expansion, bits);
+        const Convention stored = uses.empty() ? Convention{} : uses.front().stored;
+        plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
+        written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
+        plain_.green = written_.green = 1;
         for (const MapUse& use : uses)
             rasters_.emplace_back(use, map.width, map.height);
-        result_.image =
-            makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
+        result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
         nearest_.resize(std::size_t(map.height));
     }
 
@@ -91,7 +91,7 @@ private:
     {
         std::vector<std::vector<Place>> texels(std::size_t(map_.width));
         for (std::size_t i = 0; i < rasters_.size(); ++i)
-            if (std::abs(uses_[i].format.strength) > kFlattened)
+            if (std::abs(uses_[i].strength) > kFlattened)
                 rasters_[i].addRow(y, std::uint32_t(i), texels);
         for (std::vector<Place>& places : texels) {
             const bool covered = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.covers; });
@@ -113,11 +113,12 @@ private:
     Demand demandAt(const Place& p, glm::dvec3 old) const
     {
         const MapUse& use = uses_[p.use];
-        const f64::cotan_frame from = frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
+        const f64::cotan_frame from =
+            frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
         const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
-        const glm::dvec3 m(old.x * use.format.strength, old.y * use.format.strength * use.format.green, old.z);
+        const glm::dvec3 m(old.x * use.strength, old.y * use.strength * greenOf(use), old.z);
         // `mikktspace` hands back its n, not unit, where the sum vanishes.
-        return {matrixOf(to, use.format), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
+        return {matrixOf(to, use), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
     }
 
     void write(int x, int y, glm::dvec3 texel)
@@ -139,10 +140,8 @@ private:
 
     void copyAlpha(std::size_t at)
     {
-        const double alpha = map_.type == PixelType::unorm8 ? map_.bytes8()[at + 3] / 255.0
-            : map_.type == PixelType::unorm16               ? map_.words()[at + 3] / 65535.0
-                                                            : double(map_.floats()[at + 3]);
-        set(at + 3, alpha);
+        const int x = int(at / 4 % std::size_t(map_.width)), y = int(at / 4 / std::size_t(map_.width));
+        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
     }
 
     void keep(int x, int y)
@@ -169,7 +168,8 @@ private:
             demands.clear();
             for (const Place& p : places)
                 demands.push_back(demandAt(p, old));
-            const bool any = std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
+            const bool any =
+                std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
             if (!any) {
                 keep(x, y);
                 continue; // and nothing to spread from
@@ -241,7 +241,8 @@ private:
             }
             const auto& row = nearest_[owner_[i] / std::size_t(map_.width)];
             const int column = int(owner_[i] % std::size_t(map_.width));
-            const auto lent = std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
+            const auto lent =
+                std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
             const Demand demand = demandAt(lent->place, old);
             write(x, y, solveTexel({&demand, 1}, old));
             ++rows_[std::size_t(y)].padded;
@@ -266,8 +267,8 @@ private:
 
 } // namespace
 
-Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   int threads, CountedSteps* rows)
+Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads,
+                   CountedSteps* rows)
 {
     Reencoded result;
     withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });

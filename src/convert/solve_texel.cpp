@@ -6,11 +6,13 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 namespace {
 
-constexpr int kSteps = 12;      // quadratic convergence: four or five do
+constexpr int kSteps = 12;       // quadratic convergence: four or five do
 constexpr double kStill = 1e-10; // a step this short ends it
 
 glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise)
@@ -103,7 +105,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
 double degreesOff(const Demand& d, glm::dvec3 texel)
 {
     const glm::dvec3 got = d.frame * texel;
-    return glm::degrees(std::atan2(glm::length(glm::cross(got, d.target)), glm::dot(got, d.target)));
+    return glm::degrees(angleBetween(got, d.target));
 }
 
 } // namespace cotan

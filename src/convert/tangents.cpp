@@ -18,12 +18,8 @@ std::string whyTangentsStay(const Json& root, std::size_t material, bool foreign
 {
     if (foreign)
         return "its normal map, neither PNG nor JPEG,";
-    const Json& extensions = root["materials"][material].value("extensions", Json::object());
-    if (extensions.contains("KHR_materials_anisotropy"))
-        return "KHR_materials_anisotropy reads tangents and";
-    if (extensions.contains("KHR_materials_clearcoat") && extensions["KHR_materials_clearcoat"].contains("clearcoatNormalTexture"))
-        return "KHR_materials_clearcoat reads tangents and";
-    return {};
+    const std::string reader = gltf::tangentReader(root["materials"][material]);
+    return reader.empty() ? reader : reader + " reads tangents and";
 }
 
 } // namespace
@@ -52,12 +48,9 @@ Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::strin
             const std::size_t index = attributes["TANGENT"].get<std::size_t>();
             if (!seen.insert(index).second)
                 return;
-            const Json& accessor = root["accessors"][index];
-            const int type = accessor["componentType"].get<int>();
-            const std::size_t component = type == 5126 ? 4 : type == 5122 || type == 5123 ? 2 : 1;
-            const std::size_t vertices = accessor["count"].get<std::size_t>();
-            dropped.vertices += base ? vertices : 0;
-            dropped.bytes += vertices * component * (base ? 4 : 3);
+            const gltf::Accessor accessor = gltf::readAccessor(root["accessors"][index]);
+            dropped.vertices += base ? accessor.count : 0;
+            dropped.bytes += accessor.count * gltf::elementSize(accessor);
         };
         count(primitive["attributes"], true);
         for (const Json& target : primitive.value("targets", Json::array()))

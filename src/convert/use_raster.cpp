@@ -1,12 +1,10 @@
 #include "use_raster.hpp"
 
-#include <numeric>
-
 namespace cotan::convert {
 
 UseRaster::UseRaster(const MapUse& use, int width, int height)
     : use_(&use), foldU_(use.wrapU == Wrap::mirror ? 2 : 1), foldV_(use.wrapV == Wrap::mirror ? 2 : 1), width_(width),
-      height_(height), raster_(makeRaster())
+      height_(height), raster_(repeatedRaster(use.surface, width, height, {foldU_, foldV_}))
 {
 }
 
@@ -25,16 +23,6 @@ void UseRaster::addRow(int y, std::uint32_t number, std::vector<std::vector<Plac
             }
         }
     }
-}
-
-UvRaster UseRaster::makeRaster() const
-{
-    std::vector<glm::vec2> uv;
-    for (glm::dvec2 c : use_->surface.uv)
-        uv.push_back(glm::vec2(c / glm::dvec2(foldU_, foldV_)));
-    std::vector<std::uint32_t> indices(uv.size());
-    std::iota(indices.begin(), indices.end(), 0u);
-    return UvRaster({uv, indices}, width_ * foldU_, height_ * foldV_, {0, 0}, true);
 }
 
 bool UseRaster::clampedAway(const Place& p) const

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cotan/surface/uv_raster.hpp"
 #include "cotan/convert/reencode.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan::convert {
 
@@ -26,7 +26,6 @@ public:
     void addRow(int y, std::uint32_t number, std::vector<std::vector<Place>>& texels) const;
 
 private:
-    UvRaster makeRaster() const;
     bool clampedAway(const Place& p) const;
 
     const MapUse* use_;

@@ -15,26 +15,19 @@ constexpr Convention tangent(Channels c, bool greenUp, VDirection v)
 }
 
 constexpr std::array kPresets = {
-    ConventionPreset{"gltf", tangent(Channels::xyz, true, VDirection::down),
-                     "glTF 2.0: green up, v down"},
-    ConventionPreset{"opengl", tangent(Channels::xyz, true, VDirection::up),
-                     "green up, v up"},
-    ConventionPreset{"directx", tangent(Channels::xyz, false, VDirection::down),
-                     "green down, v down"},
+    ConventionPreset{"gltf", tangent(Channels::xyz, true, VDirection::down), "glTF 2.0: green up, v down"},
+    ConventionPreset{"opengl", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
+    ConventionPreset{"directx", tangent(Channels::xyz, false, VDirection::down), "green down, v down"},
     ConventionPreset{"unity", tangent(Channels::orthographic, true, VDirection::up),
                      "green up, v up; two channels after import"},
     ConventionPreset{"unreal", tangent(Channels::orthographic, false, VDirection::down),
                      "green down, v down; two channels (BC5) after import"},
-    ConventionPreset{"blender", tangent(Channels::xyz, true, VDirection::up),
-                     "green up, v up"},
+    ConventionPreset{"blender", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
     ConventionPreset{"godot", tangent(Channels::orthographic, true, VDirection::down),
                      "green up, v down; two channels after import"},
-    ConventionPreset{"maya", tangent(Channels::xyz, true, VDirection::up),
-                     "green up, v up"},
-    ConventionPreset{"3dsmax", tangent(Channels::xyz, false, VDirection::up),
-                     "green down, v up"},
-    ConventionPreset{"source", tangent(Channels::xyz, false, VDirection::down),
-                     "green down, v down"},
+    ConventionPreset{"maya", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
+    ConventionPreset{"3dsmax", tangent(Channels::xyz, false, VDirection::up), "green down, v up"},
+    ConventionPreset{"source", tangent(Channels::xyz, false, VDirection::down), "green down, v down"},
 };
 
 std::string_view word(Expansion e)

@@ -1,5 +1,7 @@
 #include "cotan/frame.hpp"
 
+#include <algorithm>
+
 namespace cotan {
 
 namespace {
@@ -7,48 +9,96 @@ namespace {
 using enum FrameSource;
 
 constexpr std::array<FrameInfo, kFrameCount> kFrames = {{
-    {Frame::cotangent, "cotangent", differences, true, false,
-     "2013 cotangent frame, sign-corrected and total (default)"},
-    {Frame::cotangent2013, "cotangent-2013", differences, false, true, "cotangent frame as printed in 2013"},
-    {Frame::nonperspective, "nonperspective", differences, false, true, "its non-perspective shortcut"},
-    {Frame::paperFull, "paper-full", differences, false, false, "2006, full 3x3 inverse"},
-    {Frame::paperNodet, "paper-nodet", differences, false, false, "2006 _01, no determinant, unit lengths"},
-    {Frame::paperTranspose, "paper-transpose", differences, false, false, "2006 _02, inverse transpose"},
-    {Frame::paperOrthogonal, "paper-orthogonal", differences, false, true, "2006 _03, taken as orthogonal"},
-    {Frame::unit, "unit", differences, false, false, "cotangents, each of unit length"},
-    {Frame::orthonormal, "orthonormal", differences, true, false,
-     "tangent first, b = +-n x t; reads MikkTSpace maps without tangents"},
-    {Frame::gradient, "gradient", differences, true, false, "true surface gradient, metric bump height"},
-    {Frame::exact, "exact", triangle, true, false, "per-triangle gradients from the three vertices"},
-    {Frame::smooth, "smooth", vertices, true, false, "cotangents averaged at the vertices at load"},
-    {Frame::vertex, "vertex", vertices, true, false, "classic per-vertex tangents, orthonormal per pixel"},
-    {Frame::mikktspace, "mikktspace", vertices, true, false, "MikkTSpace, per vertex, not renormalised"},
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
+    {Frame::enumerator, name, #word, source, total, dependsOnView, fused, summary},
+#include "cotan/frames.inc"
 }};
 
-// One text for both precisions: N is cotan::f32 or cotan::f64, spelled by the caller.
-#define COTAN_EVALUATE(N)                                                                          \
-    switch (frame) {                                                                               \
-    case Frame::cotangent: return N::cotan_frame_cotangent(n, dpdx, dpdy, duvdx, duvdy);           \
-    case Frame::cotangent2013: return N::cotan_frame_cotangent_2013(n, dpdx, dpdy, duvdx, duvdy);  \
-    case Frame::nonperspective: return N::cotan_frame_nonperspective(n, dpdx, dpdy, duvdx, duvdy); \
-    case Frame::paperFull: return N::cotan_frame_paper_full(n, dpdx, dpdy, duvdx, duvdy);          \
-    case Frame::paperNodet: return N::cotan_frame_paper_nodet(n, dpdx, dpdy, duvdx, duvdy);        \
-    case Frame::paperTranspose:                                                                    \
-        return N::cotan_frame_paper_transpose(n, dpdx, dpdy, duvdx, duvdy);                        \
-    case Frame::paperOrthogonal:                                                                   \
-        return N::cotan_frame_paper_orthogonal(n, dpdx, dpdy, duvdx, duvdy);                       \
-    case Frame::unit: return N::cotan_frame_unit(n, dpdx, dpdy, duvdx, duvdy);                     \
-    case Frame::orthonormal: return N::cotan_frame_orthonormal(n, dpdx, dpdy, duvdx, duvdy);       \
-    case Frame::gradient: return N::cotan_frame_gradient(n, dpdx, dpdy, duvdx, duvdy);             \
-    case Frame::exact: return N::cotan_frame_exact(n, dpdx, dpdy, duvdx, duvdy);                   \
-    case Frame::smooth:                                                                            \
-    case Frame::vertex:                                                                            \
-    case Frame::mikktspace: break;                                                                 \
-    }                                                                                              \
-    N::cotan_frame none;                                                                           \
-    none.t = none.b = N::cotan_vec3(0, 0, 0);                                                      \
-    none.n = n;                                                                                    \
-    return none
+constexpr bool numberedInOrder()
+{
+    for (std::size_t i = 0; i < kFrames.size(); ++i)
+        if (kFrames[i].frame != Frame(int(i)))
+            return false;
+    return true;
+}
+static_assert(numberedInOrder(), "cotan/frames.inc: rows are numbered in their order, from 0");
+
+constexpr bool sameButForDashes(std::string_view name, std::string_view word)
+{
+    return std::ranges::equal(name, word, [](char a, char b) { return (a == '-' ? '_' : a) == b; });
+}
+static_assert(std::ranges::all_of(kFrames, [](const FrameInfo& f) { return sameButForDashes(f.name, f.word); }),
+              "cotan/frames.inc: a name is its word with '-' for '_'");
+
+// Both precisions of the portable text are at hand in the functions below, and the arguments choose.
+#define COTAN_BOTH_PRECISIONS                                                                                          \
+    using namespace f32;                                                                                               \
+    using namespace f64
+
+// What there is without a frame.
+template<class Vec3> auto plain(Vec3 n)
+{
+    COTAN_BOTH_PRECISIONS;
+    decltype(cotan_frame_smooth(n, n, n)) none;
+    none.t = none.b = Vec3(0);
+    none.n = n;
+    return none;
+}
+
+// A row of the table is one case, which calls the row's function if that takes the arguments of its source.
+#define COTAN_FRAME_CASE(number, enumerator, word, source, ...)                                                        \
+    case Frame::enumerator: COTAN_FROM_##source(word);
+
+template<class Vec3, class Vec2> auto fromDifferences(Frame frame, Vec3 n, Vec3 dpdx, Vec3 dpdy, Vec2 duvdx, Vec2 duvdy)
+{
+    COTAN_BOTH_PRECISIONS;
+    switch (frame) {
+#define COTAN_FROM_differences(word) return cotan_frame_##word(n, dpdx, dpdy, duvdx, duvdy)
+#define COTAN_FROM_triangle(word) return cotan_frame_##word(n, dpdx, dpdy, duvdx, duvdy)
+#define COTAN_FROM_cotangents(word) break
+#define COTAN_FROM_tangents(word) break
+#define COTAN_FRAME_ROW COTAN_FRAME_CASE
+#include "cotan/frames.inc"
+#undef COTAN_FROM_differences
+#undef COTAN_FROM_triangle
+#undef COTAN_FROM_cotangents
+    }
+    return plain(n);
+}
+
+template<class Vec3> auto fromCotangents(Frame frame, Vec3 n, Vec3 u, Vec3 v)
+{
+    COTAN_BOTH_PRECISIONS;
+    switch (frame) {
+#define COTAN_FROM_differences(word) break
+#define COTAN_FROM_triangle(word) break
+#define COTAN_FROM_cotangents(word) return cotan_frame_##word(n, u, v)
+#define COTAN_FRAME_ROW COTAN_FRAME_CASE
+#include "cotan/frames.inc"
+#undef COTAN_FROM_cotangents
+#undef COTAN_FROM_tangents
+    }
+    return plain(n);
+}
+
+template<class Vec3, class Real> auto fromTangents(Frame frame, Vec3 n, Vec3 t, Real handedness)
+{
+    COTAN_BOTH_PRECISIONS;
+    switch (frame) {
+#define COTAN_FROM_cotangents(word) break
+#define COTAN_FROM_tangents(word) return cotan_frame_##word(n, t, handedness)
+#define COTAN_FRAME_ROW COTAN_FRAME_CASE
+#include "cotan/frames.inc"
+    }
+    return plain(n);
+}
+
+#undef COTAN_FROM_differences
+#undef COTAN_FROM_triangle
+#undef COTAN_FROM_cotangents
+#undef COTAN_FROM_tangents
+#undef COTAN_FRAME_CASE
+#undef COTAN_BOTH_PRECISIONS
 
 } // namespace
 
@@ -64,16 +114,36 @@ std::optional<Frame> frameFromName(std::string_view name)
     return std::nullopt;
 }
 
-f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx,
-                          f32::cotan_vec3 dpdy, f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy)
+f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx, f32::cotan_vec3 dpdy,
+                          f32::cotan_vec2 duvdx, f32::cotan_vec2 duvdy)
 {
-    COTAN_EVALUATE(f32);
+    return fromDifferences(frame, n, dpdx, dpdy, duvdx, duvdy);
 }
 
-f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx,
-                          f64::cotan_vec3 dpdy, f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy)
+f64::cotan_frame evaluate(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 dpdx, f64::cotan_vec3 dpdy,
+                          f64::cotan_vec2 duvdx, f64::cotan_vec2 duvdy)
 {
-    COTAN_EVALUATE(f64);
+    return fromDifferences(frame, n, dpdx, dpdy, duvdx, duvdy);
+}
+
+f32::cotan_frame evaluateCotangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 u, f32::cotan_vec3 v)
+{
+    return fromCotangents(frame, n, u, v);
+}
+
+f64::cotan_frame evaluateCotangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 u, f64::cotan_vec3 v)
+{
+    return fromCotangents(frame, n, u, v);
+}
+
+f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 t, float handedness)
+{
+    return fromTangents(frame, n, t, handedness);
+}
+
+f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double handedness)
+{
+    return fromTangents(frame, n, t, handedness);
 }
 
 } // namespace cotan

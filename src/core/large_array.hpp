@@ -14,7 +14,7 @@
 
 namespace cotan {
 
-inline constexpr std::size_t kLargePage = 2u << 20; // bytes
+inline constexpr std::size_t kLargePage = 2u << 20;   // bytes
 inline constexpr std::size_t kLarge = 4 * kLargePage; // most of what is smaller malloc has at hand
 
 // Wishes for large pages there: the first touch of fresh memory takes a fraction of the time then.

@@ -49,9 +49,8 @@ void Ring::pair()
         order.resize(count);
         for (std::uint32_t i = 0; i < order.size(); ++i)
             order[i] = i;
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(others[a], a) < std::pair(others[b], b);
-        });
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return std::pair(others[a], a) < std::pair(others[b], b); });
     };
     sorted(leaving, byLeaving);
     sorted(coming, byComing);

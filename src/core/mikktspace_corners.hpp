@@ -49,7 +49,7 @@ struct Ring {
     void make(const Triangles& t, std::span<const std::uint32_t> corners);
 
 private:
-    std::uint32_t count = 0; // of corners; the lists are as long as the longest needed so far
+    std::uint32_t count = 0;                    // of corners; the lists are as long as the longest needed so far
     std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
     std::vector<std::uint32_t> byLeaving, byComing;
 

@@ -17,10 +17,7 @@ struct Directions {
     bool preserving, joinsAny, degenerate;
 };
 
-inline bool equal(glm::vec3 a, glm::vec3 b)
-{
-    return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
-}
+inline bool equal(glm::vec3 a, glm::vec3 b) { return (a.x == b.x) & (a.y == b.y) & (a.z == b.z); }
 
 inline glm::vec3 select(bool condition, glm::vec3 v)
 {
@@ -41,8 +38,7 @@ inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::ve
     const float lengthU = std::sqrt(glm::dot(u, u)), lengthV = std::sqrt(glm::dot(v, v));
     const bool directed = usable & (lengthU / size > FLT_MIN) & (lengthV / size > FLT_MIN);
     return {select(usable & (lengthU > FLT_MIN), u * (sign / lengthU)),
-            select(usable & (lengthV > FLT_MIN), v * (sign / lengthV)),
-            area > 0 && !degenerate, !directed, degenerate};
+            select(usable & (lengthV > FLT_MIN), v * (sign / lengthV)), area > 0 && !degenerate, !directed, degenerate};
 }
 
 // tangents::projectedUnit(u, n) * tangents::projectedAngle(p, previous, next, n), if `sound`.
@@ -72,7 +68,10 @@ struct Batch {
     Lane contribution[3][3];
     std::int32_t flags[kLanes], sound[kLanes];
 
-    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane) { return {axes[0][lane], axes[1][lane], axes[2][lane]}; }
+    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane)
+    {
+        return {axes[0][lane], axes[1][lane], axes[2][lane]};
+    }
     static void put(Lane (&axes)[3], std::size_t lane, glm::vec3 v)
     {
         axes[0][lane] = v.x;
@@ -99,7 +98,8 @@ private:
                              {texcoord[2][0][l], texcoord[2][1][l]});
             put(u, l, d.u);
             put(v, l, d.v);
-            flags[l] = (d.preserving ? kPreserving : 0) | (d.joinsAny ? kJoinsAny : 0) | (d.degenerate ? kDegenerate : 0);
+            flags[l] =
+                (d.preserving ? kPreserving : 0) | (d.joinsAny ? kJoinsAny : 0) | (d.degenerate ? kDegenerate : 0);
         }
     }
 
@@ -107,7 +107,8 @@ private:
     {
         const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
         for (std::size_t l = 0; l < kLanes; ++l) {
-            const Contribution c = contributionOf(vector(u, l), vector(n, l), vector(p, l), vector(previous, l), vector(next, l));
+            const Contribution c =
+                contributionOf(vector(u, l), vector(n, l), vector(p, l), vector(previous, l), vector(next, l));
             put(contribution[k], l, select((flags[l] & kJoinsAny) == 0, c.value));
             sound[l] &= c.sound ? 1 : 0;
         }
@@ -147,10 +148,11 @@ void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles
         t.flags[f] = static_cast<std::uint8_t>(batch.flags[l]);
         t.alongV[f] = Batch::vector(batch.v, l);
         for (std::size_t k = 0; k < 3; ++k)
-            contributions[3 * f + k] = glm::vec4(
-                batch.sound[l] != 0 ? Batch::vector(batch.contribution[k], l)
-                                    : projectedUnit(Batch::vector(batch.u, l), t.normal(3 * f + k)) * weightOf(t, 3 * f + k),
-                0);
+            contributions[3 * f + k] =
+                glm::vec4(batch.sound[l] != 0
+                              ? Batch::vector(batch.contribution[k], l)
+                              : projectedUnit(Batch::vector(batch.u, l), t.normal(3 * f + k)) * weightOf(t, 3 * f + k),
+                          0);
     }
 }
 
@@ -163,12 +165,8 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
     std::uint32_t moved = 0; // without a branch, so that compilers compare several at once
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         moved |= firstVertex[v] ^ v;
-    Triangles t{mesh,
-                count,
-                mesh.indices.data(),
-                {},
-                makeLargeArray<std::uint8_t>(count),
-                makeLargeArray<glm::vec3>(count)};
+    Triangles t{
+        mesh, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), makeLargeArray<glm::vec3>(count)};
     if (moved != 0)
         t.vertices = (t.welded = makeLargeArray<std::uint32_t>(3 * count)).get();
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
@@ -189,7 +187,8 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
 glm::vec3 alongU(const Triangles& t, std::size_t f)
 {
     return directionsOf(t.position(3 * f), t.position(3 * f + 1), t.position(3 * f + 2), t.texcoord(3 * f),
-                        t.texcoord(3 * f + 1), t.texcoord(3 * f + 2)).u;
+                        t.texcoord(3 * f + 1), t.texcoord(3 * f + 2))
+        .u;
 }
 
 float weightOf(const Triangles& t, std::size_t c)

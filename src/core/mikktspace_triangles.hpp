@@ -31,15 +31,9 @@ struct Triangles {
     glm::vec2 texcoord(std::size_t corner) const { return mesh.texcoords[vertices[corner]]; }
 };
 
-constexpr std::size_t nextCorner(std::size_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
+constexpr std::size_t nextCorner(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-constexpr std::size_t previousCorner(std::size_t corner)
-{
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
+constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 // firstVertex: of every vertex the first one that equals it. contributions gets for every corner dP/du in the
 // plane of its normal, unit, times the angle with which the triangle counts there.

@@ -17,8 +17,7 @@ namespace cotan {
 // `least`. wanted 0: all cores.
 inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted)
 {
-    const std::size_t most =
-        wanted > 0 ? std::size_t(wanted) : std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t most = wanted > 0 ? std::size_t(wanted) : std::max(1u, std::thread::hardware_concurrency());
     return std::clamp<std::size_t>(count / least, 1, most);
 }
 
@@ -64,8 +63,7 @@ template<class Run> void runParts(std::size_t count, std::size_t threads, const 
 {
     // Some parts a thread, so that one that is held up does not keep the others waiting.
     const std::size_t parts = threads == 1 ? 1 : std::min(count, threads * 8);
-    runTasks(parts, threads,
-             [&](std::size_t i) { run(partBegin(count, i, parts), partBegin(count, i + 1, parts)); });
+    runTasks(parts, threads, [&](std::size_t i) { run(partBegin(count, i, parts), partBegin(count, i + 1, parts)); });
 }
 
 } // namespace cotan

@@ -35,8 +35,7 @@ std::vector<std::uint8_t> chooseCorners(std::span<const std::uint32_t> indices, 
 
 } // namespace
 
-ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount,
-                            ProvokingVertex provoking)
+ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount, ProvokingVertex provoking)
 {
     if (indices.size() % 3 != 0 || indices.size() >= std::size_t(1) << 31
         || std::any_of(indices.begin(), indices.end(), [&](std::uint32_t i) { return i >= vertexCount; }))

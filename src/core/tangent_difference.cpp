@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 namespace {
@@ -19,24 +21,19 @@ bool isDegenerate(const MeshView& mesh, std::size_t corner)
     return a.x * b.y == a.y * b.x || p == q || q == r || p == r;
 }
 
-// By the cross product as well: the cosine alone knows no angles below 0.02 degrees in float.
 float degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
     constexpr double kDegrees = 57.29577951308232;
-    return float(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * kDegrees);
+    return float(angleBetween(a, b) * kDegrees);
 }
 
-double share(std::size_t part, std::size_t whole)
-{
-    return whole == 0 ? 0 : double(part) / double(whole);
-}
+double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : double(part) / double(whole); }
 
 } // namespace
 
 double turnedShare(const TangentDifference& d)
 {
-    const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(),
-                                      [](float degrees) { return degrees > 90; });
+    const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(), [](float degrees) { return degrees > 90; });
     return share(std::size_t(turned), d.degrees.size());
 }
 
@@ -72,8 +69,7 @@ TangentVerdict verdictOf(const TangentDifference& d)
 {
     if (d.degrees.empty())
         return TangentVerdict::nothing;
-    if (d.handedness == 0
-        && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
+    if (d.handedness == 0 && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
         return TangentVerdict::equal;
     if (invertedShare(d) >= 0.9)
         return TangentVerdict::inverted;

@@ -8,11 +8,10 @@ namespace cotan::tangents {
 bool usable(const MeshView& mesh)
 {
     const std::size_t count = mesh.positions.size();
-    if (mesh.normals.size() != count || mesh.texcoords.size() != count
-        || mesh.indices.size() % 3 != 0 || mesh.indices.size() >= kNone || count >= kNone)
+    if (mesh.normals.size() != count || mesh.texcoords.size() != count || mesh.indices.size() % 3 != 0
+        || mesh.indices.size() >= kNone || count >= kNone)
         return false;
-    return std::all_of(mesh.indices.begin(), mesh.indices.end(),
-                       [count](std::uint32_t i) { return i < count; });
+    return std::all_of(mesh.indices.begin(), mesh.indices.end(), [count](std::uint32_t i) { return i < count; });
 }
 
 LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)

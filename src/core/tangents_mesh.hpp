@@ -103,10 +103,7 @@ inline bool isZero(glm::vec3 v)
 }
 
 // Lengths that can be squared, and the squares multiplied, in float.
-inline bool isMiddling(float squaredLength)
-{
-    return squaredLength > 1e-15f && squaredLength < 1e15f;
-}
+inline bool isMiddling(float squaredLength) { return squaredLength > 1e-15f && squaredLength < 1e15f; }
 
 // Where floats cannot hold the square, it is taken in double.
 inline glm::vec3 normalizeOrZero(glm::vec3 v)
@@ -118,10 +115,7 @@ inline glm::vec3 normalizeOrZero(glm::vec3 v)
 }
 
 // v without its part along n, as a unit vector; zero if nothing is left.
-inline glm::vec3 projectedUnit(glm::vec3 v, glm::vec3 n)
-{
-    return normalizeOrZero(v - n * glm::dot(n, v));
-}
+inline glm::vec3 projectedUnit(glm::vec3 v, glm::vec3 n) { return normalizeOrZero(v - n * glm::dot(n, v)); }
 
 // Arc cosine of x, taken into [-1,1]; off by 5e-7 radians at most. Several times as fast here as the
 // library's, which is a call. Source: Abramowitz and Stegun, Handbook of Mathematical Functions,

@@ -68,7 +68,9 @@ std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> 
     out.reserve(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const glm::vec4 q = f32::cotan_pack_smooth8(normals[i], cotangents.u[i], cotangents.v[i]);
-        const auto number = [](float x) { return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767)); };
+        const auto number = [](float x) {
+            return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
+        };
         out.push_back({number(q.x), number(q.y), number(q.z), number(q.w)});
     }
     return out;
@@ -92,8 +94,8 @@ std::vector<std::uint16_t> packTangents2(std::span<const glm::vec3> normals, std
     std::vector<std::uint16_t> out;
     out.reserve(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i)
-        out.push_back(static_cast<std::uint16_t>(
-            f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w)));
+        out.push_back(
+            static_cast<std::uint16_t>(f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w)));
     return out;
 }
 

@@ -45,14 +45,8 @@ struct CountedReal {
         return counted(&Operations::add, v);
     }
 
-    friend CountedReal operator+(CountedReal a, CountedReal b)
-    {
-        return sum(a, b, a.value + b.value);
-    }
-    friend CountedReal operator-(CountedReal a, CountedReal b)
-    {
-        return sum(a, b, a.value - b.value);
-    }
+    friend CountedReal operator+(CountedReal a, CountedReal b) { return sum(a, b, a.value + b.value); }
+    friend CountedReal operator-(CountedReal a, CountedReal b) { return sum(a, b, a.value - b.value); }
     friend CountedReal operator-(CountedReal a)
     {
         a.value = -a.value;
@@ -104,10 +98,7 @@ struct CountedReal {
         return counted(&Operations::bits, std::ldexp(1.0, -std::ilogb(a.value)));
     }
     friend CountedReal exp2(CountedReal a) { return CountedReal(std::exp2(a.value)); }
-    friend CountedReal pow(CountedReal a, CountedReal b)
-    {
-        return CountedReal(std::pow(a.value, b.value));
-    }
+    friend CountedReal pow(CountedReal a, CountedReal b) { return CountedReal(std::pow(a.value, b.value)); }
 
 private:
     static bool count(bool result)

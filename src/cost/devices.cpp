@@ -26,8 +26,7 @@ bool hasExtension(const vk::raii::PhysicalDevice& physical, const char* name)
 Device describe(vk::raii::PhysicalDevice physical)
 {
     const auto properties =
-        physical
-            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
     const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
     Device d;
@@ -85,8 +84,7 @@ void open(Device& d)
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
-    d.device =
-        vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
+    d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
 }
 
 bool wanted(const std::string& name, const std::vector<std::string>& names)

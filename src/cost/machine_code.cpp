@@ -48,12 +48,10 @@ double number(const vk::PipelineExecutableStatisticKHR& s)
     return 0;
 }
 
-StageCode readStage(const Device& device, const vk::raii::Pipeline& pipeline,
-                    vk::ShaderStageFlagBits stage)
+StageCode readStage(const Device& device, const vk::raii::Pipeline& pipeline, vk::ShaderStageFlagBits stage)
 {
     StageCode code;
-    const auto executables =
-        device.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
+    const auto executables = device.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
     for (std::uint32_t i = 0; i < executables.size(); ++i) {
         if (!(executables[i].stages & stage))
             continue;
@@ -90,15 +88,13 @@ void compileAll(Device& device, const std::vector<const Row*>& rows, DeviceCode&
     open(device);
     const Layout layout = makeLayout(device);
     for (const Row* row : rows) {
-        const auto pipeline = makePipeline(device, layout, row->stored,
-                                           vertexStage(row->stored).vertex, row->fragment, true);
-        result.rows.push_back(
-            {row->name, readStage(device, pipeline, vk::ShaderStageFlagBits::eFragment)});
+        const auto pipeline =
+            makePipeline(device, layout, row->stored, vertexStage(row->stored).vertex, row->fragment, true);
+        result.rows.push_back({row->name, readStage(device, pipeline, vk::ShaderStageFlagBits::eFragment)});
     }
     for (const VertexStage& v : vertexStages()) {
         const auto pipeline = makePipeline(device, layout, v.stored, v.vertex, v.consumer, true);
-        result.vertices.push_back(
-            {v.stored, readStage(device, pipeline, vk::ShaderStageFlagBits::eVertex)});
+        result.vertices.push_back({v.stored, readStage(device, pipeline, vk::ShaderStageFlagBits::eVertex)});
     }
     if (!result.rows.empty() && result.rows.front().fragment.all.empty())
         result.silence = "the driver offers the extension but reports nothing";

@@ -8,16 +8,14 @@ namespace {
 
 vk::raii::ShaderModule makeModule(const Device& device, std::span<const std::uint32_t> words)
 {
-    return vk::raii::ShaderModule(device.device,
-                                  vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
+    return vk::raii::ShaderModule(device.device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
 }
 
 std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
 {
     using F = vk::Format;
-    std::vector<vk::VertexInputAttributeDescription> list = {{0, 0, F::eR32G32B32Sfloat, 0},
-                                                             {1, 0, F::eR32G32B32Sfloat, 12},
-                                                             {2, 0, F::eR32G32Sfloat, 24}};
+    std::vector<vk::VertexInputAttributeDescription> list = {
+        {0, 0, F::eR32G32B32Sfloat, 0}, {1, 0, F::eR32G32B32Sfloat, 12}, {2, 0, F::eR32G32Sfloat, 24}};
     if (stored == Stored::tangent)
         list.emplace_back(3, 0, F::eR32G32B32A32Sfloat, 32);
     if (stored == Stored::cotangents) {
@@ -35,42 +33,35 @@ std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
 
 } // namespace
 
-std::uint32_t vertexFloats(Stored stored)
-{
-    return 8 + static_cast<std::uint32_t>(vertexStage(stored).bytes + 3) / 4;
-}
+std::uint32_t vertexFloats(Stored stored) { return 8 + static_cast<std::uint32_t>(vertexStage(stored).bytes + 3) / 4; }
 
 Layout makeLayout(const Device& device)
 {
     using T = vk::DescriptorType;
     using S = vk::ShaderStageFlagBits;
-    std::vector<vk::DescriptorSetLayoutBinding> bindings = {
-        {0, T::eUniformBuffer, 1, S::eVertex}, {1, T::eCombinedImageSampler, 1, S::eFragment}};
+    std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, T::eUniformBuffer, 1, S::eVertex},
+                                                            {1, T::eCombinedImageSampler, 1, S::eFragment}};
     for (std::uint32_t i = 0; i < kBuffers; ++i)
         bindings.emplace_back(2 + i, T::eStorageBuffer, 1, S::eVertex | S::eFragment);
     Layout layout;
-    layout.set = vk::raii::DescriptorSetLayout(device.device,
-                                               vk::DescriptorSetLayoutCreateInfo({}, bindings));
-    layout.pipeline =
-        vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
+    layout.set = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
+    layout.pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
     return layout;
 }
 
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
-                                std::span<const std::uint32_t> vertex,
-                                std::span<const std::uint32_t> fragment, bool capture)
+                                std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                bool capture)
 {
     const vk::raii::ShaderModule vertexModule = makeModule(device, vertex);
     const vk::raii::ShaderModule fragmentModule = makeModule(device, fragment);
-    const std::array stages{vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex,
-                                                              *vertexModule, "main"),
-                            vk::PipelineShaderStageCreateInfo(
-                                {}, vk::ShaderStageFlagBits::eFragment, *fragmentModule, "main")};
+    const std::array stages{
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertexModule, "main"),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragmentModule, "main")};
     const vk::VertexInputBindingDescription binding(0, vertexFloats(stored) * 4);
     const auto attributes = attributesOf(stored);
     const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
-    const vk::PipelineInputAssemblyStateCreateInfo assembly({},
-                                                            vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;

@@ -19,8 +19,8 @@ Layout makeLayout(const Device& device);
 // Vertices: one binding; position, normal, uv, then what is stored, all as 32-bit floats, packed.
 // capture: ask the driver for statistics. Throws vk::SystemError.
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
-                                std::span<const std::uint32_t> vertex,
-                                std::span<const std::uint32_t> fragment, bool capture);
+                                std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                bool capture);
 
 // Floats of a vertex.
 std::uint32_t vertexFloats(Stored stored);

@@ -70,18 +70,15 @@ struct FrameFunction {
     counted::cotan_frame (*run)(cotan_vec3, cotan_vec3, cotan_vec3, cotan_vec2, cotan_vec2);
 };
 
+// Of the frames that are built from differences.
 constexpr FrameFunction kFrames[] = {
-    {"cotangent", counted::cotan_frame_cotangent},
-    {"cotangent-2013", counted::cotan_frame_cotangent_2013},
-    {"nonperspective", counted::cotan_frame_nonperspective},
-    {"paper-full", counted::cotan_frame_paper_full},
-    {"paper-nodet", counted::cotan_frame_paper_nodet},
-    {"paper-transpose", counted::cotan_frame_paper_transpose},
-    {"paper-orthogonal", counted::cotan_frame_paper_orthogonal},
-    {"unit", counted::cotan_frame_unit},
-    {"orthonormal", counted::cotan_frame_orthonormal},
-    {"gradient", counted::cotan_frame_gradient},
-    {"exact", counted::cotan_frame_exact},
+#define COTAN_ROW_differences(name, word) {name, counted::cotan_frame_##word},
+#define COTAN_ROW_triangle(name, word) {name, counted::cotan_frame_##word},
+#define COTAN_ROW_cotangents(name, word)
+#define COTAN_ROW_tangents(name, word)
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
+    COTAN_ROW_##source(name, word)
+#include "cotan/frames.inc"
 };
 
 // A sound fragment. The text has no branches that skip work, so any other counts the same.

@@ -5,8 +5,8 @@ namespace cotan::cost {
 int spirvInstructions(std::span<const std::uint32_t> words)
 {
     // Numbers of the SPIR-V specification, section 3.49.
-    constexpr std::uint32_t kMagic = 0x07230203, kNop = 0, kLine = 8, kFunction = 54,
-                            kFunctionEnd = 56, kVariable = 59, kLabel = 248, kNoLine = 317;
+    constexpr std::uint32_t kMagic = 0x07230203, kNop = 0, kLine = 8, kFunction = 54, kFunctionEnd = 56, kVariable = 59,
+                            kLabel = 248, kNoLine = 317;
     constexpr std::size_t kHeader = 5;
     if (words.size() < kHeader || words[0] != kMagic)
         return 0;
@@ -20,8 +20,7 @@ int spirvInstructions(std::span<const std::uint32_t> words)
         at += length;
         if (code == kFunction || code == kFunctionEnd)
             inside = code == kFunction;
-        else if (inside && code != kNop && code != kLine && code != kVariable && code != kLabel
-                 && code != kNoLine)
+        else if (inside && code != kNop && code != kLine && code != kVariable && code != kLabel && code != kNoLine)
             ++count;
     }
     return count;

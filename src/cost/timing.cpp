@@ -24,23 +24,20 @@ public:
     explicit Timer(Device& device) : device_(device)
     {
         queue_ = device.device.getQueue(device.queueFamily, 0);
-        pool_ = vk::raii::CommandPool(
-            device.device,
-            {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
-        commands_ = std::move(vk::raii::CommandBuffers(
-            device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+        pool_ = vk::raii::CommandPool(device.device,
+                                      {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
+        commands_ =
+            std::move(vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
         fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
         queries_ = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, 2});
         layout_ = makeLayout(device);
         using U = vk::ImageUsageFlagBits;
         target_ = makePicture(device, kColorFormat, kTargetSize, U::eColorAttachment);
-        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize,
-                           U::eSampled | U::eTransferDst);
-        sampler_ = vk::raii::Sampler(
-            device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
+        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
+        sampler_ =
+            vk::raii::Sampler(device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
         const Uniforms uniforms;
-        uniforms_ =
-            makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms, sizeof uniforms);
+        uniforms_ = makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms, sizeof uniforms);
         makeSet();
         prepareImages();
     }
@@ -48,24 +45,21 @@ public:
     void usePipelines(const std::vector<const Row*>& rows)
     {
         for (const Row* row : rows)
-            pipelines_.push_back(makePipeline(device_, layout_, row->stored,
-                                              vertexStage(row->stored).vertex, row->fragment,
-                                              false));
+            pipelines_.push_back(
+                makePipeline(device_, layout_, row->stored, vertexStage(row->stored).vertex, row->fragment, false));
     }
 
     void useGrid(const Grid& grid)
     {
-        const vk::DescriptorImageInfo image(*sampler_, *map_.view,
-                                            vk::ImageLayout::eShaderReadOnlyOptimal);
+        const vk::DescriptorImageInfo image(*sampler_, *map_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
         using T = vk::DescriptorType;
         const std::array buffers{vk::DescriptorBufferInfo(*uniforms_.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.positions.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.texcoords.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.indices.buffer, 0, VK_WHOLE_SIZE)};
-        const std::array writes{
-            vk::WriteDescriptorSet(set_, 0, 0, 1, T::eUniformBuffer, nullptr, &buffers[0]),
-            vk::WriteDescriptorSet(set_, 1, 0, 1, T::eCombinedImageSampler, &image),
-            vk::WriteDescriptorSet(set_, 2, 0, 3, T::eStorageBuffer, nullptr, &buffers[1])};
+        const std::array writes{vk::WriteDescriptorSet(set_, 0, 0, 1, T::eUniformBuffer, nullptr, &buffers[0]),
+                                vk::WriteDescriptorSet(set_, 1, 0, 1, T::eCombinedImageSampler, &image),
+                                vk::WriteDescriptorSet(set_, 2, 0, 3, T::eStorageBuffer, nullptr, &buffers[1])};
         device_.device.updateDescriptorSets(writes, nullptr);
     }
 
@@ -81,12 +75,10 @@ public:
         commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 0);
         commands_.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
         commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[pipeline]);
-        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_,
-                                     nullptr);
+        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_, nullptr);
         commands_.setViewport(0, vk::Viewport(0, 0, float(kTargetSize), float(kTargetSize), 0, 1));
         commands_.setScissor(0, area);
-        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer,
-                                    vk::DeviceSize(0));
+        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
         commands_.bindIndexBuffer(*grid.indices.buffer, 0, vk::IndexType::eUint32);
         commands_.drawIndexed(grid.indexCount, 1, 0, 0, 0);
         commands_.endRendering();
@@ -104,8 +96,7 @@ private:
         const std::array sizes{vk::DescriptorPoolSize(T::eUniformBuffer, 1),
                                vk::DescriptorPoolSize(T::eCombinedImageSampler, 1),
                                vk::DescriptorPoolSize(T::eStorageBuffer, kBuffers)};
-        descriptors_ =
-            vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
+        descriptors_ = vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
         // The plain handle: the pool gives it back.
         const vk::DescriptorSetAllocateInfo info(*descriptors_, *layout_.set);
         set_ = (*device_.device).allocateDescriptorSets(info, *device_.device.getDispatcher())[0];
@@ -119,8 +110,7 @@ private:
             for (const double c : {0.3 * std::sin(a), 0.3 * std::sin(b), 0.9, 1.0})
                 texels.push_back(static_cast<std::uint8_t>(std::lround((c * 0.5 + 0.5) * 255)));
         }
-        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc,
-                                          texels.data(), texels.size());
+        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc, texels.data(), texels.size());
         using L = vk::ImageLayout;
         commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         transition(commands_, *target_.image, L::eUndefined, L::eColorAttachmentOptimal);
@@ -163,8 +153,7 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOptions& options,
-             DeviceTiming& result)
+void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOptions& options, DeviceTiming& result)
 {
     open(device);
     Timer timer(device);
@@ -194,8 +183,7 @@ const std::vector<int>& triangleLegs()
     return legs;
 }
 
-Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows,
-                                           const TimingOptions& options)
+Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, const TimingOptions& options)
 {
     try {
         const Instance instance = openInstance();

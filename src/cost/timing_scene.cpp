@@ -6,8 +6,7 @@ namespace cotan::cost {
 
 namespace {
 
-std::uint32_t memoryType(const Device& device, std::uint32_t allowed,
-                         vk::MemoryPropertyFlags needed)
+std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::MemoryPropertyFlags needed)
 {
     const auto memory = device.physical.getMemoryProperties();
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
@@ -18,37 +17,32 @@ std::uint32_t memoryType(const Device& device, std::uint32_t allowed,
 
 } // namespace
 
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data,
-                  std::size_t bytes)
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
 {
     Buffer b;
     b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
     const auto needs = b.buffer.getMemoryRequirements();
     using M = vk::MemoryPropertyFlagBits;
     b.memory = vk::raii::DeviceMemory(
-        device.device,
-        {needs.size, memoryType(device, needs.memoryTypeBits, M::eHostVisible | M::eHostCoherent)});
+        device.device, {needs.size, memoryType(device, needs.memoryTypeBits, M::eHostVisible | M::eHostCoherent)});
     b.buffer.bindMemory(*b.memory, 0);
     std::memcpy(b.memory.mapMemory(0, bytes), data, bytes);
     b.memory.unmapMemory();
     return b;
 }
 
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
-                    vk::ImageUsageFlags usage)
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage)
 {
     Picture p;
-    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1,
-                             vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
+    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits::e1,
+                             vk::ImageTiling::eOptimal, usage);
     p.image = vk::raii::Image(device.device, info);
     const auto needs = p.image.getMemoryRequirements();
-    p.memory = vk::raii::DeviceMemory(device.device,
-                                      {needs.size, memoryType(device, needs.memoryTypeBits, {})});
+    p.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, {})});
     p.image.bindMemory(*p.memory, 0);
-    p.view = vk::raii::ImageView(
-        device.device,
-        vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
-                                {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}));
+    p.view = vk::raii::ImageView(device.device,
+                                 vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
+                                                         {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}));
     return p;
 }
 
@@ -61,8 +55,7 @@ Grid makeGrid(const Device& device, int leg)
         for (std::uint32_t x = 0; x <= cells; ++x) {
             const float u = float(x) / float(cells), v = float(y) / float(cells);
             // A tilted plane inside the clip volume; the projection is the identity.
-            const float base[] = {2 * u - 1, 2 * v - 1, 0.4f + 0.2f * u, 0.1f,
-                                  0.1f,      0.99f,     4 * u,           4 * v};
+            const float base[] = {2 * u - 1, 2 * v - 1, 0.4f + 0.2f * u, 0.1f, 0.1f, 0.99f, 4 * u, 4 * v};
             positions.insert(positions.end(), base, base + 3);
             texcoords.insert(texcoords.end(), base + 6, base + 8);
             normals.insert(normals.end(), base + 3, base + 6);
@@ -82,8 +75,7 @@ Grid makeGrid(const Device& device, int leg)
     Grid grid;
     for (const auto& list : vertices)
         grid.vertices.push_back(makeBuffer(device, U::eVertexBuffer, list.data(), list.size() * 4));
-    grid.indices =
-        makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
+    grid.indices = makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
     grid.positions = makeBuffer(device, U::eStorageBuffer, positions.data(), positions.size() * 4);
     grid.texcoords = makeBuffer(device, U::eStorageBuffer, texcoords.data(), texcoords.size() * 4);
     grid.normals = makeBuffer(device, U::eStorageBuffer, normals.data(), normals.size() * 4);
@@ -91,15 +83,13 @@ Grid makeGrid(const Device& device, int leg)
     return grid;
 }
 
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from,
-                vk::ImageLayout to)
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to)
 {
     using S = vk::PipelineStageFlagBits2;
     using A = vk::AccessFlagBits2;
-    const vk::ImageMemoryBarrier2 barrier(S::eAllCommands, A::eMemoryWrite, S::eAllCommands,
-                                          A::eMemoryRead | A::eMemoryWrite, from, to,
-                                          VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
-                                          {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
+    const vk::ImageMemoryBarrier2 barrier(
+        S::eAllCommands, A::eMemoryWrite, S::eAllCommands, A::eMemoryRead | A::eMemoryWrite, from, to,
+        VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
     commands.pipelineBarrier2(vk::DependencyInfo({}, nullptr, nullptr, barrier));
 }
 

@@ -29,14 +29,11 @@ struct Grid {
 };
 
 // Host-visible memory everywhere: the data is read once per draw. All throw vk::SystemError.
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data,
-                  std::size_t bytes);
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
-                    vk::ImageUsageFlags usage);
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage);
 Grid makeGrid(const Device& device, int leg);
 
 // A commands buffer's image barrier, all stages.
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from,
-                vk::ImageLayout to);
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to);
 
 } // namespace cotan::cost

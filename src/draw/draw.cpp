@@ -13,8 +13,8 @@ Result<Image> drawView(Scene scene, const View& view, const std::string& device,
         return painter.error();
     if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
         return sound.error();
-    if (view.frame >= 0 && view.frame < kFrameCount) // others are for the painter to refuse
-        deriveVertexFrames(scene, Frame(view.frame), /*regenerate*/ false);
+    if (isFrame(int(view.frame))) // others are for the painter to refuse
+        deriveVertexFrames(scene, view.frame, TangentOrigin::stored);
     if (const Status loaded = (*painter)->load(scene); !loaded)
         return loaded.error();
     return (*painter)->draw(view);

@@ -25,7 +25,7 @@ Image flatMap()
 }
 
 // An upright mirror of two charts side by side; the right one's texcoords run up, the left one's down.
-Scene mirrorScene(int expansion)
+Scene mirrorScene(Expansion expansion)
 {
     Scene scene = sceneOf(makePatch(1, 0, false, 1), flatMap(), metal({0.9f, 0.9f, 0.9f}, 0));
     scene.materials[0].normalFormat.expansion = expansion;
@@ -49,12 +49,12 @@ View mirrorView(const Studio& studio)
     return view;
 }
 
-Scene domeScene(Image map, int channels, bool greenAlongV)
+Scene domeScene(Image map, Channels channels, bool greenUp)
 {
     Mesh mesh = makePatch(1, 0, false, 1);
     Scene scene = sceneOf(std::move(mesh), std::move(map), dielectric({0.06f, 0.12f, 0.07f}, 0.38f));
     scene.materials[0].normalFormat.channels = channels;
-    scene.materials[0].normalFormat.greenAlongV = greenAlongV;
+    scene.materials[0].normalFormat.greenUp = greenUp;
     return scene;
 }
 
@@ -63,7 +63,7 @@ constexpr std::array<float, 3> kUpright{0, 0, 1};
 void addMirrors(Studio& studio, Figure& figure)
 {
     const View view = mirrorView(studio);
-    const Scene biased = mirrorScene(COTAN_EXPAND_BIASED), exact = mirrorScene(COTAN_EXPAND_EXACT);
+    const Scene biased = mirrorScene(Expansion::biased), exact = mirrorScene(Expansion::exact);
     studio.show(exact);
     Image exactPicture = studio.shaded(view, Frame::cotangent);
     const Image exactNormals = studio.normals(view, Frame::cotangent);
@@ -87,17 +87,17 @@ void addDomes(Studio& studio, Figure& figure)
     const View view = squareView(studio, frontal(1));
     const Image map = makeReliefMap(Relief::domes, 512);
     const struct {
-        int channels;
-        bool greenAlongV;
+        Channels channels;
+        bool greenUp;
         const char *file, *label, *caption;
-    } rows[] = {{COTAN_CHANNELS_XYZ, false, "d-three-channels", "three channels, green up", "As the map is meant."},
-                {COTAN_CHANNELS_ORTHOGRAPHIC, false, "e-two-channels", "two channels",
-                 "Blue is not read; z comes from x and y."},
-                {COTAN_CHANNELS_XYZ, true, "f-green-wrong", "green the wrong way",
-                 "The same map read as green down: lit from the lower left, or dents."}};
+    } rows[] = {
+        {Channels::xyz, true, "d-three-channels", "three channels, green up", "As the map is meant."},
+        {Channels::orthographic, true, "e-two-channels", "two channels", "Blue is not read; z comes from x and y."},
+        {Channels::xyz, false, "f-green-wrong", "green the wrong way",
+         "The same map read as green down: lit from the lower left, or dents."}};
     Image truth;
     for (const auto& row : rows) {
-        const Scene scene = domeScene(map, row.channels, row.greenAlongV);
+        const Scene scene = domeScene(map, row.channels, row.greenUp);
         studio.show(scene);
         if (truth.data.empty())
             truth = truthNormals(studio.vectors(view, Frame::exact, Output::uv), domeHeight(),

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/report/angles.hpp"
 #include "figure.hpp"
@@ -90,7 +91,7 @@ AngleStatistics sweep(double tilt)
             const double b = (azimuth + 0.5) * 2 * std::numbers::pi / kSteps;
             const Vec3 m(std::sin(kMapTilt) * std::cos(b), std::sin(kMapTilt) * std::sin(b), std::cos(kMapTilt));
             const Vec3 p = f64::cotan_apply(right, m), q = f64::cotan_apply(shortened, m);
-            degrees.push_back(float(std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)) / kDegree));
+            degrees.push_back(float(angleBetween(p, q) / kDegree));
         }
     }
     return statisticsOf(std::move(degrees));

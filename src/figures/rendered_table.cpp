@@ -54,7 +54,7 @@ Result<Measurement> drawn(Painter& painter, const PaintedScene& painted, Frame f
         View view;
         view.width = view.height = kSide;
         view.camera = camera;
-        view.frame = int(frame);
+        view.frame = frame;
         view.output = Output::normal;
         const auto normals = painter.draw(view);
         view.output = Output::uv;
@@ -73,7 +73,7 @@ Scene sceneFor(const PaintedScene& painted, const FrameGroup& group)
     PaintedScene copy = painted;
     setStrengthFor(copy, group.front());
     for (Frame frame : group)
-        deriveVertexFrames(copy.scene, frame, true);
+        deriveVertexFrames(copy.scene, frame, TangentOrigin::generated);
     return std::move(copy.scene);
 }
 

@@ -42,7 +42,7 @@ Material metal(glm::vec3 linearColor, float roughness)
 
 Scene withVertexFrames(Scene scene, Frame frame)
 {
-    deriveVertexFrames(scene, frame, /*regenerate*/ true);
+    deriveVertexFrames(scene, frame, TangentOrigin::generated);
     return scene;
 }
 

@@ -32,14 +32,14 @@ Image Studio::drawReference(const View& view)
 Image Studio::shaded(View view, Frame frame)
 {
     view.output = Output::shaded;
-    view.frame = int(frame);
+    view.frame = frame;
     return draw(view);
 }
 
 Image Studio::vectors(View view, Frame frame, Output output)
 {
     view.output = output;
-    view.frame = int(frame);
+    view.frame = frame;
     return draw(view);
 }
 

@@ -109,7 +109,7 @@ Figure makeTutorialFigure(Studio& studio)
         {Lighting::tangentPixel, Frame::cotangent, "f-tangent-pixel-cotangent", "the same with the frame cotangent"}};
     std::vector<Panel> differences;
     for (const auto& row : carried) {
-        view.frame = int(row.frame);
+        view.frame = row.frame;
         view.lighting = Lighting::world;
         const Image world = studio.drawReference(view);
         view.lighting = row.lighting;

@@ -15,15 +15,14 @@ namespace {
 
 // A file by any name.
 struct Identity {
-    fs::path place;     // canonical as far as it exists
+    fs::path place; // canonical as far as it exists
     bool exists = false;
-    dev_t device = 0;   // where it exists
+    dev_t device = 0; // where it exists
     ino_t number = 0;
 
     bool operator==(const Identity& other) const
     {
-        return place == other.place
-            || (exists && other.exists && device == other.device && number == other.number);
+        return place == other.place || (exists && other.exists && device == other.device && number == other.number);
     }
 };
 

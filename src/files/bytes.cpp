@@ -30,8 +30,7 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit)
     if (size == 0)
         return inputError(fmt::format("{}: the file is empty", file.string()));
     if (size > limit)
-        return inputError(
-            fmt::format("{}: the file has {} bytes, the limit is {}", file.string(), size, limit));
+        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", file.string(), size, limit));
     return static_cast<std::size_t>(size);
 }
 
@@ -40,8 +39,8 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     const auto size = usableFileSize(file, limit);
     if (!size)
         return size.error();
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(
-        std::fopen(file.c_str(), "rb"), [](std::FILE* f) { return std::fclose(f); });
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(std::fopen(file.c_str(), "rb"),
+                                                                 [](std::FILE* f) { return std::fclose(f); });
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
     std::vector<std::byte> bytes(*size);

@@ -19,8 +19,7 @@ std::optional<fs::path> findInFolder(const fs::path& folder, std::string request
     const fs::path wanted = fs::weakly_canonical(folder / request, error);
     if (error)
         return std::nullopt;
-    const auto [end, rest] =
-        std::mismatch(folder.begin(), folder.end(), wanted.begin(), wanted.end());
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), wanted.begin(), wanted.end());
     if (end != folder.end()) {
         outside = true;
         return std::nullopt;

@@ -26,7 +26,7 @@ struct Slot {
 Slot slots[kMostParts];
 
 std::atomic<int> holds = 0;
-std::atomic<int> waiting = 0; // the signal that came while it was held; 0: none
+std::atomic<int> waiting = 0;     // the signal that came while it was held; 0: none
 std::atomic<bool> ending = false; // the program is about to end by a signal: no more parts are begun
 
 static_assert(std::atomic<int>::is_always_lock_free);

@@ -33,8 +33,9 @@ fs::path partBeside(const fs::path& file)
 {
     static std::atomic<unsigned> counter{0};
     const std::string extension = file.extension().string();
-    return folderOf(file) / fmt::format("{}{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), kPartMark,
-                                        extension.size() <= 16 ? extension : "");
+    return folderOf(file)
+        / fmt::format("{}{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), kPartMark,
+                      extension.size() <= 16 ? extension : "");
 }
 
 // The process that a part's name tells; 0 for other names.
@@ -211,10 +212,12 @@ Status checkWritable(const fs::path& file, bool makesFolder)
     while (makesFolder && !fs::exists(fs::symlink_status(folder, ignored)) && folder != folderOf(folder))
         folder = folderOf(folder);
     if (!fs::is_directory(folder, ignored))
-        return outputError(makesFolder ? fmt::format("{}: cannot make the folder: {} is a file", file.string(), folder.string())
-                                       : fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
+        return outputError(makesFolder
+                               ? fmt::format("{}: cannot make the folder: {} is a file", file.string(), folder.string())
+                               : fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        return outputError(fmt::format("{}: cannot write in the folder {}: {}", file.string(), folder.string(), reasonOf(errno)));
+        return outputError(
+            fmt::format("{}: cannot write in the folder {}: {}", file.string(), folder.string(), reasonOf(errno)));
     return Done{};
 }
 

@@ -1,7 +1,9 @@
-// Compares the JSON with the tables of gltf_schema.hpp.
+// Compares the JSON with the tables of schema.hpp.
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string_view>
 
 #include "file.hpp"
@@ -9,11 +11,12 @@
 
 namespace cotan {
 
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
 using namespace gltf_schema;
+using gltf::member;
 
 // ---- the walk -------------------------------------------------------------------------------
 
@@ -35,7 +38,7 @@ std::string describe(const Place& place)
                           : fmt::format("{}.{}", before, oneLine(std::string(place.name)));
 }
 
-std::string found(const json& value)
+std::string found(const Json& value)
 {
     if (value.is_structured())
         return value.is_array() ? "an array" : "an object";
@@ -43,42 +46,42 @@ std::string found(const json& value)
     return text.size() > 60 ? text.substr(0, 60) + "..." : text;
 }
 
-[[noreturn]] void wrong(const Place& place, const std::string& expected, const json& value)
+[[noreturn]] void wrong(const Place& place, const std::string& expected, const Json& value)
 {
     failGltf("{}: expected {}, found {}", describe(place), expected, found(value));
 }
 
 class Checker {
 public:
-    explicit Checker(const json& root) : root_(root) {}
+    explicit Checker(const Json& root) : root_(root) {}
 
-    void fields(const json& value, Fields expected, const Place& place) const
+    void fields(const Json& value, Fields expected, const Place& place) const
     {
         if (!value.is_object())
             wrong(place, "an object", value);
         for (const Field& field : expected) {
             const Place inner{&place, field.name};
-            const auto member = value.find(field.name);
-            if (member != value.end())
-                check(*member, field, inner);
+            if (const Json* const there = member(value, field.name))
+                check(*there, field, inner);
             else if (field.required)
                 failGltf("{}: missing", describe(inner));
         }
     }
 
 private:
+    // How many items a collection has.
     std::size_t sizeOf(std::string_view collection) const
     {
-        const json* list = nullptr;
-        if (collection != "lights")
-            list = root_.contains(collection) ? &root_[std::string(collection)] : nullptr;
-        else if (const json::json_pointer at("/extensions/KHR_lights_punctual/lights");
-                 root_.contains(at))
-            list = &root_[at];
-        return list && list->is_array() ? list->size() : 0;
+        const auto known = sizes_.find(collection);
+        if (known != sizes_.end())
+            return known->second;
+        const Json* const lights = gltf::extension(root_, "KHR_lights_punctual");
+        const Json* const owner = collection == "lights" ? lights : &root_;
+        const Json* const list = owner ? member(*owner, collection) : nullptr;
+        return sizes_[collection] = list && list->is_array() ? list->size() : 0;
     }
 
-    void checkNumber(const json& value, double low, double high, const Place& place) const
+    void checkNumber(const Json& value, double low, double high, const Place& place) const
     {
         if (!value.is_number())
             wrong(place, "a number", value);
@@ -86,22 +89,23 @@ private:
             wrong(place, fmt::format("a number from {:g} to {:g}", low, high), value);
     }
 
-    void checkInteger(const json& value, const Field& field, const Place& place) const
+    void checkInteger(const Json& value, const Field& field, const Place& place) const
     {
         if (!value.is_number_integer())
             wrong(place, "an integer", value);
         const auto x = value.get<double>();
         if (!(x >= field.low && x <= field.high))
-            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high),
-                  value);
+            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
         bool allowed = field.integers.empty();
         for (const int i : field.integers)
             allowed = allowed || x == i;
         if (!allowed)
             wrong(place, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
+        if (value.get<std::uint64_t>() % field.multipleOf != 0)
+            wrong(place, fmt::format("a multiple of {}", field.multipleOf), value);
     }
 
-    void checkText(const json& value, const Field& field, const Place& place) const
+    void checkText(const Json& value, const Field& field, const Place& place) const
     {
         if (!value.is_string())
             wrong(place, "a string", value);
@@ -112,14 +116,14 @@ private:
             wrong(place, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
     }
 
-    void checkIndex(const json& value, std::string_view refers, const Place& place) const
+    void checkIndex(const Json& value, std::string_view refers, const Place& place) const
     {
         const std::size_t count = sizeOf(refers);
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
             wrong(place, fmt::format("an index below {}, the number of {}", count, refers), value);
     }
 
-    void checkIndexMap(const json& value, const Field& field, const Place& place) const
+    void checkIndexMap(const Json& value, const Field& field, const Place& place) const
     {
         if (!value.is_object())
             wrong(place, "an object", value);
@@ -127,7 +131,7 @@ private:
             checkIndex(item, field.refers, Place{&place, key});
     }
 
-    template<class Check> void each(const json& value, const Place& place, const Check& check) const
+    template<class Check> void each(const Json& value, const Place& place, const Check& check) const
     {
         if (!value.is_array())
             wrong(place, "an array", value);
@@ -135,12 +139,11 @@ private:
             check(value[i], Place{&place, {}, i});
     }
 
-    void checkArray(const json& value, const Field& field, const Place& place) const
+    void checkArray(const Json& value, const Field& field, const Place& place) const
     {
         if (field.length > 0 && value.is_array() && value.size() != field.length)
-            failGltf("{}: expected {} numbers, found {}", describe(place), field.length,
-                     value.size());
-        each(value, place, [&](const json& item, const Place& at) {
+            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
+        each(value, place, [&](const Json& item, const Place& at) {
             switch (field.shape) {
             case Shape::numbers: checkNumber(item, field.low, field.high, at); break;
             case Shape::indices: checkIndex(item, field.refers, at); break;
@@ -151,7 +154,7 @@ private:
         });
     }
 
-    void check(const json& value, const Field& field, const Place& place) const
+    void check(const Json& value, const Field& field, const Place& place) const
     {
         switch (field.shape) {
         case Shape::boolean:
@@ -172,30 +175,29 @@ private:
         }
     }
 
-    const json& root_;
+    const Json& root_;
+    mutable std::map<std::string_view, std::size_t> sizes_; // of collections, as they are asked for
 };
 
 // ---- version and extensions -----------------------------------------------------------------
 
 // Before anything about structure: in version 1 the collections are objects, and the asset may be
 // missing.
-void refuseVersion1(const json& root)
+void refuseVersion1(const Json& root)
 {
-    const json none = json::object();
-    const json& asset = root.contains("asset") ? root["asset"] : none;
-    if (asset.is_object() && asset.contains("version")) {
-        const json& version = asset["version"];
-        const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+    const Json* const asset = member(root, "asset");
+    if (const Json* const version = asset ? member(*asset, "version") : nullptr) {
+        const std::string text = version->is_string() ? version->get<std::string>() : version->dump();
         if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
             failGltfVersion1("asset.version");
         return;
     }
     for (const char* const collection : {"meshes", "nodes", "scenes", "accessors", "bufferViews"})
-        if (root.contains(collection) && root[collection].is_object())
+        if (const Json* const found = member(root, collection); found && found->is_object())
             failGltfVersion1(collection);
 }
 
-void checkVersion(const json& asset)
+void checkVersion(const Json& asset)
 {
     const std::string version = asset["version"];
     if (!version.starts_with("2."))
@@ -222,19 +224,21 @@ constexpr std::array kImageFormats{
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
 // can be drawn without them, if that is said. Any other unknown extension may change what the
 // data mean.
-void checkExtensions(const json& root, Pixels pixels, GltfWarnings& warnings)
+void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
 {
     std::vector<std::string> ignored;
+    std::set<std::string_view> seen;
     for (const char* const list : {"extensionsRequired", "extensionsUsed"}) {
-        for (const json& item : root.value(list, json::array())) {
+        const Json* const names = member(root, list);
+        for (std::size_t i = 0; names && i < names->size(); ++i) {
+            const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const bool known =
-                std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
+            const bool known = std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
             const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));
-            if (!known && std::find(ignored.begin(), ignored.end(), name) == ignored.end())
+            if (!known && seen.insert(name).second)
                 ignored.push_back(name);
         }
     }
@@ -244,7 +248,7 @@ void checkExtensions(const json& root, Pixels pixels, GltfWarnings& warnings)
 
 } // namespace
 
-void checkGltfShape(const json& root, const LoadLimits& limits, GltfWarnings& warnings)
+void checkGltfShape(const Json& root, const LoadLimits& limits, GltfWarnings& warnings)
 {
     const Place top;
     if (!root.is_object())
@@ -253,8 +257,8 @@ void checkGltfShape(const json& root, const LoadLimits& limits, GltfWarnings& wa
     Checker(root).fields(root, kRoot, top);
     checkVersion(root["asset"]);
     checkExtensions(root, limits.pixels, warnings);
-    if (root.contains("nodes") && root["nodes"].size() > limits.nodes)
-        failGltf("nodes: the limit is {}, found {}", limits.nodes, root["nodes"].size());
+    if (const Json* const nodes = member(root, "nodes"); nodes && nodes->size() > limits.nodes)
+        failGltf("nodes: the limit is {}, found {}", limits.nodes, nodes->size());
 }
 
 } // namespace cotan

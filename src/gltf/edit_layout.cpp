@@ -17,10 +17,7 @@ std::vector<bool> released(const GltfDocument& document, Collection collection)
     return removed;
 }
 
-bool any(const std::vector<bool>& flags)
-{
-    return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
+bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
 
 // A buffer view with its bytes and where in the file they are.
 struct Part {
@@ -33,15 +30,15 @@ struct Part {
 std::vector<Part> partsOf(const GltfDocument& document)
 {
     std::vector<Part> parts(countOf(document.root, "bufferViews"));
-    const std::size_t old = countOf(document.source->root, "bufferViews");
+    const std::size_t old = document.source->views.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].bytes = viewBytes(document, i);
         parts[i].fromFile = i < old;
         if (!parts[i].fromFile)
             continue;
-        const OrderedJson& view = document.source->root["bufferViews"][i];
-        parts[i].buffer = sizeOr(view, "buffer", 0);
-        parts[i].offset = sizeOr(view, "byteOffset", 0);
+        const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+        parts[i].buffer = view.buffer;
+        parts[i].offset = view.offset;
     }
     return parts;
 }
@@ -53,7 +50,7 @@ void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
 
 void place(Layout& out, const Part& part, std::size_t offset)
 {
-    OrderedJson& view = out.root["bufferViews"][part.view];
+    Json& view = out.root["bufferViews"][part.view];
     view["buffer"] = 0;
     if (offset > 0 || view.contains("byteOffset"))
         view["byteOffset"] = offset;
@@ -70,9 +67,7 @@ void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layo
     for (std::size_t first = 0, last; first < parts.size(); first = last) {
         const std::size_t buffer = parts[first].buffer, begin = parts[first].offset;
         std::size_t end = begin + parts[first].bytes.size();
-        for (last = first + 1; last < parts.size() && parts[last].buffer == buffer
-             && parts[last].offset < end;
-             ++last)
+        for (last = first + 1; last < parts.size() && parts[last].buffer == buffer && parts[last].offset < end; ++last)
             end = std::max(end, parts[last].offset + parts[last].bytes.size());
         alignFor(out.buffer, begin);
         const std::size_t start = out.buffer.size();
@@ -95,20 +90,19 @@ void appendWhole(const GltfDocument& document, const std::vector<Part>& parts, L
 
 void describeBuffer(GltfDocument& document, Layout& out)
 {
-    OrderedJson first = OrderedJson::object();
+    Json first = Json::object();
     if (const std::size_t count = countOf(out.root, "buffers"); count > 0) {
         first = out.root["buffers"][0];
         if (count > 1)
             document.notes.push_back(
-                fmt::format("buffers: {} were joined into one; names and extras of the first are kept",
-                            count));
+                fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }
     first.erase("uri");
     first["byteLength"] = out.buffer.size();
     if (out.buffer.empty())
         out.root.erase("buffers");
     else
-        out.root["buffers"] = OrderedJson::array({std::move(first)});
+        out.root["buffers"] = Json::array({std::move(first)});
 }
 
 } // namespace
@@ -129,9 +123,8 @@ Layout layOut(GltfDocument& document)
             removeItems(document.root, Collection::accessors, accessors);
         }
     } else {
-        document.notes.push_back(fmt::format(
-            "nothing is removed: unknown extensions may refer to any data ({})",
-            oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
+        document.notes.push_back(fmt::format("nothing is removed: unknown extensions may refer to any data ({})",
+                                             oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
     }
 
     std::vector<Part> parts = partsOf(document);

@@ -9,11 +9,11 @@ namespace cotan::gltf_edit {
 
 namespace {
 
-using Visit = std::function<void(OrderedJson&)>;
+using Visit = std::function<void(Json&)>;
 
 // A member that is an object or array; nothing where it is missing or something else: animations
 // and extensions are not checked when the file is read.
-OrderedJson* inside(OrderedJson& object, const char* member)
+Json* inside(Json& object, const char* member)
 {
     if (!object.is_object())
         return nullptr;
@@ -21,86 +21,84 @@ OrderedJson* inside(OrderedJson& object, const char* member)
     return found != object.end() && found->is_structured() ? &*found : nullptr;
 }
 
-template<class Each> void forItems(OrderedJson& object, const char* list, const Each& each)
+template<class Each> void forItems(Json& object, const char* list, const Each& each)
 {
-    if (OrderedJson* const items = inside(object, list))
-        for (OrderedJson& item : *items)
+    if (Json* const items = inside(object, list))
+        for (Json& item : *items)
             if (item.is_structured())
                 each(item);
 }
 
-void visitMember(OrderedJson& object, const char* member, const Visit& visit)
+void visitMember(Json& object, const char* member, const Visit& visit)
 {
     const auto found = object.find(member);
     if (found != object.end() && found->is_number_unsigned())
         visit(*found);
 }
 
-void visitValues(OrderedJson& object, const Visit& visit)
+void visitValues(Json& object, const Visit& visit)
 {
-    for (OrderedJson& value : object)
+    for (Json& value : object)
         if (value.is_number_unsigned())
             visit(value);
 }
 
-OrderedJson* extension(OrderedJson& object, const char* name)
+Json* extension(Json& object, const char* name)
 {
-    OrderedJson* const extensions = inside(object, "extensions");
+    Json* const extensions = inside(object, "extensions");
     return extensions ? inside(*extensions, name) : nullptr;
 }
 
-void visitPrimitive(OrderedJson& primitive, const Visit& visit)
+void visitPrimitive(Json& primitive, const Visit& visit)
 {
     visitMember(primitive, "indices", visit);
-    if (OrderedJson* const attributes = inside(primitive, "attributes"))
+    if (Json* const attributes = inside(primitive, "attributes"))
         visitValues(*attributes, visit);
-    forItems(primitive, "targets", [&](OrderedJson& target) { visitValues(target, visit); });
+    forItems(primitive, "targets", [&](Json& target) { visitValues(target, visit); });
 }
 
-void visitAccessors(OrderedJson& root, const Visit& visit)
+void visitAccessors(Json& root, const Visit& visit)
 {
-    forItems(root, "meshes", [&](OrderedJson& mesh) {
-        forItems(mesh, "primitives", [&](OrderedJson& p) { visitPrimitive(p, visit); });
-    });
-    forItems(root, "skins",
-             [&](OrderedJson& skin) { visitMember(skin, "inverseBindMatrices", visit); });
-    forItems(root, "animations", [&](OrderedJson& animation) {
-        forItems(animation, "samplers", [&](OrderedJson& sampler) {
+    forItems(root, "meshes",
+             [&](Json& mesh) { forItems(mesh, "primitives", [&](Json& p) { visitPrimitive(p, visit); }); });
+    forItems(root, "skins", [&](Json& skin) { visitMember(skin, "inverseBindMatrices", visit); });
+    forItems(root, "animations", [&](Json& animation) {
+        forItems(animation, "samplers", [&](Json& sampler) {
             visitMember(sampler, "input", visit);
             visitMember(sampler, "output", visit);
         });
     });
-    forItems(root, "nodes", [&](OrderedJson& node) {
-        if (OrderedJson* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
-            if (OrderedJson* const attributes = inside(*instancing, "attributes"))
+    forItems(root, "nodes", [&](Json& node) {
+        if (Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
+            if (Json* const attributes = inside(*instancing, "attributes"))
                 visitValues(*attributes, visit);
     });
 }
 
-void visitViews(OrderedJson& root, const Visit& visit)
+void visitViews(Json& root, const Visit& visit)
 {
-    forItems(root, "accessors", [&](OrderedJson& accessor) {
+    forItems(root, "accessors", [&](Json& accessor) {
         visitMember(accessor, "bufferView", visit);
-        if (OrderedJson* const sparse = inside(accessor, "sparse"))
+        if (Json* const sparse = inside(accessor, "sparse"))
             for (const char* const part : {"indices", "values"})
-                if (OrderedJson* const p = inside(*sparse, part))
+                if (Json* const p = inside(*sparse, part))
                     visitMember(*p, "bufferView", visit);
     });
-    forItems(root, "images", [&](OrderedJson& image) { visitMember(image, "bufferView", visit); });
-    forItems(root, "meshes", [&](OrderedJson& mesh) {
-        forItems(mesh, "primitives", [&](OrderedJson& primitive) {
-            if (OrderedJson* const draco = extension(primitive, "KHR_draco_mesh_compression"))
+    forItems(root, "images", [&](Json& image) { visitMember(image, "bufferView", visit); });
+    forItems(root, "meshes", [&](Json& mesh) {
+        forItems(mesh, "primitives", [&](Json& primitive) {
+            if (Json* const draco = extension(primitive, "KHR_draco_mesh_compression"))
                 visitMember(*draco, "bufferView", visit);
         });
     });
 }
 
-void visitImages(OrderedJson& root, const Visit& visit)
+void visitImages(Json& root, const Visit& visit)
 {
-    forItems(root, "textures", [&](OrderedJson& texture) {
+    forItems(root, "textures", [&](Json& texture) {
         visitMember(texture, "source", visit);
-        if (OrderedJson* const extensions = inside(texture, "extensions"))
-            for (OrderedJson& e : *extensions)
+        if (Json* const extensions = inside(texture, "extensions"))
+            for (Json& e : *extensions)
                 if (e.is_object())
                     visitMember(e, "source", visit);
     });
@@ -110,30 +108,36 @@ void visitImages(OrderedJson& root, const Visit& visit)
 // that are visited above.
 bool isKnown(std::string_view name)
 {
-    constexpr std::array families{
-        std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
-        std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
-        std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
-    constexpr std::array single{
-        std::string_view("KHR_lights_punctual"),       std::string_view("KHR_mesh_quantization"),
-        std::string_view("KHR_draco_mesh_compression"), std::string_view("KHR_animation_pointer"),
-        std::string_view("EXT_mesh_gpu_instancing"),   std::string_view("MSFT_texture_dds"),
-        std::string_view("MSFT_lod"),                  std::string_view("FB_ngon_encoding")};
+    constexpr std::array families{std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
+                                  std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
+                                  std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
+    constexpr std::array single{std::string_view("KHR_lights_punctual"),
+                                std::string_view("KHR_mesh_quantization"),
+                                std::string_view("KHR_draco_mesh_compression"),
+                                std::string_view("KHR_animation_pointer"),
+                                std::string_view("EXT_mesh_gpu_instancing"),
+                                std::string_view("MSFT_texture_dds"),
+                                std::string_view("MSFT_lod"),
+                                std::string_view("FB_ngon_encoding")};
     return std::find(single.begin(), single.end(), name) != single.end()
         || std::any_of(families.begin(), families.end(),
                        [&](std::string_view family) { return name.starts_with(family); });
 }
 
-void collectExtensions(const OrderedJson& value, std::set<std::string>& names)
+struct ExtensionNames {
+    std::vector<std::string> met;
+    std::set<std::string> known;
+};
+
+void collectExtensions(const Json& value, ExtensionNames& names)
 {
-    for (const auto& [key, item] : value.items()) {
-        if (key == "extras" || !item.is_structured())
-            continue;
-        if (key == "extensions" && item.is_object())
-            for (const auto& [name, content] : item.items())
-                names.insert(name);
-        collectExtensions(item, names);
-    }
+    if (const Json* const extensions = gltf::member(value, "extensions"); extensions && extensions->is_object())
+        for (const auto& [name, content] : extensions->items())
+            if (names.known.insert(name).second)
+                names.met.push_back(name);
+    for (const auto& [key, item] : value.items())
+        if (item.is_structured() && (value.is_array() || key != "extras"))
+            collectExtensions(item, names);
 }
 
 } // namespace
@@ -144,7 +148,7 @@ const char* nameOf(Collection collection)
     return names[std::size_t(collection)];
 }
 
-void forEachReference(OrderedJson& root, Collection collection, const Visit& visit)
+void forEachReference(Json& root, Collection collection, const Visit& visit)
 {
     switch (collection) {
     case Collection::accessors: return visitAccessors(root, visit);
@@ -153,36 +157,43 @@ void forEachReference(OrderedJson& root, Collection collection, const Visit& vis
     }
 }
 
-std::vector<bool> usedItems(const OrderedJson& root, Collection collection)
+std::vector<bool> usedItems(const Json& root, Collection collection)
 {
     std::vector<bool> used(countOf(root, nameOf(collection)), false);
     // Only read through: the visitors serve changing and looking alike.
-    forEachReference(const_cast<OrderedJson&>(root), collection, [&](OrderedJson& index) {
+    forEachReference(const_cast<Json&>(root), collection, [&](Json& index) {
         if (const auto i = index.get<std::size_t>(); i < used.size())
             used[i] = true;
     });
     return used;
 }
 
-std::vector<std::string> unknownExtensions(const OrderedJson& root)
+std::vector<std::string> extensionsIn(const Json& object)
 {
-    std::set<std::string> names;
-    collectExtensions(root, names);
-    std::erase_if(names, [](const std::string& name) { return isKnown(name); });
-    return {names.begin(), names.end()};
+    ExtensionNames names;
+    collectExtensions(object, names);
+    return std::move(names.met);
 }
 
-void removeItems(OrderedJson& root, Collection collection, const std::vector<bool>& removed)
+std::vector<std::string> unknownExtensions(const Json& root)
+{
+    std::vector<std::string> names = extensionsIn(root);
+    std::erase_if(names, [](const std::string& name) { return isKnown(name); });
+    std::ranges::sort(names);
+    return names;
+}
+
+void removeItems(Json& root, Collection collection, const std::vector<bool>& removed)
 {
     std::vector<std::size_t> moved(removed.size());
-    OrderedJson kept = OrderedJson::array();
-    OrderedJson& items = root[nameOf(collection)];
+    Json kept = Json::array();
+    Json& items = root[nameOf(collection)];
     for (std::size_t i = 0; i < removed.size(); ++i) {
         moved[i] = kept.size();
         if (!removed[i])
             kept.push_back(std::move(items[i]));
     }
-    forEachReference(root, collection, [&](OrderedJson& index) {
+    forEachReference(root, collection, [&](Json& index) {
         if (const auto i = index.get<std::size_t>(); i < moved.size())
             index = moved[i];
     });

@@ -19,8 +19,7 @@ using Cluster = std::vector<Range>; // ranges that overlap, by `begin`
 
 std::vector<Cluster> clusters(std::vector<Range> ranges)
 {
-    std::sort(ranges.begin(), ranges.end(),
-              [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
     std::vector<Cluster> out;
     std::size_t end = 0;
     for (const Range& r : ranges) {
@@ -58,8 +57,7 @@ std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
 }
 
 // Interleaved attributes without the words that nobody uses, as a view of their own.
-void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster,
-             const std::vector<bool>& used)
+void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, const std::vector<bool>& used)
 {
     const std::span<const std::byte> from = viewBytes(document, view);
     const std::size_t stride = used.size() * 4, start = cluster.front().begin / 4 * 4;
@@ -78,7 +76,7 @@ void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster,
                 std::memcpy(bytes.data() + (row * words + moved[w]) * 4, from.data() + at,
                             std::min<std::size_t>(4, from.size() - at));
         }
-    OrderedJson made = document.root["bufferViews"][view];
+    Json made = document.root["bufferViews"][view];
     made["buffer"] = 0;
     made["byteLength"] = bytes.size();
     made["byteStride"] = words * 4;
@@ -86,7 +84,7 @@ void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster,
     const std::size_t index = addView(document, std::move(bytes));
     document.root["bufferViews"][index] = std::move(made);
     for (const Range& r : cluster) {
-        OrderedJson& accessor = document.root["accessors"][r.accessor];
+        Json& accessor = document.root["accessors"][r.accessor];
         accessor["bufferView"] = index;
         accessor["byteOffset"] = moved[(r.begin - start) / 4] * 4 + r.begin % 4;
     }
@@ -97,13 +95,13 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
 {
     const std::span<const std::byte> from = viewBytes(document, view);
     std::vector<std::byte> bytes;
-    OrderedJson made = document.root["bufferViews"][view];
+    Json made = document.root["bufferViews"][view];
     const std::size_t index = addView(document, {});
     for (const Cluster& cluster : kept) {
         const std::size_t start = cluster.front().begin / 4 * 4;
         bytes.resize((bytes.size() + 3) / 4 * 4);
         for (const Range& r : cluster) {
-            OrderedJson& accessor = document.root["accessors"][r.accessor];
+            Json& accessor = document.root["accessors"][r.accessor];
             accessor["bufferView"] = index;
             accessor["byteOffset"] = bytes.size() + r.begin - start;
         }
@@ -118,17 +116,22 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
 }
 
 // Views that something else than the dense part of an accessor uses.
-std::vector<bool> otherUses(const OrderedJson& root)
+std::vector<bool> otherUses(const Json& root)
 {
-    OrderedJson without = OrderedJson::object();
+    Json without = Json::object();
     for (const char* const part : {"accessors", "images", "meshes"})
         if (root.contains(part))
             without[part] = root[part];
     if (without.contains("accessors"))
-        for (OrderedJson& accessor : without["accessors"])
+        for (Json& accessor : without["accessors"])
             accessor.erase("bufferView");
     without["bufferViews"] = root["bufferViews"];
     return usedItems(without, Collection::bufferViews);
+}
+
+std::size_t strideOf(const GltfDocument& document, std::size_t view)
+{
+    return gltf::valueOr(document.root["bufferViews"][view], "byteStride", std::size_t(0));
 }
 
 } // namespace
@@ -141,26 +144,24 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
     std::vector<std::vector<Range>> kept(views);
     std::vector<bool> lost(views, false);
     for (std::size_t a = 0; a < removed.size(); ++a) {
-        const OrderedJson& accessor = document.root["accessors"][a];
-        if (!accessor.contains("bufferView"))
+        const gltf::Accessor accessor = gltf::readAccessor(document.root["accessors"][a]);
+        if (accessor.view < 0)
             continue;
-        const auto view = accessor["bufferView"].get<std::size_t>();
+        const auto view = std::size_t(accessor.view);
         if (removed[a]) {
             lost[view] = true;
             continue;
         }
-        const std::size_t size = elementSize(accessor), count = sizeOr(accessor, "count", 0);
-        std::size_t stride = sizeOr(document.root["bufferViews"][view], "byteStride", 0);
-        stride = stride > 0 ? stride : size;
-        const std::size_t begin = sizeOr(accessor, "byteOffset", 0);
-        kept[view].push_back({a, begin, count == 0 ? begin : begin + (count - 1) * stride + size,
-                              size});
+        const std::size_t size = gltf::elementSize(accessor), begin = accessor.offset;
+        const std::size_t stride = strideOf(document, view) > 0 ? strideOf(document, view) : size;
+        const std::size_t end = accessor.count == 0 ? begin : begin + (accessor.count - 1) * stride + size;
+        kept[view].push_back({a, begin, end, size});
     }
     const std::vector<bool> other = otherUses(document.root);
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view])
             continue;
-        const std::size_t stride = sizeOr(document.root["bufferViews"][view], "byteStride", 0);
+        const std::size_t stride = strideOf(document, view);
         std::vector<Cluster> whole;
         for (const Cluster& cluster : clusters(kept[view])) {
             const std::vector<bool> used = usedWords(cluster, stride);

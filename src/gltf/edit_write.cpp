@@ -1,15 +1,16 @@
 // A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 #include <new>
 #include <system_error>
 
-#include "cotan/files/output.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/output.hpp"
+#include "cotan/image/file.hpp"
 #include "edit_state.hpp"
+#include "parse.hpp"
 
 namespace cotan {
 
@@ -23,23 +24,21 @@ struct Output {
     std::vector<std::byte> bytes;
 };
 
-bool isExternal(const OrderedJson& image)
+bool isExternal(const Json& image)
 {
-    return image.contains("uri")
-        && !image["uri"].get_ref<const std::string&>().starts_with("data:");
+    return image.contains("uri") && !image["uri"].get_ref<const std::string&>().starts_with("data:");
 }
 
 // The image files that the JSON names, by image; those that are missing are left out.
-std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const OrderedJson& root)
+std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json& root)
 {
     std::map<std::size_t, fs::path> files;
     for (std::size_t i = 0; i < countOf(root, "images"); ++i) {
-        const OrderedJson& image = root["images"][i];
+        const Json& image = root["images"][i];
         if (!isExternal(image))
             continue;
-        GltfResource resource =
-            resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
-                           fmt::format("images[{}].uri", i), /*mayMiss*/ true);
+        GltfResource resource = resolveGltfUri(source.file, image["uri"].get_ref<const std::string&>(),
+                                               fmt::format("images[{}].uri", i), /*mayMiss*/ true);
         if (!resource.file.empty())
             files.emplace(i, std::move(resource.file));
     }
@@ -80,22 +79,18 @@ std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file
 // Empty: no picture that glTF knows.
 std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
-    const auto at = [&](std::size_t i) { return std::to_integer<int>(bytes[i]); };
-    if (bytes.size() > 3 && at(0) == 0x89 && at(1) == 'P' && at(2) == 'N')
-        return "image/png";
-    if (bytes.size() > 3 && at(0) == 0xff && at(1) == 0xd8)
-        return "image/jpeg";
-    if (bytes.size() > 12 && at(0) == 'R' && at(8) == 'W' && at(9) == 'E')
-        return "image/webp";
-    if (bytes.size() > 12 && at(0) == 0xab && at(1) == 'K' && at(2) == 'T')
-        return "image/ktx2";
-    return {};
+    const std::string foreign = foreignFormat(bytes);
+    return isPng(bytes)     ? "image/png"
+        : isJpeg(bytes)     ? "image/jpeg"
+        : foreign == "WebP" ? "image/webp"
+        : foreign == "KTX2" ? "image/ktx2"
+                            : "";
 }
 
 // An image file used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
-    std::map<fs::path, OrderedJson> embedded; // what the image gets in place of its uri
+    std::map<fs::path, Json> embedded; // what the image gets in place of its uri
     for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
         if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(*document.source, file, limits);
@@ -111,9 +106,8 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
     }
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
         if (isExternal(document.root["images"][i]))
-            document.notes.push_back(fmt::format(
-                "images[{}]: \"{}\" is missing or no picture and stays a reference", i,
-                oneLine(document.root["images"][i]["uri"].get<std::string>())));
+            document.notes.push_back(fmt::format("images[{}]: \"{}\" is missing or no picture and stays a reference", i,
+                                                 oneLine(document.root["images"][i]["uri"].get<std::string>())));
 }
 
 // ---- GLB ------------------------------------------------------------------------------------
@@ -124,8 +118,7 @@ void appendWord(std::vector<std::byte>& bytes, std::size_t word)
         bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
 }
 
-void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type,
-                 std::span<const std::byte> content, char padding)
+void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<const std::byte> content, char padding)
 {
     const std::size_t padded = (content.size() + 3) / 4 * 4;
     appendWord(bytes, padded);
@@ -168,10 +161,7 @@ std::string encodePercent(const std::string& name)
     return uri;
 }
 
-fs::path folderOf(const fs::path& file)
-{
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 // NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
 fs::path binaryBeside(const GltfSource& source, const fs::path& file)
@@ -197,7 +187,7 @@ std::string plainName(const std::string& name)
 }
 
 // What an image is called: by its name, or by the file that it was in.
-std::string nameOfImage(const GltfSource& source, const OrderedJson& root, std::size_t i)
+std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
     if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
@@ -210,36 +200,43 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
 {
     std::vector<std::string> uris;
     std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > limits.fileBytes)
+    if (!fs::is_regular_file(file, error))
         return uris;
-    std::ifstream stream(file, std::ios::binary); // no input of ours: it goes
-    const OrderedJson root = OrderedJson::parse(stream, nullptr, false);
-    if (root.is_object() && root.contains("images") && root["images"].is_array())
-        for (const OrderedJson& image : root["images"])
-            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
-                uris.push_back(image["uri"].get<std::string>());
+    Json root; // no input of ours: whatever is wrong with it, it goes
+    if (const auto bytes = readFileBytes(file, limits.fileBytes))
+        try {
+            root = parseGltfJson(*bytes);
+        } catch (const GltfProblem&) {
+            return uris;
+        }
+    if (const Json* const images = gltf::member(root, "images"); images && images->is_array())
+        for (const Json& image : *images)
+            if (const Json* const uri = gltf::member(image, "uri"); uri && uri->is_string())
+                uris.push_back(uri->get<std::string>());
     return uris;
 }
 
 // Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
 // already is taken only if that file belongs to the model that is replaced; else it gets a number.
-void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits, std::vector<Output>& outputs)
+void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits,
+                     std::vector<Output>& outputs)
 {
     const GltfSource& source = *document.source;
-    const std::size_t old = countOf(source.root, "bufferViews");
+    const std::size_t old = source.views.size();
     const std::vector<std::string> own = ownImages(file, limits);
     std::vector<fs::path> read;
     for (const auto& [i, path] : imageFiles(source, source.root))
         read.push_back(path);
     for (std::size_t i = 0; i < countOf(document.root, "images"); ++i) {
-        OrderedJson& image = document.root["images"][i];
+        Json& image = document.root["images"][i];
         if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
             continue;
         const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
         const std::string ending = image.value("mimeType", std::string()) == "image/jpeg" ? ".jpg" : ".png";
         const auto taken = [&](const fs::path& target) {
             std::error_code error;
-            const bool here = std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
+            const bool here =
+                std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
             const bool input = std::find(read.begin(), read.end(), fs::weakly_canonical(target, error)) != read.end();
             const bool ours = std::find(own.begin(), own.end(), encodePercent(target.filename().string())) != own.end();
             return here || input || (fs::exists(target, error) && !ours);
@@ -256,8 +253,8 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
 
 // Image files go to the same place relative to the new folder; what is there already has to be the
 // same.
-void copyImages(const GltfSource& source, const OrderedJson& root, const fs::path& folder,
-                const LoadLimits& limits, std::vector<Output>& outputs)
+void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
+                std::vector<Output>& outputs)
 {
     std::error_code error;
     if (fs::equivalent(folder, source.file.folder, error))
@@ -272,8 +269,7 @@ void copyImages(const GltfSource& source, const OrderedJson& root, const fs::pat
             const auto there = readFileBytes(target, limits.fileBytes);
             if (!there || *there != bytes)
                 throw outputError(
-                    fmt::format("{}: a different file is in the way of an image to be copied",
-                                target.string()));
+                    fmt::format("{}: a different file is in the way of an image to be copied", target.string()));
             continue;
         }
         outputs.push_back({target, std::move(bytes)});
@@ -304,8 +300,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
     const bool binary = file.extension() == ".glb";
     std::error_code error;
     if (!fs::is_directory(folderOf(file), error))
-        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(),
-                                      folderOf(file).string()));
+        throw outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     GltfWritten written;
     written.bytesBefore = sizeBefore(*document.source);
     std::vector<Output> outputs(1);
@@ -335,8 +330,8 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw done.error();
     std::vector<fs::path> images;
     for (const auto& image : imageFiles(*document.source, layout.root))
-        if (const fs::path& path = image.second;
-            std::none_of(outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
+        if (const fs::path& path = image.second; std::none_of(
+                outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
             images.push_back(path);
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)
@@ -346,7 +341,9 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
 }
 
 // What a failure of `write` is to the caller.
-template<class Write> auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write) -> Result<decltype(write())>
+template<class Write>
+auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write)
+    -> Result<decltype(write())>
 {
     try {
         return write();
@@ -369,12 +366,10 @@ Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits&
     });
 }
 
-Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file,
-                              const LoadLimits& limits)
+Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file, const LoadLimits& limits)
 {
     if (file.extension() != ".glb" && file.extension() != ".gltf")
-        return usageError(
-            fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
+        return usageError(fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
     return caughtWriting(document, file.string(), [&] { return write(document, file, limits); });
 }
 

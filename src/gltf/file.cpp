@@ -1,17 +1,16 @@
 #include "file.hpp"
 
 #include <array>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "cotan/files/bytes.hpp"
 #include "cotan/files/folder.hpp"
+#include "parse.hpp"
 
 namespace cotan {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -36,8 +35,7 @@ void checkHeader(std::span<const std::byte> bytes)
     if (readWord(bytes, 4) != 2)
         failGltf("GLB header: expected version 2, found {}", readWord(bytes, 4));
     if (readWord(bytes, 8) != bytes.size())
-        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8),
-                 bytes.size());
+        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
 }
 
 // Walks the chunks; unknown ones are passed over, as the specification asks.
@@ -53,8 +51,7 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
         const std::size_t length = readWord(bytes, at);
         const std::uint32_t type = readWord(bytes, at + 4);
         if (length > left - 8)
-            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length,
-                     left - 8);
+            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length, left - 8);
         if (length % 4 != 0)
             warnings.add(fmt::format("GLB chunk {}", chunk), "its length is not a multiple of 4");
         if ((chunk == 0) != (type == kChunkJson))
@@ -65,39 +62,6 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
         if (chunk == 1 && type == kChunkBinary)
             file.binary = bytes.subspan(at + 8, length);
         at += 8 + length;
-    }
-}
-
-// The parsers recurse once a level, so a file of brackets could run them out of stack.
-void checkDepth(std::string_view text)
-{
-    int depth = 0;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (inString) {
-            if (c == '\\')
-                ++i;
-            inString = c != '"';
-        } else if (c == '"') {
-            inString = true;
-        } else if (c == '[' || c == '{') {
-            if (++depth > kGltfDepth)
-                failGltf("JSON: nested deeper than {} levels", kGltfDepth);
-        } else if (c == ']' || c == '}') {
-            --depth;
-        }
-    }
-}
-
-template<class Json> Json parseText(std::span<const std::byte> bytes)
-{
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    checkDepth(text);
-    try {
-        return Json::parse(text);
-    } catch (const json::exception& problem) {
-        failGltf("JSON: {}", problem.what());
     }
 }
 
@@ -118,8 +82,7 @@ std::string decodePercent(std::string_view uri)
 {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0
-            && hexDigit(uri[i + 2]) >= 0;
+        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
         text += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
         i += code ? 2 : 0;
     }
@@ -130,8 +93,7 @@ std::string decodePercent(std::string_view uri)
 constexpr std::array<signed char, 256> kBase64 = [] {
     std::array<signed char, 256> values{};
     values.fill(-1);
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < digits.size(); ++i)
         values[static_cast<unsigned char>(digits[i])] = static_cast<signed char>(i);
     return values;
@@ -168,10 +130,8 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
 {
     const std::size_t comma = uri.find(',');
     const std::string_view head = uri.substr(0, comma);
-    if (comma == std::string_view::npos || !head.ends_with(";base64")
-        || head.find(";;") != std::string_view::npos)
-        failGltf("{}: expected data:TYPE;base64,... , found {}...", field,
-                 oneLine(std::string(uri.substr(0, 60))));
+    if (comma == std::string_view::npos || !head.ends_with(";base64") || head.find(";;") != std::string_view::npos)
+        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(std::string(uri.substr(0, 60))));
     auto bytes = decodeBase64(uri.substr(comma + 1));
     if (!bytes)
         failGltf("{}: the data URI is not valid base64", field);
@@ -184,8 +144,8 @@ bool hasScheme(std::string_view uri)
     return end != std::string_view::npos && uri[end] == ':';
 }
 
-std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
-                                      const std::string& field, const LoadLimits& limits)
+std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, const std::string& field,
+                                      const LoadLimits& limits)
 {
     auto known = file.bufferFiles.find(path);
     if (known == file.bufferFiles.end()) {
@@ -200,18 +160,19 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path,
 
 } // namespace
 
-Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::path& resource, const LoadLimits& limits)
+Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::path& resource,
+                                                const LoadLimits& limits)
 {
     if (!file.readFile)
         return readFileBytes(resource, limits.fileBytes);
     auto bytes = file.readFile(resource.string());
     if (bytes && bytes->size() > limits.fileBytes)
-        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", resource.string(), bytes->size(), limits.fileBytes));
+        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", resource.string(), bytes->size(),
+                                      limits.fileBytes));
     return bytes;
 }
 
-GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings,
-                  bool keepOrder)
+GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
 {
     GltfFile file;
     file.readFile = limits.readFile;
@@ -229,17 +190,14 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
         splitChunks(file, warnings);
     else
         file.text = file.bytes;
-    file.json = parseText<json>(file.text);
-    if (keepOrder)
-        file.ordered = parseText<nlohmann::ordered_json>(file.text);
+    file.json = parseGltfJson(file.text);
     if (!file.isBinary)
         file.bytes = {}; // large where buffers are embedded as text
     file.text = {};
     return file;
 }
 
-GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const std::string& field,
-                            bool mayMiss)
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss)
 {
     GltfResource resource;
     if (uri.starts_with("data:")) {
@@ -247,7 +205,7 @@ GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const 
         return resource;
     }
     if (hasScheme(uri))
-        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
+        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(std::string(uri)));
     if (file.readFile) {
         resource.file = decodePercent(uri);
         return resource;
@@ -255,26 +213,26 @@ GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const 
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
-        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it",
-                 field, oneLine(uri));
+        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field,
+                 oneLine(std::string(uri)));
     if (!found && !mayMiss)
-        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(uri));
+        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
     resource.file = found.value_or(fs::path());
     return resource;
 }
 
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
 {
-    const json none = json::array();
-    const json& list = file.json.contains("buffers") ? file.json["buffers"] : none;
-    file.bufferBytes.reserve(list.size()); // spans point into it
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    const gltf::Json* const list = gltf::member(file.json, "buffers");
+    const std::size_t count = list ? list->size() : 0;
+    file.bufferBytes.reserve(count); // spans point into it
+    for (std::size_t i = 0; i < count; ++i) {
         const std::string field = fmt::format("buffers[{}]", i);
-        const auto length = list[i]["byteLength"].get<std::size_t>();
+        const gltf::Json& buffer = (*list)[i];
+        const auto length = buffer["byteLength"].get<std::size_t>();
         std::span<const std::byte> bytes;
-        if (list[i].contains("uri")) {
-            GltfResource resource =
-                resolveGltfUri(file, list[i]["uri"].get_ref<const std::string&>(), field + ".uri");
+        if (const gltf::Json* const uri = gltf::member(buffer, "uri")) {
+            GltfResource resource = resolveGltfUri(file, uri->get_ref<const std::string&>(), field + ".uri");
             if (resource.file.empty())
                 bytes = file.bufferBytes.emplace_back(std::move(resource.bytes));
             else

@@ -8,11 +8,11 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cotan/files/limits.hpp"
+#include "cotan/gltf/views.hpp"
 #include "problem.hpp"
 
 namespace cotan {
@@ -25,25 +25,21 @@ struct GltfResource {
 
 struct GltfFile {
     std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
-    std::filesystem::path folder;      // canonical; nothing outside is opened
-    std::vector<std::byte> bytes;      // the whole file, where it is a GLB
-    std::span<const std::byte> text;   // its JSON, until that is parsed
+    std::filesystem::path folder;                                               // canonical; nothing outside is opened
+    std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
+    std::span<const std::byte> text;                                            // its JSON, until that is parsed
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
-    std::size_t size = 0;              // bytes of the model and, once they are loaded, of its buffer files
-    nlohmann::json json;
-    nlohmann::ordered_json ordered; // the same in the order of the file, where it was asked for
-    std::vector<std::span<const std::byte>> buffers; // one for each buffer, exactly byteLength long
+    std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files
+    gltf::Json json;
+    std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
 };
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
-// the file; JSON nested deeper than kGltfDepth is refused before it is parsed, because the
-// parsers behind this recurse. keepOrder: fills `ordered` too.
-inline constexpr int kGltfDepth = 128;
-GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits,
-                  GltfWarnings& warnings, bool keepOrder = false);
+// the file.
+GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The bytes of a resource that is a file, be it on the disk or not.
 Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,
@@ -56,12 +52,11 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 // folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
 // symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
 // not exist gives an empty resource instead of a failure.
-GltfResource resolveGltfUri(const GltfFile& file, const std::string& uri, const std::string& field,
-                            bool mayMiss = false);
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
 
 // Checks that every member the reader uses has the type, range and length that the glTF 2.0
-// specification asks for, and that every index points at something; tinygltf takes the default
-// where it dislikes a type, which hides damage. Also the version and the required extensions.
-void checkGltfShape(const nlohmann::json& root, const LoadLimits& limits, GltfWarnings& warnings);
+// specification asks for, and that every index points at something. Also the version and the
+// required extensions.
+void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
 
 } // namespace cotan

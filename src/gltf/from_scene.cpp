@@ -14,22 +14,20 @@ using namespace gltf_edit;
 
 namespace {
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125;
-
 template<class T>
-std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type,
-                        int componentType, int target, OrderedJson more = OrderedJson::object())
+std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type, int componentType,
+                        int target, Json more = Json::object())
 {
     const auto bytes = std::as_bytes(std::span(elements));
-    OrderedJson accessor = {{"bufferView", addView(document, {bytes.begin(), bytes.end()}, 0, target)},
-                            {"componentType", componentType},
-                            {"count", elements.size()},
-                            {"type", type}};
+    Json accessor = {{"bufferView", addView(document, {bytes.begin(), bytes.end()}, 0, target)},
+                     {"componentType", componentType},
+                     {"count", elements.size()},
+                     {"type", type}};
     accessor.update(more);
     return addAccessor(document, std::move(accessor));
 }
 
-OrderedJson array(const glm::vec3& v) { return OrderedJson::array({v.x, v.y, v.z}); }
+Json array(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& positions)
 {
@@ -38,15 +36,16 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    return addElements(document, positions, "VEC3", kFloat, kArrayBuffer, {{"min", array(low)}, {"max", array(high)}});
+    return addElements(document, positions, "VEC3", gltf::kFloat, gltf::kArrayBuffer,
+                       {{"min", array(low)}, {"max", array(high)}});
 }
 
-OrderedJson primitiveOf(GltfDocument& document, const Mesh& mesh)
+Json primitiveOf(GltfDocument& document, const Mesh& mesh)
 {
-    OrderedJson attributes = {{"POSITION", addPositions(document, mesh.positions)}};
+    Json attributes = {{"POSITION", addPositions(document, mesh.positions)}};
     const auto add = [&](const char* name, const auto& elements, const char* type) {
         if (!elements.empty())
-            attributes[name] = addElements(document, elements, type, kFloat, kArrayBuffer);
+            attributes[name] = addElements(document, elements, type, gltf::kFloat, gltf::kArrayBuffer);
     };
     add("NORMAL", mesh.normals, "VEC3");
     add("TANGENT", mesh.tangents, "VEC4");
@@ -54,33 +53,21 @@ OrderedJson primitiveOf(GltfDocument& document, const Mesh& mesh)
     add("TEXCOORD_1", mesh.texcoords[1], "VEC2");
     add("COLOR_0", mesh.colors, "VEC4");
     return {{"attributes", std::move(attributes)},
-            {"indices", addElements(document, mesh.indices, "SCALAR", kUnsignedInt, kElementArrayBuffer)},
+            {"indices", addElements(document, mesh.indices, "SCALAR", gltf::kUnsignedInt, gltf::kElementArrayBuffer)},
             {"material", std::size_t(mesh.material)}};
-}
-
-int wrapCode(Wrap wrap) { return wrap == Wrap::clamp ? 33071 : wrap == Wrap::mirror ? 33648 : 10497; }
-
-OrderedJson samplerOf(const Sampler& s)
-{
-    OrderedJson sampler = {{"wrapS", wrapCode(s.wrapU)}, {"wrapT", wrapCode(s.wrapV)}};
-    sampler["magFilter"] = s.magnify == Filter::nearest ? 9728 : 9729;
-    const int nearest = s.minify == Filter::nearest ? 0 : 1;
-    sampler["minFilter"] = s.mip == MipFilter::none ? 9728 + nearest
-        : s.mip == MipFilter::nearest               ? 9984 + nearest
-                                                    : 9986 + nearest;
-    return sampler;
 }
 
 std::size_t addTexture(GltfDocument& document, const Texture& texture)
 {
-    document.root["samplers"].push_back(samplerOf(texture.sampler));
-    document.root["textures"].push_back({{"source", std::size_t(texture.image)}, {"sampler", document.root["samplers"].size() - 1}});
+    document.root["samplers"].push_back(gltf::writeSampler(texture.sampler));
+    document.root["textures"].push_back(
+        {{"source", std::size_t(texture.image)}, {"sampler", document.root["samplers"].size() - 1}});
     return document.root["textures"].size() - 1;
 }
 
 // KHR_texture_transform knows a turn and two scales: uRow = (c sx, s sy, ox), vRow = (-s sx, c sy, oy).
 // A shear has no place in it.
-OrderedJson transformOf(const Texture& t, bool& sheared)
+Json transformOf(const Texture& t, bool& sheared)
 {
     const double scaleU = std::hypot(double(t.uRow.x), double(t.vRow.x));
     const double c = scaleU > 0 ? t.uRow.x / scaleU : 1, s = scaleU > 0 ? -t.vRow.x / scaleU : 0;
@@ -90,29 +77,31 @@ OrderedJson transformOf(const Texture& t, bool& sheared)
 }
 
 // Adds the use of a texture to an object of a material; nothing where there is none.
-void putTexture(GltfDocument& document, const Texture& texture, OrderedJson& owner, const char* slot)
+void putTexture(GltfDocument& document, const Texture& texture, Json& owner, const char* slot)
 {
     if (!texture.present())
         return;
-    OrderedJson info = {{"index", addTexture(document, texture)}};
+    Json info = {{"index", addTexture(document, texture)}};
     if (texture.texcoord != 0)
         info["texCoord"] = std::size_t(texture.texcoord);
     if (texture.uRow != glm::vec3(1, 0, 0) || texture.vRow != glm::vec3(0, 1, 0)) {
         bool sheared = false;
         info["extensions"]["KHR_texture_transform"] = transformOf(texture, sheared);
         if (sheared)
-            document.notes.push_back(fmt::format("{}: the shear of its texture coordinates cannot be stored in glTF", slot));
+            document.notes.push_back(
+                fmt::format("{}: the shear of its texture coordinates cannot be stored in glTF", slot));
     }
     owner[slot] = std::move(info);
 }
 
-OrderedJson materialOf(GltfDocument& document, const Material& m)
+Json materialOf(GltfDocument& document, const Material& m)
 {
-    OrderedJson pbr = {{"baseColorFactor", {m.baseColor.x, m.baseColor.y, m.baseColor.z, m.baseColor.w}},
-                       {"metallicFactor", m.metallic}, {"roughnessFactor", m.roughness}};
+    Json pbr = {{"baseColorFactor", {m.baseColor.x, m.baseColor.y, m.baseColor.z, m.baseColor.w}},
+                {"metallicFactor", m.metallic},
+                {"roughnessFactor", m.roughness}};
     putTexture(document, m.baseColorMap, pbr, "baseColorTexture");
     putTexture(document, m.metallicRoughnessMap, pbr, "metallicRoughnessTexture");
-    OrderedJson material = {{"name", m.name}, {"pbrMetallicRoughness", std::move(pbr)}};
+    Json material = {{"name", m.name}, {"pbrMetallicRoughness", std::move(pbr)}};
     putTexture(document, m.normalMap, material, "normalTexture");
     if (m.normalMap.present() && m.normalScale != 1)
         material["normalTexture"]["scale"] = m.normalScale;
@@ -126,7 +115,7 @@ OrderedJson materialOf(GltfDocument& document, const Material& m)
     if (strength > 1)
         material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
     if (m.unlit)
-        material["extensions"]["KHR_materials_unlit"] = OrderedJson::object();
+        material["extensions"]["KHR_materials_unlit"] = Json::object();
     if (m.alphaMode != AlphaMode::opaque)
         material["alphaMode"] = m.alphaMode == AlphaMode::mask ? "MASK" : "BLEND";
     if (m.alphaMode == AlphaMode::mask)
@@ -136,31 +125,18 @@ OrderedJson materialOf(GltfDocument& document, const Material& m)
     return material;
 }
 
-OrderedJson nodeOf(const Instance& instance)
+Json nodeOf(const Instance& instance)
 {
-    OrderedJson node = {{"mesh", std::size_t(instance.mesh)}};
+    Json node = {{"mesh", std::size_t(instance.mesh)}};
     if (!instance.name.empty())
         node["name"] = instance.name;
     if (instance.toWorld != glm::mat4(1)) {
-        OrderedJson& matrix = node["matrix"] = OrderedJson::array();
+        Json& matrix = node["matrix"] = Json::array();
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
                 matrix.push_back(instance.toWorld[column][row]);
     }
     return node;
-}
-
-// Extensions are used where the JSON names them.
-void collectExtensions(const OrderedJson& json, std::vector<std::string>& names)
-{
-    if (!json.is_structured())
-        return;
-    if (json.is_object() && json.contains("extensions"))
-        for (const auto& [name, value] : json["extensions"].items())
-            if (std::find(names.begin(), names.end(), name) == names.end())
-                names.push_back(name);
-    for (const auto& item : json)
-        collectExtensions(item, names);
 }
 
 } // namespace
@@ -171,37 +147,35 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         return sound.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
-    source->root = OrderedJson::object();
+    source->root = Json::object();
     document.source = std::move(source);
-    OrderedJson& root = document.root;
+    Json& root = document.root;
     root = {{"asset", {{"version", "2.0"}, {"generator", "cotan"}}}, {"scene", 0}};
     for (const Image& image : scene.images) {
         if (image.type == PixelType::float32 || image.pixelCount() == 0)
-            return inputError(fmt::format("{}: expected pixels of 8 or 16 bits, which glTF can hold; found {}", image.name,
-                                          image.pixelCount() == 0 ? "none" : "floats"));
+            return inputError(fmt::format("{}: expected pixels of 8 or 16 bits, which glTF can hold; found {}",
+                                          image.name, image.pixelCount() == 0 ? "none" : "floats"));
         auto png = encodePng(image);
         if (!png)
             return png.error();
         addGltfImage(document, std::move(*png), "image/png", image.name);
     }
     for (const Material& material : scene.materials) {
-        OrderedJson made = materialOf(document, material);
+        Json made = materialOf(document, material);
         root["materials"].push_back(std::move(made));
     }
     for (const Mesh& mesh : scene.meshes) {
-        OrderedJson primitive = primitiveOf(document, mesh);
-        root["meshes"].push_back({{"name", mesh.name}, {"primitives", OrderedJson::array({std::move(primitive)})}});
+        Json primitive = primitiveOf(document, mesh);
+        root["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}});
     }
-    OrderedJson nodes = OrderedJson::array(), indices = OrderedJson::array();
+    Json nodes = Json::array(), indices = Json::array();
     for (const Instance& instance : scene.instances) {
         indices.push_back(nodes.size());
         nodes.push_back(nodeOf(instance));
     }
-    root["scenes"] = OrderedJson::array({OrderedJson{{"nodes", std::move(indices)}}});
+    root["scenes"] = Json::array({Json{{"nodes", std::move(indices)}}});
     root["nodes"] = std::move(nodes);
-    std::vector<std::string> extensions;
-    collectExtensions(root, extensions);
-    if (!extensions.empty())
+    if (const std::vector<std::string> extensions = extensionsIn(root); !extensions.empty())
         root["extensionsUsed"] = extensions;
     return document;
 }

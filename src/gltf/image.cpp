@@ -4,15 +4,14 @@
 #include <atomic>
 #include <optional>
 
-#include "cotan/image/file.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "material.hpp"
 
 namespace cotan {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -26,17 +25,16 @@ std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const json& entry = model.file.json["images"][static_cast<std::size_t>(image)];
+    const gltf::Image& entry = model.structure.images[static_cast<std::size_t>(image)];
     const std::string field = imageField(image);
     ImageSource source;
-    source.name = oneLine(entry.value("name", std::string()));
-    if (entry.contains("uri") == entry.contains("bufferView"))
+    source.name = oneLine(entry.name);
+    if (entry.uri.has_value() == (entry.view >= 0))
         failGltf("{}: expected either uri or bufferView", field);
-    if (entry.contains("bufferView")) {
-        source.bytes = gltfView(model, entry["bufferView"].get<int>());
+    if (entry.view >= 0) {
+        source.bytes = model.views[static_cast<std::size_t>(entry.view)].bytes;
     } else {
-        const auto& uri = entry["uri"].get_ref<const std::string&>();
-        source.resource = resolveGltfUri(model.file, uri, field + ".uri", mayMiss);
+        source.resource = resolveGltfUri(model.file, *entry.uri, field + ".uri", mayMiss);
         source.bytes = source.resource.bytes;
         if (!source.resource.file.empty())
             source.name = source.resource.file.filename().string();
@@ -45,20 +43,6 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
         source.name = fmt::format("image {}", image);
     return source;
 }
-
-bool beginsWith(std::span<const std::byte> bytes, std::initializer_list<int> head)
-{
-    return bytes.size() >= head.size()
-        && std::equal(head.begin(), head.end(), bytes.begin(),
-                      [](int h, std::byte b) { return h == std::to_integer<int>(b); });
-}
-
-bool isPng(std::span<const std::byte> bytes)
-{
-    return beginsWith(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
-}
-
-bool isJpeg(std::span<const std::byte> bytes) { return beginsWith(bytes, {0xff, 0xd8, 0xff}); }
 
 std::vector<std::byte> readImageFile(const GltfFile& model, const fs::path& file, const LoadLimits& limits)
 {
@@ -112,8 +96,7 @@ public:
         std::size_t left = left_.load();
         do {
             if (bytes > left)
-                failGltf("all images together take more than the limit of {} bytes",
-                         limits_.allImageBytes);
+                failGltf("all images together take more than the limit of {} bytes", limits_.allImageBytes);
         } while (!left_.compare_exchange_weak(left, left - bytes));
     }
 
@@ -173,7 +156,8 @@ void lookAt(const GltfModel& model, int image, bool used)
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
         failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
-    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes) && foreignFormat(source.bytes).empty())
+    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes)
+        && foreignFormat(source.bytes).empty())
         failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
 }
 
@@ -181,10 +165,7 @@ void lookAt(const GltfModel& model, int image, bool used)
 
 void GltfMaterials::checkUnusedImages() const
 {
-    const json none = json::array();
-    const json& file = model_.file.json;
-    const json& images = file.contains("images") ? file["images"] : none;
-    for (int i = 0; i < static_cast<int>(images.size()); ++i) {
+    for (int i = 0; i < static_cast<int>(model_.structure.images.size()); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
             continue; // it was decoded

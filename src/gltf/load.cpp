@@ -1,7 +1,4 @@
-// glTF 2.0 and GLB files to Scene, through tinygltf.
-//
-// tinygltf parses the structure; it does not get to see buffers, images or the file system. What
-// it would believe without looking (types, indices, lengths) is checked before and after it.
+// glTF 2.0 and GLB files to Scene.
 #include <map>
 #include <new>
 
@@ -47,8 +44,8 @@ private:
     // For each joint its world matrix times its inverse bind matrix.
     void readSkins()
     {
-        for (std::size_t i = 0; i < model_.tiny.skins.size(); ++i) {
-            const tinygltf::Skin& skin = model_.tiny.skins[i];
+        for (std::size_t i = 0; i < model_.structure.skins.size(); ++i) {
+            const gltf::Skin& skin = model_.structure.skins[i];
             const std::string field = fmt::format("skins[{}]", i);
             std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
             if (skin.inverseBindMatrices >= 0)
@@ -56,8 +53,7 @@ private:
                                         field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
-                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])]
-                                 * glm::dmat4(bind[j]));
+                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(bind[j]));
         }
     }
 
@@ -67,10 +63,7 @@ private:
         return finishGltfMesh(std::move(primitive), set, model_.warnings);
     }
 
-    const tinygltf::Mesh& sourceMesh(int mesh) const
-    {
-        return model_.tiny.meshes[static_cast<std::size_t>(mesh)];
-    }
+    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[static_cast<std::size_t>(mesh)]; }
 
     // The scene's meshes for a use, made when it is met first.
     const std::vector<int>& meshesFor(const MeshUse& use)
@@ -83,8 +76,7 @@ private:
             if (!primitive)
                 continue;
             if (use.skin >= 0)
-                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)],
-                                  model_.warnings);
+                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)], model_.warnings);
             const int material = primitive->material;
             Mesh mesh = finish(std::move(*primitive));
             mesh.material = materials_.use(material, mesh);
@@ -96,59 +88,55 @@ private:
 
     bool hasJoints(int mesh) const
     {
-        for (const tinygltf::Primitive& p : sourceMesh(mesh).primitives)
-            if (!p.attributes.contains("JOINTS_0"))
+        for (const gltf::Primitive& p : sourceMesh(mesh).primitives)
+            if (gltf::accessorOf(p.attributes, "JOINTS_0") < 0)
                 return false;
         return true;
     }
 
     MeshUse useOf(int node)
     {
-        const tinygltf::Node& n = model_.tiny.nodes[static_cast<std::size_t>(node)];
+        const gltf::Node& n = model_.structure.nodes[static_cast<std::size_t>(node)];
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
         if (use.skin >= 0 && !hasJoints(use.mesh)) {
             use.skin = -1;
-            model_.warnings.add(fmt::format("nodes[{}]", node),
-                                "its mesh lacks JOINTS_0, so its skin is ignored");
+            model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
         }
         return use;
     }
 
-    void addInstances(int node, const std::vector<int>& meshes,
-                      const std::vector<glm::mat4>& placements)
+    void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
     {
-        const std::string& name = model_.tiny.nodes[static_cast<std::size_t>(node)].name;
+        const std::string& name = model_.structure.nodes[static_cast<std::size_t>(node)].name;
         if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
             failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
         for (const glm::mat4& placement : placements)
             for (const int mesh : meshes)
                 scene_.instances.push_back(
-                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh,
-                     placement});
+                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh, placement});
     }
 
     // A skin puts vertices into world space by itself: the node's transform does not count.
     void placeMeshes()
     {
         for (const int node : nodes_.visible) {
-            if (model_.tiny.nodes[static_cast<std::size_t>(node)].mesh < 0)
+            if (model_.structure.nodes[static_cast<std::size_t>(node)].mesh < 0)
                 continue;
             const MeshUse use = useOf(node);
             const std::vector<int>& meshes = meshesFor(use);
             addInstances(node, meshes,
-                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)}
-                                       : gltfPlacements(model_, nodes_, node));
+                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node));
         }
     }
 
     // Meshes that no node shows are read and dropped: damage in them is damage in the file.
     void checkUnusedMeshes()
     {
-        std::vector<bool> used(model_.tiny.meshes.size(), false);
+        std::vector<bool> used(model_.structure.meshes.size(), false);
         for (const auto& [use, meshes] : made_)
             used[static_cast<std::size_t>(use.mesh)] = true;
         for (std::size_t m = 0; m < used.size(); ++m)
-            for (std::size_t p = 0; !used[m] && p < model_.tiny.meshes[m].primitives.size(); ++p)
+            for (std::size_t p = 0; !used[m] && p < model_.structure.meshes[m].primitives.size(); ++p)
                 if (auto primitive = readGltfPrimitive(model_, static_cast<int>(m), p, {}))
                     finish(std::move(*primitive));
     }
@@ -166,11 +154,9 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
     GltfModel model;
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
-    checkGltfShape(model.file.json, limits, model.warnings);
-    loadGltfBuffers(model.file, limits);
-    model.tiny = parseGltfStructure(model.file.json);
-    checkGltfAccessors(model);
-
+    readGltfModel(model);
+    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
+    model.file.json = std::move(images);
     Scene scene;
     scene.name = path.stem().string();
     SceneBuilder(model, scene).build();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace cotan {
 
 using Json = nlohmann::ordered_json;
@@ -28,6 +30,11 @@ void collectTextures(const Json& object, bool top, std::set<std::size_t>& textur
 
 } // namespace
 
+std::string primitiveField(std::size_t mesh, std::size_t primitive)
+{
+    return fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
+}
+
 std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 {
     std::vector<std::size_t> materials;
@@ -39,21 +46,27 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
             materials.push_back(m);
     };
     add(primitive);
-    const Json* at = &primitive; // of an extension nothing has been checked
-    for (const char* member : {"extensions", "KHR_materials_variants", "mappings"}) {
-        if (!at->is_object() || !at->contains(member))
-            return materials;
-        at = &(*at)[member];
-    }
-    for (const Json& mapping : *at)
-        add(mapping);
+    const Json* const variants = gltf::extension(primitive, "KHR_materials_variants");
+    const Json* const mappings = variants ? gltf::member(*variants, "mappings") : nullptr;
+    if (mappings && mappings->is_structured()) // of an extension nothing has been checked
+        for (const Json& mapping : *mappings)
+            add(mapping);
     return materials;
 }
 
-const Json* normalTextureOf(const Json& root, std::size_t material)
+gltf::TextureUse normalMapOf(const Json& root, std::size_t material)
 {
-    const Json& m = root["materials"][material];
-    return m.contains("normalTexture") ? &m["normalTexture"] : nullptr;
+    return gltf::readTextureUse(&root["materials"][material], "normalTexture");
+}
+
+gltf::Texture textureAt(const Json& root, int texture)
+{
+    return gltf::readTexture(root["textures"][std::size_t(texture)], countOf(root, "images"));
+}
+
+Sampler samplerOf(const Json& root, const gltf::Texture& texture)
+{
+    return texture.sampler < 0 ? Sampler{} : gltf::readSampler(root["samplers"][std::size_t(texture.sampler)]);
 }
 
 std::set<std::size_t> texturesReadBy(const Json& object)

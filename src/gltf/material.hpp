@@ -30,10 +30,9 @@ public:
     void checkUnusedImages() const;
 
 private:
-    Texture texture(int index, int texcoord, const tinygltf::ExtensionMap& extensions,
-                    const Mesh& mesh, const std::string& field);
+    Texture texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
-    int imageOf(const tinygltf::Texture& texture) const;
+    int imageOf(const gltf::Texture& texture) const;
     int imageSlot(int image);
 
     GltfModel& model_;

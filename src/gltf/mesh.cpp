@@ -15,10 +15,6 @@ namespace {
 // to sqrt(3)/2/127 = 0.0069.
 constexpr float kUnitTolerance = 0.01f;
 
-// Lengths within this of one are unit as far as floats and six decimals go. Such normals keep their
-// bits: normalising again would make some equal that differ, and weld their vertices.
-constexpr double kUnitRounding = 2e-6;
-
 // ---- normals --------------------------------------------------------------------------------
 
 template<class T> void spread(std::vector<T>& values, const std::vector<std::uint32_t>& order)
@@ -66,8 +62,7 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
         const double length = glm::length(glm::dvec3(n));
         zero += length == 0;
         odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
-        if (std::abs(length - 1) > kUnitRounding)
-            n = unitOrZero(n);
+        n = unitNormal(n);
     }
     if (zero > 0)
         warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
@@ -117,8 +112,8 @@ int handednessFromUv(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::si
 {
     const auto corner = [&](std::size_t k) { return mesh.indices[first + k]; };
     const glm::dvec3 a = mesh.positions[corner(0)];
-    const glm::dvec3 face = glm::cross(glm::dvec3(mesh.positions[corner(1)]) - a,
-                                       glm::dvec3(mesh.positions[corner(2)]) - a);
+    const glm::dvec3 face =
+        glm::cross(glm::dvec3(mesh.positions[corner(1)]) - a, glm::dvec3(mesh.positions[corner(2)]) - a);
     const glm::vec3 n = mesh.normals[corner(0)] + mesh.normals[corner(1)] + mesh.normals[corner(2)];
     const double side = glm::dot(face, glm::dvec3(n));
     const float area = uvArea(mesh, uv, first);
@@ -143,8 +138,7 @@ void checkHandedness(const Mesh& mesh, int set, const std::string& field, GltfWa
         against += expected != 0 && (sum > 0) != (expected > 0);
     }
     if (against * 2 > known)
-        warnings.add(field, "TANGENT.w inverted: its sign contradicts the texture coordinates",
-                     against, "triangles");
+        warnings.add(field, "TANGENT.w inverted: its sign contradicts the texture coordinates", against, "triangles");
 }
 
 void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
@@ -156,11 +150,16 @@ void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnin
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         flat += uvArea(mesh, uv, i) == 0;
     if (flat > 0)
-        warnings.add(field, "no area in the texture coordinates of the normal map: no frame there",
-                     flat, "triangles");
+        warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
 }
 
 } // namespace
+
+glm::vec3 unitNormal(const glm::vec3& normal)
+{
+    constexpr double kRounding = 2e-6; // as far as floats and six decimals go; quantised normals are up to 0.007 off
+    return std::abs(glm::length(glm::dvec3(normal)) - 1) > kRounding ? unitOrZero(normal) : normal;
+}
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)
 {
@@ -174,8 +173,7 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
     mesh.indices = std::move(source.triangles);
     for (const glm::vec3& p : mesh.positions)
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            failGltf("{}: a position is beyond the range of float once it is morphed and skinned",
-                     source.field);
+            failGltf("{}: a position is beyond the range of float once it is morphed and skinned", source.field);
     if (mesh.normals.empty()) {
         warnings.add(source.field, "no NORMAL, flat normals are made");
         makeFlat(mesh);

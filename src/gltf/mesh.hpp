@@ -35,8 +35,11 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
 // matrix times its inverse bind matrix. Normals go by the inverse transpose, tangents with the
 // surface; where the joints mirror, TANGENT.w changes sign, and where they mirror everything, so
 // does the winding.
-void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints,
-                       GltfWarnings& warnings);
+void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings);
+
+// The unit vector of a normal. One that is unit up to rounding keeps its bits: normalising again would make some equal
+// that differ, and weld their vertices. Zero where it has no length.
+glm::vec3 unitNormal(const glm::vec3& normal);
 
 // Makes the mesh: unit normals (flat ones where the file has none), tangents with w = +-1. What is
 // odd about them is said. normalMapSet: the uv set that the material's normal map uses, or -1.

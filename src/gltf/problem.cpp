@@ -11,11 +11,9 @@ void failGltfVersion1(const std::string& field)
              field);
 }
 
-void GltfWarnings::add(const std::string& where, const std::string& what, std::size_t count,
-                       const std::string& unit)
+void GltfWarnings::add(const std::string& where, const std::string& what, std::size_t count, const std::string& unit)
 {
-    auto same = std::find_if(entries_.begin(), entries_.end(),
-                             [&](const Entry& e) { return e.what == what; });
+    auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.what == what; });
     // Names from the file may make every line different; nobody reads thousands.
     constexpr std::size_t kMost = 100;
     if (same == entries_.end() && entries_.size() >= kMost) {

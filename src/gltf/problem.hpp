@@ -35,8 +35,7 @@ class GltfWarnings {
 public:
     // count and unit: how often it happened at that place, for example 12 "vertices"; they are
     // summed over the places. 0: not counted.
-    void add(const std::string& where, const std::string& what, std::size_t count = 0,
-             const std::string& unit = {});
+    void add(const std::string& where, const std::string& what, std::size_t count = 0, const std::string& unit = {});
 
     std::vector<std::string> lines() const;
 

@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "codes.hpp"
+
 namespace cotan::gltf_schema {
 
 enum class Shape {
@@ -47,6 +49,7 @@ struct Field {
     double high = FLT_MAX;
     std::span<const std::string_view> texts = {}; // allowed values; empty: any
     std::span<const int> integers = {};           // allowed values; empty: any in range
+    unsigned multipleOf = 1;                      // integers
 };
 
 constexpr Field boolean(std::string_view n) { return {n, Shape::boolean}; }
@@ -79,10 +82,7 @@ constexpr Field numbers(std::string_view n, std::size_t length = 0)
 {
     return {.name = n, .shape = Shape::numbers, .length = length};
 }
-constexpr Field object(std::string_view n, Fields inner)
-{
-    return {.name = n, .shape = Shape::object, .inner = inner};
-}
+constexpr Field object(std::string_view n, Fields inner) { return {.name = n, .shape = Shape::object, .inner = inner}; }
 constexpr Field objects(std::string_view n, Fields inner)
 {
     return {.name = n, .shape = Shape::objects, .inner = inner};
@@ -96,22 +96,25 @@ constexpr Field required(Field field)
 // ---- the tables, leaves first ---------------------------------------------------------------
 
 using std::string_view;
-inline constexpr std::array kComponentTypes{5120, 5121, 5122, 5123, 5125, 5126};
-inline constexpr std::array kIndexTypes{5121, 5123, 5125};
-inline constexpr std::array kMagFilters{9728, 9729};
-inline constexpr std::array kMinFilters{9728, 9729, 9984, 9985, 9986, 9987};
-inline constexpr std::array kWraps{10497, 33071, 33648};
-inline constexpr std::array kElementTypes{
-    string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"), string_view("VEC4"),
-    string_view("MAT2"),   string_view("MAT3"), string_view("MAT4")};
-inline constexpr std::array kAlphaModes{string_view("OPAQUE"), string_view("MASK"),
-                                        string_view("BLEND")};
-inline constexpr std::array kLightTypes{string_view("directional"), string_view("point"),
-                                        string_view("spot")};
+inline constexpr std::array kComponentTypes{gltf::kByte,          gltf::kUnsignedByte, gltf::kShort,
+                                            gltf::kUnsignedShort, gltf::kUnsignedInt,  gltf::kFloat};
+inline constexpr std::array kIndexTypes{gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt};
+inline constexpr std::array kMagFilters{gltf::kNearest, gltf::kLinear};
+inline constexpr std::array kMinFilters{gltf::kNearest,
+                                        gltf::kLinear,
+                                        gltf::kNearestMipmapNearest,
+                                        gltf::kLinearMipmapNearest,
+                                        gltf::kNearestMipmapLinear,
+                                        gltf::kLinearMipmapLinear};
+inline constexpr std::array kWraps{gltf::kRepeat, gltf::kClampToEdge, gltf::kMirroredRepeat};
+inline constexpr std::array kElementTypes{string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"),
+                                          string_view("VEC4"),   string_view("MAT2"), string_view("MAT3"),
+                                          string_view("MAT4")};
+inline constexpr std::array kAlphaModes{string_view("OPAQUE"), string_view("MASK"), string_view("BLEND")};
+inline constexpr std::array kLightTypes{string_view("directional"), string_view("point"), string_view("spot")};
 inline constexpr std::array kCameraTypes{string_view("perspective"), string_view("orthographic")};
 
-inline constexpr std::array kAsset{required(text("version")), text("minVersion"),
-                                   text("generator")};
+inline constexpr std::array kAsset{required(text("version")), text("minVersion"), text("generator")};
 inline constexpr std::array kScene{text("name"), indices("nodes", "nodes")};
 
 inline constexpr std::array kNodeLight{required(index("light", "lights"))};
@@ -138,16 +141,12 @@ inline constexpr std::array kPrimitive{
     integer("mode", 0, 6),
     Field{.name = "targets", .shape = Shape::indexMaps, .refers = "accessors"},
     object("extensions", {})};
-inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)),
-                                  numbers("weights")};
+inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)), numbers("weights")};
 
-inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")),
-                                           integer("byteOffset"),
+inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), integer("byteOffset"),
                                            required(oneOf("componentType", kIndexTypes))};
-inline constexpr std::array kSparseValues{required(index("bufferView", "bufferViews")),
-                                          integer("byteOffset")};
-inline constexpr std::array kSparse{required(integer("count")),
-                                    required(object("indices", kSparseIndices)),
+inline constexpr std::array kSparseValues{required(index("bufferView", "bufferViews")), integer("byteOffset")};
+inline constexpr std::array kSparse{required(integer("count")), required(object("indices", kSparseIndices)),
                                     required(object("values", kSparseValues))};
 inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       size("byteOffset"),
@@ -158,24 +157,23 @@ inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       object("sparse", kSparse),
                                       numbers("min"),
                                       numbers("max")};
-inline constexpr std::array kBufferView{required(index("buffer", "buffers")), size("byteOffset"),
-                                        required(size("byteLength")),
-                                        integer("byteStride", 0, 252)};
+inline constexpr std::array kBufferView{
+    required(index("buffer", "buffers")), size("byteOffset"), required(size("byteLength")),
+    Field{.name = "byteStride", .shape = Shape::integer, .low = 0, .high = 252, .multipleOf = 4}};
 inline constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
 
-inline constexpr std::array kTransform{numbers("offset", 2), number("rotation"),
-                                       numbers("scale", 2), integer("texCoord")};
+inline constexpr std::array kTransform{numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                       integer("texCoord")};
 inline constexpr std::array kTextureExtensions{object("KHR_texture_transform", kTransform)};
 inline constexpr std::array kTextureInfo{required(index("index", "textures")), integer("texCoord"),
                                          number("scale", -kSteepest, kSteepest), number("strength"),
                                          object("extensions", kTextureExtensions)};
-inline constexpr std::array kRoughness{numbers("baseColorFactor", 4),
-                                       object("baseColorTexture", kTextureInfo),
+inline constexpr std::array kRoughness{numbers("baseColorFactor", 4), object("baseColorTexture", kTextureInfo),
                                        number("metallicFactor"), number("roughnessFactor"),
                                        object("metallicRoughnessTexture", kTextureInfo)};
 inline constexpr std::array kStrength{number("emissiveStrength", 0, kBrightest)};
-inline constexpr std::array kMaterialExtensions{
-    object("KHR_materials_emissive_strength", kStrength), object("KHR_materials_unlit", {})};
+inline constexpr std::array kMaterialExtensions{object("KHR_materials_emissive_strength", kStrength),
+                                                object("KHR_materials_unlit", {})};
 inline constexpr std::array kMaterial{text("name"),
                                       object("pbrMetallicRoughness", kRoughness),
                                       object("normalTexture", kTextureInfo),
@@ -187,21 +185,18 @@ inline constexpr std::array kMaterial{text("name"),
                                       boolean("doubleSided"),
                                       object("extensions", kMaterialExtensions)};
 inline constexpr std::array kTexture{index("sampler", "samplers"), index("source", "images")};
-inline constexpr std::array kImage{text("name"), text("uri"), text("mimeType"),
-                                   index("bufferView", "bufferViews")};
-inline constexpr std::array kSampler{oneOf("magFilter", kMagFilters),
-                                     oneOf("minFilter", kMinFilters), oneOf("wrapS", kWraps),
-                                     oneOf("wrapT", kWraps)};
+inline constexpr std::array kImage{text("name"), text("uri"), text("mimeType"), index("bufferView", "bufferViews")};
+inline constexpr std::array kSampler{oneOf("magFilter", kMagFilters), oneOf("minFilter", kMinFilters),
+                                     oneOf("wrapS", kWraps), oneOf("wrapT", kWraps)};
 
-inline constexpr std::array kSkin{text("name"), index("inverseBindMatrices", "accessors"),
-                                  index("skeleton", "nodes"), required(indices("joints", "nodes"))};
-inline constexpr std::array kPerspective{required(number("yfov")), required(number("znear")),
-                                         number("aspectRatio"), number("zfar")};
-inline constexpr std::array kOrthographic{required(number("xmag")), required(number("ymag")),
-                                          required(number("zfar")), required(number("znear"))};
+inline constexpr std::array kSkin{text("name"), index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
+                                  required(indices("joints", "nodes"))};
+inline constexpr std::array kPerspective{required(number("yfov")), required(number("znear")), number("aspectRatio"),
+                                         number("zfar")};
+inline constexpr std::array kOrthographic{required(number("xmag")), required(number("ymag")), required(number("zfar")),
+                                          required(number("znear"))};
 inline constexpr std::array kCamera{text("name"), required(text("type", kCameraTypes)),
-                                    object("perspective", kPerspective),
-                                    object("orthographic", kOrthographic)};
+                                    object("perspective", kPerspective), object("orthographic", kOrthographic)};
 inline constexpr std::array kSpot{number("innerConeAngle"), number("outerConeAngle")};
 inline constexpr std::array kLight{text("name"),        required(text("type", kLightTypes)),
                                    numbers("color", 3), number("intensity", 0, kBrightest),

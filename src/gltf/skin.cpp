@@ -16,8 +16,7 @@ struct Blend {
     double weight = 0;
 };
 
-Blend blend(const GltfPrimitive& primitive, std::size_t vertex,
-            const std::vector<glm::dmat4>& joints)
+Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vector<glm::dmat4>& joints)
 {
     Blend sum;
     for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
@@ -27,8 +26,8 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex,
                 continue;
             const std::size_t joint = primitive.joints[set][vertex][k];
             if (joint >= joints.size())
-                failGltf("{}.JOINTS_{}: vertex {} names joint {}, but the skin has {}",
-                         primitive.field, set, vertex, joint, joints.size());
+                failGltf("{}.JOINTS_{}: vertex {} names joint {}, but the skin has {}", primitive.field, set, vertex,
+                         joint, joints.size());
             sum.matrix += joints[joint] * weight;
             sum.weight += weight;
         }
@@ -40,8 +39,7 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex,
 // of a transformed normal even where the matrix has no inverse; the sign is put back.
 glm::dvec3 turnNormal(const glm::dmat3& m, double determinant, const glm::vec3& n)
 {
-    const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                              glm::cross(m[0], m[1]));
+    const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const glm::dvec3 turned = cofactor * glm::dvec3(n) * (determinant < 0 ? -1.0 : 1.0);
     const double length = glm::length(turned);
     return length > 0 ? turned / length : glm::dvec3(0);
@@ -51,14 +49,12 @@ glm::vec4 turnTangent(const glm::dmat3& m, double determinant, const glm::vec4& 
 {
     const glm::dvec3 turned = m * glm::dvec3(t);
     const double length = glm::length(turned);
-    return glm::vec4(length > 0 ? glm::vec3(turned / length) : glm::vec3(0),
-                     determinant < 0 ? -t.w : t.w);
+    return glm::vec4(length > 0 ? glm::vec3(turned / length) : glm::vec3(0), determinant < 0 ? -t.w : t.w);
 }
 
 } // namespace
 
-void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints,
-                       GltfWarnings& warnings)
+void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings)
 {
     std::size_t mirrored = 0;
     std::size_t loose = 0;

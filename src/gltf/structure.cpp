@@ -1,30 +1,124 @@
-#include <limits>
+#include "structure.hpp"
 
-#include "model.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
-namespace cotan {
+#include "problem.hpp"
 
-tinygltf::Model parseGltfStructure(nlohmann::json& json)
+namespace cotan::gltf {
+
+namespace {
+
+float numberOf(const Json& object, std::string_view name, double otherwise)
 {
-    nlohmann::json structure = std::move(json);
-    json = nlohmann::json::object();
-    for (const char* const ours : {"buffers", "images"})
-        if (structure.contains(ours))
-            json[ours] = std::move(structure[ours]);
-    for (const char* const unused : {"buffers", "images", "animations", "extras"})
-        structure.erase(unused);
-    const std::string text = structure.dump();
-    structure = nullptr;
-    if (text.size() > std::numeric_limits<unsigned>::max())
-        failGltf("JSON: the structure has {} bytes, the limit is 4 GiB", text.size());
-    tinygltf::Model model;
-    tinygltf::TinyGLTF parser;
-    std::string problem;
-    std::string warning;
-    if (!parser.LoadASCIIFromString(&model, &problem, &warning, text.data(),
-                                    static_cast<unsigned>(text.size()), ""))
-        failGltf("{}", problem.empty() ? "not a valid glTF structure" : problem);
-    return model;
+    return static_cast<float>(valueOr(object, name, otherwise));
 }
 
-} // namespace cotan
+float unitRange(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
+
+MaterialSource readMaterial(const Json& source)
+{
+    const Json none = Json::object();
+    const Json* const found = member(source, "pbrMetallicRoughness");
+    const Json& pbr = found ? *found : none;
+    MaterialSource read{{},
+                        readTextureUse(&pbr, "baseColorTexture"),
+                        readTextureUse(&pbr, "metallicRoughnessTexture"),
+                        readTextureUse(&source, "normalTexture"),
+                        readTextureUse(&source, "occlusionTexture"),
+                        readTextureUse(&source, "emissiveTexture")};
+    Material& m = read.factors;
+    m.name = valueOr(source, "name", std::string());
+    m.tangentsFor = tangentReader(source);
+    if (const Json* const color = member(pbr, "baseColorFactor"))
+        for (int i = 0; i < 4; ++i)
+            m.baseColor[i] = unitRange((*color)[std::size_t(i)].get<double>());
+    m.metallic = unitRange(valueOr(pbr, "metallicFactor", 1.0));
+    m.roughness = unitRange(valueOr(pbr, "roughnessFactor", 1.0));
+    const Json* const emissive = extension(source, "KHR_materials_emissive_strength");
+    const float strength = emissive ? numberOf(*emissive, "emissiveStrength", 1) : 1.0f;
+    if (const Json* const color = member(source, "emissiveFactor"))
+        for (int i = 0; i < 3; ++i)
+            m.emissive[i] = unitRange((*color)[std::size_t(i)].get<double>()) * strength;
+    m.occlusionStrength = unitRange(read.occlusion.strength);
+    m.normalScale = static_cast<float>(read.normal.scale);
+    const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
+    m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+    m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
+    m.doubleSided = valueOr(source, "doubleSided", false);
+    m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
+    return read;
+}
+
+// What a camera or light says under the name of its kind.
+const Json& described(const Json& object, const std::string& kind, const std::string& field)
+{
+    const Json* const description = member(object, kind);
+    if (!description)
+        failGltf("{}.{}: missing; its type is \"{}\"", field, kind, kind);
+    return *description;
+}
+
+Camera readCamera(const Json& source, const std::string& field)
+{
+    const auto& kind = source["type"].get_ref<const std::string&>();
+    const Json& description = described(source, kind, field);
+    Camera camera;
+    camera.name = valueOr(source, "name", std::string());
+    camera.orthographic = kind == "orthographic";
+    // Sizes that show nothing, or more than half a sphere, are brought to the nearest usable one.
+    if (camera.orthographic)
+        camera.verticalExtent = static_cast<float>(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
+    else
+        camera.verticalFieldOfView = static_cast<float>(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
+    return camera;
+}
+
+Light readLight(const Json& source, const std::string& field)
+{
+    const auto& kind = source["type"].get_ref<const std::string&>();
+    Light light;
+    light.kind = kind == "directional" ? LightKind::directional : kind == "point" ? LightKind::point : LightKind::spot;
+    if (const Json* const color = member(source, "color"))
+        for (int i = 0; i < 3; ++i)
+            light.color[i] = (*color)[std::size_t(i)].get<float>();
+    light.intensity = numberOf(source, "intensity", 1);
+    light.range = numberOf(source, "range", 0);
+    double inner = 0, outer = std::numbers::pi / 4;
+    if (light.kind == LightKind::spot) {
+        const Json& spot = described(source, kind, field);
+        inner = valueOr(spot, "innerConeAngle", inner);
+        outer = valueOr(spot, "outerConeAngle", outer);
+    }
+    outer = std::clamp(outer, 0.0, std::numbers::pi / 2);
+    light.outerCone = static_cast<float>(outer);
+    light.innerCone = static_cast<float>(std::clamp(inner, 0.0, outer));
+    return light;
+}
+
+} // namespace
+
+Structure readStructure(const Json& root)
+{
+    Structure s;
+    std::size_t at = 0; // for messages
+    s.scenes = readAll(&root, "scenes", [](const Json& scene) { return valueOr(scene, "nodes", std::vector<int>()); });
+    s.defaultScene = valueOr(root, "scene", -1);
+    s.nodes = readAll(&root, "nodes", readNode);
+    s.meshes = readAll(&root, "meshes", readMesh);
+    s.skins = readAll(&root, "skins", readSkin);
+    s.cameras =
+        readAll(&root, "cameras", [&](const Json& c) { return readCamera(c, fmt::format("cameras[{}]", at++)); });
+    at = 0;
+    s.lights = readAll(extension(root, "KHR_lights_punctual"), "lights", [&](const Json& l) {
+        return readLight(l, fmt::format("extensions.KHR_lights_punctual.lights[{}]", at++));
+    });
+    s.materials = readAll(&root, "materials", readMaterial);
+    s.images = readAll(&root, "images", readImage);
+    s.textures = readAll(&root, "textures", [&](const Json& t) { return readTexture(t, s.images.size()); });
+    s.samplers = readAll(&root, "samplers", readSampler);
+    return s;
+}
+
+} // namespace cotan::gltf

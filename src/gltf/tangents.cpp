@@ -41,16 +41,19 @@ Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::s
 bool hasNormalMap(const Json& root, std::size_t m, std::size_t p)
 {
     const auto materials = materialsOf(root, root["meshes"][m]["primitives"][p]);
-    return std::any_of(materials.begin(), materials.end(), [&](std::size_t k) { return normalTextureOf(root, k) != nullptr; });
+    return std::any_of(materials.begin(), materials.end(),
+                       [&](std::size_t k) { return normalMapOf(root, k).texture >= 0; });
 }
 
-// Calls visit(geometry, row), with the row filled as far as the file alone fills it, for each primitive that the options
-// ask for; keeps the rows.
+// Calls visit(geometry, row), with the row filled as far as the file alone fills it, for each primitive that the
+// options ask for; keeps the rows.
 template<class Visit>
-Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, const TangentsOptions& options, const Visit& visit)
+Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, const TangentsOptions& options,
+                                              const Visit& visit)
 {
-    if (options.frame != Frame::mikktspace && options.frame != Frame::vertex)
-        return usageError(fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
+    if (!readsTangents(options.frame))
+        return usageError(
+            fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
     std::vector<PrimitiveTangents> rows;
     std::size_t all = 0, done = 0;
     for (std::size_t m = 0; m < countOf(document.root, "meshes"); ++m)
@@ -60,8 +63,9 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
             const auto read = readPrimitive(document, m, p);
             if (!read)
                 return read.error();
-            PrimitiveTangents& row = rows.emplace_back(
-                PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3, !read->geometry.tangents.empty(), false, read->cannot});
+            PrimitiveTangents& row =
+                rows.emplace_back(PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3,
+                                                    !read->geometry.tangents.empty(), false, read->cannot});
             visit(*read, row);
         }
         if (options.progress && !options.progress(double(++done) / double(all)))
@@ -75,7 +79,7 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
 
 std::vector<glm::vec4> generate(const GltfPrimitiveGeometry& read, const TangentsOptions& options)
 {
-    return options.frame == Frame::vertex ? vertexTangents(read.view()) : mikktspaceTangents(read.view(), options.threads);
+    return generateTangents(options.frame, read.view(), options.threads);
 }
 
 } // namespace

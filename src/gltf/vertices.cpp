@@ -1,10 +1,34 @@
 #include "vertices.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "codes.hpp"
 
 namespace cotan {
 
 namespace {
+
+// The corners of triangle i of a strip or fan, with the winding that the specification gives it.
+std::array<std::size_t, 3> cornersOf(int mode, std::size_t i)
+{
+    if (mode == gltf::kTriangleStrip)
+        return {i, i + 1 + i % 2, i + 2 - i % 2};
+    return {i + 1, i + 2, 0};
+}
+
+std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& order)
+{
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(order.size() * 3);
+    for (std::size_t i = 0; i + 2 < order.size(); ++i) {
+        const auto [a, b, c] = cornersOf(mode, i);
+        if (order[a] == order[b] || order[b] == order[c] || order[c] == order[a])
+            continue;
+        triangles.insert(triangles.end(), {order[a], order[b], order[c]});
+    }
+    return triangles;
+}
 
 // A table of all vertices: for primitives that use a good part of them.
 std::vector<std::uint32_t> byTable(std::vector<std::uint32_t>& corners, std::size_t count)
@@ -34,6 +58,14 @@ std::vector<std::uint32_t> bySearch(std::vector<std::uint32_t>& corners)
 }
 
 } // namespace
+
+std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> order)
+{
+    if (mode == gltf::kTriangleStrip || mode == gltf::kTriangleFan)
+        return unroll(mode, order);
+    order.resize(mode == gltf::kTriangles ? order.size() / 3 * 3 : 0);
+    return order;
+}
 
 std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count)
 {

@@ -1,4 +1,4 @@
-// The vertices of an accessor that a primitive uses.
+// The corners of a primitive's triangles, and the vertices of its accessors that they use.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,10 @@
 #include <vector>
 
 namespace cotan {
+
+// Three corners a triangle. order: those of a list, strip or fan (see gltf::Primitive::mode); other modes have no
+// triangles. Strips and fans jump by triangles without area: those that join two equal vertices are left out.
+std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> order);
 
 // The vertices that the corners name, rising, each once; the corners are renumbered to places in
 // that list. Many primitives may share one accessor, each with a part of it, so neither time nor

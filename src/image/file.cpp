@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "cotan/files/bytes.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
-#include "cotan/files/bytes.hpp"
 #include "cotan/image/convert.hpp"
 #include "formats.hpp"
 #include "jpeg.hpp"
@@ -30,8 +30,7 @@ bool isJpeg(std::span<const std::byte> bytes)
 
 namespace {
 
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
-                     const LoadLimits& limits)
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     if (isPng(bytes))
         return readPng(bytes, name, limits);
@@ -39,9 +38,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
         if (auto image = readJpeg(bytes, name, limits))
             return *std::move(image);
     if (!knownImage(bytes, name))
-        return inputError(fmt::format(
-            "{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data",
-            name));
+        return inputError(
+            fmt::format("{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
     if (!limits.sandbox.program.empty())
         return decodeSandboxed(bytes, name, limits);
     const auto formats = imageFormats();
@@ -64,8 +62,7 @@ std::string foreignFormat(std::span<const std::byte> bytes)
     return head.size() == 12 && head.substr(4) == "ftypavif" ? "AVIF" : "";
 }
 
-Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
-                          const LoadLimits& limits)
+Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     try {
         return limits.decode ? limits.decode(bytes, name) : decode(bytes, name, limits);
@@ -91,8 +88,7 @@ namespace {
 Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
     if (lowerExtension(file) == ".png")
-        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name)
-                                                : writePng(file, image, name);
+        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
     const auto formats = imageFormats();
     if (!formats)
         return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
@@ -105,15 +101,12 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
     if (!writableImage(file))
-        return usageError(
-            fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"",
-                        name, file.extension().string()));
-    if (image.width <= 0 || image.height <= 0
-        || image.data.size() != image.pixelCount() * image.bytesPerPixel())
-        return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name,
-                                      image.width, image.height, image.data.size()));
-    return writeBeside(
-        file, [&](const std::filesystem::path& beside) { return write(beside, image, name); });
+        return usageError(fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"", name,
+                                      file.extension().string()));
+    if (image.width <= 0 || image.height <= 0 || image.data.size() != image.pixelCount() * image.bytesPerPixel())
+        return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name, image.width,
+                                      image.height, image.data.size()));
+    return writeBeside(file, [&](const std::filesystem::path& beside) { return write(beside, image, name); });
 }
 
 } // namespace cotan

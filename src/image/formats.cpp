@@ -46,20 +46,19 @@ Result<const ImageFormats*> loadModule()
             problem = ::dlerror();
             continue;
         }
-        const auto entry =
-            reinterpret_cast<const ImageFormats* (*)()>(::dlsym(module, "cotanImageFormats"));
+        const auto entry = reinterpret_cast<const ImageFormats* (*)()>(::dlsym(module, "cotanImageFormats"));
         const ImageFormats* formats = entry ? entry() : nullptr;
         if (formats && std::strcmp(formats->version, COTAN_MODULE_VERSION) == 0)
             return formats;
         problem = fmt::format("{} is not of this version", file.string());
     }
-    return unavailableError(
-        fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
+    return unavailableError(fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
 }
 #else
 Result<const ImageFormats*> loadModule()
 {
-    return notBuiltWith("OpenImageIO, which reads and writes this image format", "libopenimageio-dev and openimageio-tools");
+    return notBuiltWith("OpenImageIO, which reads and writes this image format",
+                        "libopenimageio-dev and openimageio-tools");
 }
 #endif
 
@@ -76,8 +75,7 @@ bool knownImage(std::span<const std::byte> bytes, const std::string& name)
     using namespace std::string_view_literals;
     constexpr std::array kStarts = {"\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "\x76\x2f\x31\x01"sv,
                                     "#?"sv,           "BM"sv,    "DDS "sv};
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
-                                std::min<std::size_t>(bytes.size(), 4));
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4));
     return std::ranges::any_of(kStarts, [&](auto start) { return head.starts_with(start); })
         || (lowerExtension(name) == ".tga" && !bytes.empty());
 }

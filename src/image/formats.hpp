@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "cotan/image/rows.hpp"
 #include "cotan/files/limits.hpp"
+#include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
@@ -22,8 +22,7 @@ struct ImageFormats {
 
     // As decodeImage, for JPEG, TIFF, OpenEXR, Radiance HDR, BMP, DDS (by their first bytes) and
     // TGA (which has none, by the extension of `name`).
-    Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name,
-                          const LoadLimits& limits);
+    Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
     // Writes .exr .tif .tiff .tga .jpg .jpeg .hdr. JPEG and HDR have no alpha and drop it; TGA and
     // JPEG take floats clamped to [0,1] at 8 bits. `name` is for messages.

@@ -45,8 +45,7 @@ void onError(j_common_ptr common)
 void onMessage(j_common_ptr common, int level)
 {
     const int code = common->err->msg_code;
-    if (level < 0
-        && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE))
+    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE))
         onError(common);
 }
 
@@ -112,8 +111,9 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
     const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
     const std::size_t scans = countScans(bytes);
     if (scans > kMostScans || scans * pixels > kMostScannedPixels)
-        return inputError(fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels", name,
-                                      kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
+        return inputError(
+            fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels",
+                        name, kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
     std::size_t coefficients = 0;
     for (int c = 0; c < jpeg.num_components; ++c)
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
@@ -131,9 +131,7 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
                                       const LoadLimits& limits)
 {
     Decoder decoder;
-    const auto broken = [&] {
-        return inputError(fmt::format("{}: broken JPEG: {}", name, decoder.message));
-    };
+    const auto broken = [&] { return inputError(fmt::format("{}: broken JPEG: {}", name, decoder.message)); };
     if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
         return broken();
     if (auto error = checkScans(decoder.jpeg, bytes, name, limits))

@@ -8,12 +8,11 @@
 #include <string>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
-
-bool isJpeg(std::span<const std::byte> bytes);
 
 // As decodeImage, for grey and YCbCr or RGB pictures. Nothing for those in CMYK.
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,

@@ -13,8 +13,8 @@
 
 #include "cotan/files/extension.hpp"
 #include "cotan/image/convert.hpp"
-#include "formats.hpp"
 #include "cotan/image/size.hpp"
+#include "formats.hpp"
 
 namespace cotan {
 
@@ -46,8 +46,7 @@ std::string oneLine(std::string text)
 
 std::string formatOf(std::span<const std::byte> bytes)
 {
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
-                                std::min<std::size_t>(bytes.size(), 16));
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
     if (head.starts_with("\xff\xd8\xff"))
         return "jpeg";
     using namespace std::string_view_literals;
@@ -82,12 +81,9 @@ OIIO::TypeDesc typeDesc(PixelType type)
 void completeChannels(Image& image, int channels)
 {
     switch (image.type) {
-    case PixelType::unorm8:
-        return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
-    case PixelType::unorm16:
-        return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
-    case PixelType::float32:
-        return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
+    case PixelType::unorm8: return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
+    case PixelType::unorm16: return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
+    case PixelType::float32: return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
     }
 }
 
@@ -142,19 +138,18 @@ namespace {
 
 // What a header may claim beyond the size of the picture: channels that we do not use and the
 // blocks that a reader allocates.
-std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name,
-                               const LoadLimits& limits)
+std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name, const LoadLimits& limits)
 {
     if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
         return error;
     if (auto error = checkLayers(spec, name))
         return error;
     const double tile = double(spec.tile_width) * double(spec.tile_height);
-    const double stored = std::max(double(spec.width) * double(spec.height), tile)
-        * double(spec.pixel_bytes(/*native=*/true));
+    const double stored =
+        std::max(double(spec.width) * double(spec.height), tile) * double(spec.pixel_bytes(/*native=*/true));
     if (stored > double(limits.imageBytes))
-        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}",
-                                      name, stored, limits.imageBytes));
+        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}", name, stored,
+                                      limits.imageBytes));
     return std::nullopt;
 }
 
@@ -167,7 +162,8 @@ void spreadTwo(Image& image)
     }
 }
 
-// A file in memory. OpenImageIO's own copies what lies in front of the bytes where a reader asks for a place behind them.
+// A file in memory. OpenImageIO's own copies what lies in front of the bytes where a reader asks for a place behind
+// them.
 class MemoryFile : public OIIO::Filesystem::IOProxy {
 public:
     explicit MemoryFile(std::span<const std::byte> bytes) : IOProxy("", Read), bytes_(bytes) {}
@@ -196,8 +192,8 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
-                     const std::string& format, const LoadLimits& limits)
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
+                     const LoadLimits& limits)
 {
     const auto broken = [&](const std::string& why) {
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
@@ -228,8 +224,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name,
     return image;
 }
 
-Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name,
-                           const LoadLimits& limits)
+Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const std::string format = formatOf(bytes);
     try {
@@ -253,8 +248,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
         const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
         if (!output->open(file.string(), spec)
-            || !output->write_image(typeDesc(image.type), image.data.data(),
-                                    OIIO::stride_t(image.bytesPerPixel()))
+            || !output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             || !output->close())
             return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
     } catch (const std::exception& e) {

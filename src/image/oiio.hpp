@@ -10,8 +10,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "cotan/image/rows.hpp"
 #include "cotan/files/limits.hpp"
+#include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
@@ -31,8 +31,8 @@ OIIO::TypeDesc typeDesc(PixelType type);
 void completeChannels(Image& image, int channels);
 
 // Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
-// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory by those numbers,
-// or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
+// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
+// by those numbers, or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
 std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format,
                                            const LoadLimits& limits);
 
@@ -55,7 +55,7 @@ OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc t
 // ImageFormats::openRows and createRows.
 Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,
                                             const LoadLimits& limits);
-Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format,
-                                              int threads, const std::string& name);
+Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
+                                              const std::string& name);
 
 } // namespace cotan::oiio

@@ -59,19 +59,14 @@ std::size_t wholeNumberBytes(std::uint64_t type)
 {
     switch (type) {
     case 1:
-    case 6:
-        return 1;
+    case 6: return 1;
     case 3:
-    case 8:
-        return 2;
+    case 8: return 2;
     case 4:
-    case 9:
-        return 4;
+    case 9: return 4;
     case 16:
-    case 17:
-        return 8;
-    default:
-        return 0;
+    case 17: return 8;
+    default: return 0;
     }
 }
 
@@ -210,16 +205,34 @@ std::string nameAt(Numbers& numbers, std::uint64_t& at)
     return name;
 }
 
-// Bytes from `at` that OpenEXR takes for a value of this type. It keeps to `size` for unknown types and text only; where the
-// two differ, the next attribute is not where the size says.
+// Bytes from `at` that OpenEXR takes for a value of this type. It keeps to `size` for unknown types and text only;
+// where the two differ, the next attribute is not where the size says.
 std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view type, std::uint64_t size)
 {
-    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 24> kFixed = {
-        {{"box2f", 16},         {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1},
-         {"double", 8},         {"envmap", 1}, {"float", 4},           {"int", 4},         {"keycode", 28},
-         {"lineOrder", 1},      {"m33d", 72},  {"m33f", 36},           {"m44d", 128},      {"m44f", 64},
-         {"rational", 8},       {"tiledesc", 9}, {"timecode", 8},      {"v2d", 16},        {"v2f", 8},
-         {"v2i", 8},            {"v3d", 24},   {"v3f", 12},            {"v3i", 12}}};
+    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 24> kFixed = {{{"box2f", 16},
+                                                                                    {"box2i", 16},
+                                                                                    {"chromaticities", 32},
+                                                                                    {"compression", 1},
+                                                                                    {"deepImageState", 1},
+                                                                                    {"double", 8},
+                                                                                    {"envmap", 1},
+                                                                                    {"float", 4},
+                                                                                    {"int", 4},
+                                                                                    {"keycode", 28},
+                                                                                    {"lineOrder", 1},
+                                                                                    {"m33d", 72},
+                                                                                    {"m33f", 36},
+                                                                                    {"m44d", 128},
+                                                                                    {"m44f", 64},
+                                                                                    {"rational", 8},
+                                                                                    {"tiledesc", 9},
+                                                                                    {"timecode", 8},
+                                                                                    {"v2d", 16},
+                                                                                    {"v2f", 8},
+                                                                                    {"v2i", 8},
+                                                                                    {"v3d", 24},
+                                                                                    {"v3f", 12},
+                                                                                    {"v3i", 12}}};
     if (type == "chlist") {
         std::uint64_t end = at;
         while (!nameAt(numbers, end).empty() && !numbers.past)
@@ -293,7 +306,7 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
     if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
         return fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide);
     const std::uint64_t row = std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * blocks.rows;
-    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight; // of 32 bits each
+    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
     const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
     if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
         return fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes", std::max(row, tile), bytes,
@@ -390,7 +403,8 @@ DdsFormat ddsFormat(Numbers& numbers)
         return {flags & kNormalMap ? std::size_t(0) : std::size_t(8), 0};
     if (name == "DXT1")
         return {8, 0};
-    // Not DXT2 and DXT4, whose colours are multiplied by alpha: OpenImageIO divides by an alpha of 0, which ends the process.
+    // Not DXT2 and DXT4, whose colours are multiplied by alpha: OpenImageIO divides by an alpha of 0, which ends the
+    // process.
     constexpr std::array<std::string_view, 5> kSixteen = {"DXT3", "DXT5", "ATI2", "BC5U", "BC5S"};
     return {std::ranges::find(kSixteen, name) != kSixteen.end() ? std::size_t(16) : 0, 0};
 }

@@ -171,8 +171,8 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
     }
 }
 
-Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format,
-                                              int threads, const std::string& name)
+Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
+                                              const std::string& name)
 {
     const std::string extension = lowerExtension(name);
     const OutputFormat limits = outputFormat(extension);

@@ -32,8 +32,7 @@ Error pngError(const std::string& name, const PngSession& session)
 
 } // namespace
 
-Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
-                      const LoadLimits& limits)
+Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     PngReader reader(bytes);
     if (!reader.info)

@@ -8,17 +8,15 @@
 #include <string>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
 
-bool isPng(std::span<const std::byte> bytes);
-
 // As decodeImage. Palettes are expanded, 1-, 2- and 4-bit samples scaled to the full range, a
 // transparent colour becomes alpha. Chunks about colour spaces are ignored.
-Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
-                      const LoadLimits& limits);
+Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
 // Writes unorm8 or unorm16. An image whose alpha is 1 everywhere is stored without alpha, which
 // reads back the same. `name` is for messages.

@@ -18,8 +18,8 @@ namespace cotan {
 struct PngSession {
     const png_byte* next = nullptr; // reading from memory: the bytes not yet consumed
     std::size_t left = 0;
-    std::FILE* in = nullptr;        // reading from a file
-    std::FILE* out = nullptr;       // writing
+    std::FILE* in = nullptr;  // reading from a file
+    std::FILE* out = nullptr; // writing
     char message[128] = "";
 };
 

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
+#include "cotan/files/bytes.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
-#include "cotan/files/bytes.hpp"
+#include "cotan/image/file.hpp"
 #include "formats.hpp"
 #include "png.hpp"
 #include "png_rows.hpp"
@@ -75,7 +75,10 @@ Result<std::unique_ptr<RowReader>> openWhole(const fs::path& file, const LoadLim
 
 class OtherOut : public RowWriter {
 public:
-    OtherOut(OutputFile output, std::unique_ptr<RowWriter> writer) : output_(std::move(output)), writer_(std::move(writer)) {}
+    OtherOut(OutputFile output, std::unique_ptr<RowWriter> writer)
+        : output_(std::move(output)), writer_(std::move(writer))
+    {
+    }
 
     Status write(const Image& strip) override { return told(writer_->write(strip)); }
     Status finish() override

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "cotan/image/rows.hpp"
 #include "cotan/files/limits.hpp"
+#include "cotan/image/rows.hpp"
 
 namespace cotan {
 

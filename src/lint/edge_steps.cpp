@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
@@ -91,10 +92,7 @@ void addSteps(const MappedSurface& s, Frame frame, const Side& a, const Side& b,
 
 } // namespace
 
-double degreesBetween(glm::dvec3 a, glm::dvec3 b)
-{
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
+double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBetween(a, b)); }
 
 EdgeSteps edgeSteps(const MappedSurface& s)
 {

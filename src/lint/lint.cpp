@@ -47,8 +47,7 @@ double fittingDistance(const Scene& scene)
 // uv (docs/theory.md, "Rounding"). Both are proportional to 1 / distance.
 void addPrecision(PrimitiveLint& p, double distance)
 {
-    const double footprintPerDistance =
-        2 * std::tan(glm::radians(kFieldOfView / 2)) / kLines * p.uv.gradient;
+    const double footprintPerDistance = 2 * std::tan(glm::radians(kFieldOfView / 2)) / kLines * p.uv.gradient;
     if (!(footprintPerDistance > 0))
         return;
     const double error = std::max(p.uv.largestUv, 1.0) * 1e-6 / footprintPerDistance;
@@ -121,7 +120,7 @@ void addMaps(LintReport& report, const Scene& scene)
             continue;
         done.push_back(image);
         const Image& map = scene.images[std::size_t(image)];
-        GreenEvidence e{image, map.name, !m.normalFormat.greenAlongV, {}}; // v runs down the picture
+        GreenEvidence e{image, map.name, m.normalFormat.greenUp, {}};
         if (hasPixels(map))
             e.verdict = maps::greenOf(map);
         report.maps.push_back(std::move(e));
@@ -140,9 +139,11 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{image, map.name, {}, {}, {}};
         std::vector<const MapUse*> shown;
-        std::copy_if(users.begin(), users.end(), std::back_inserter(shown), [](const MapUse* u) { return !u->surface.uv.empty(); });
+        std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
+                     [](const MapUse* u) { return !u->surface.uv.empty(); });
         if (hasPixels(map))
-            for (auto [frame, spread] : {std::pair(Frame::orthonormal, &fit.orthonormal), {Frame::cotangent, &fit.cotangent},
+            for (auto [frame, spread] : {std::pair(Frame::orthonormal, &fit.orthonormal),
+                                         {Frame::cotangent, &fit.cotangent},
                                          {Frame::smooth, &fit.smooth}})
                 *spread = mapError(map, map, shown, {Frame::mikktspace, frame, from, TangentOrigin::generated});
         report.fits.push_back(std::move(fit));
@@ -171,7 +172,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const Sampler& sampler = material.normalMap.sampler;
         for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
-            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), formatOf(material, PixelType::unorm8), sampler.wrapU, sampler.wrapV});
+            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), material.normalFormat,
+                            double(material.normalScale), sampler.wrapU, sampler.wrapV});
             PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance);
             p.placing = k;
             p.placings = placed[i].size();

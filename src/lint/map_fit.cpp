@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cotan/convention.hpp"
 #include "cotan/lint/texel.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "parts.hpp"
 
 namespace cotan {
@@ -20,8 +20,7 @@ glm::dvec3 normalAt(const Image& map, const MapUse& use, Frame frame, TangentOri
     Texture texture;
     texture.sampler.wrapU = use.wrapU;
     texture.sampler.wrapV = use.wrapV;
-    f64::cotan_normal_format format = use.format;
-    format.expansion = expansionFor(format.expansion, bitsPerComponent(map.type));
+    const auto format = toFormat<f64::cotan_normal_format>(use.stored, map.type, use.strength);
     const glm::dvec3 m = decodedAt(map, texture, format, atPoint(use.surface.uv, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
@@ -64,12 +63,13 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count)
     return points;
 }
 
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses, const FramePair& frames)
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames)
 {
     const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
     std::vector<std::pair<double, double>> errors;
     for (const MapUse* use : uses) {
-        if (!(std::abs(use->format.strength) > kFlattened))
+        if (!(std::abs(use->strength) > kFlattened))
             continue;
         const std::vector<SurfacePoint> points = pointsOver(use->surface, count);
         const double weight = mappedArea(use->surface) / double(count);

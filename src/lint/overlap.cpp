@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <glm/common.hpp>
 
-#include "cotan/surface/uv_raster.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
@@ -28,16 +26,6 @@ double copiesUnder(const MappedSurface& s)
         copies += tiles.x * tiles.y;
     }
     return copies;
-}
-
-UvRaster rasterOf(const MappedSurface& s, int side)
-{
-    std::vector<glm::vec2> uv;
-    for (glm::dvec2 c : s.uv)
-        uv.push_back(glm::vec2(c));
-    std::vector<std::uint32_t> indices(uv.size());
-    std::iota(indices.begin(), indices.end(), 0u);
-    return UvRaster({uv, indices}, side, side, {0, 0}, true);
 }
 
 // Calls use(texel, triangle) for every texel whose centre a triangle covers; uv repeat the image.
@@ -97,7 +85,7 @@ void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std:
         std::vector<bool> mirrored(s->triangleCount());
         for (std::size_t i = 0; i < mirrored.size(); ++i)
             mirrored[i] = orientationOf(*s, i) < 0;
-        rasters.push_back(rasterOf(*s, side));
+        rasters.push_back(repeatedRaster(*s, side, side));
         forEachTexel(rasters.back(), [&](std::size_t texel, std::size_t triangle) {
             std::uint8_t& n = mirrored[triangle] ? uses[texel].mirrored : uses[texel].plain;
             n = std::uint8_t(std::min(n + 1, 3));

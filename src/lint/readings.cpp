@@ -26,10 +26,9 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
 
     const f64::cotan_normal_format format = formatOf(material, map.type);
     for (const SurfacePoint& p : pointsOver(s, kSamples)) {
-        const glm::dvec3 m =
-            decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
-        const glm::dvec3 truth = f64::cotan_apply(
-            frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric), m);
+        const glm::dvec3 m = decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
+        const glm::dvec3 truth =
+            f64::cotan_apply(frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric), m);
         for (Reader& r : readers)
             r.errors.emplace_back(
                 degreesBetween(f64::cotan_apply(frameAt(s, r.frame, r.tangents, p.triangle, p.barycentric), m), truth),

@@ -9,7 +9,9 @@ namespace cotan {
 
 Frame frameOf(Advice advice)
 {
-    return advice == Advice::convertToCotangent ? Frame::cotangent : advice == Advice::convertToSmooth ? Frame::smooth : Frame::orthonormal;
+    return advice == Advice::convertToCotangent ? Frame::cotangent
+        : advice == Advice::convertToSmooth     ? Frame::smooth
+                                                : Frame::orthonormal;
 }
 
 namespace lint {
@@ -45,7 +47,8 @@ struct Whole {
 
 const Reading* readingOf(const PrimitiveLint& p, const std::string& name)
 {
-    const auto found = std::find_if(p.readings.begin(), p.readings.end(), [&](const Reading& r) { return r.name == name; });
+    const auto found =
+        std::find_if(p.readings.begin(), p.readings.end(), [&](const Reading& r) { return r.name == name; });
     return found != p.readings.end() && found->error.count > 0 ? &*found : nullptr;
 }
 
@@ -118,7 +121,7 @@ std::string otherGreen(const LintReport& report)
     return listed(names);
 }
 
-constexpr double kMostly = 0.5;     // of the area reversed: the whole model is
+constexpr double kMostly = 0.5;      // of the area reversed: the whole model is
 constexpr double kContradicts = 0.1; // of the area: the stored tangents are not to be followed
 
 // What is wrong with the model as it is.
@@ -128,17 +131,22 @@ std::string defects(const LintReport& report)
     const std::string green = otherGreen(report);
     const bool reversed = s.reversedW > kMostly;
     if (reversed && !green.empty())
-        return fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area and green points the other way in {}: "
-                           "together they are right, each alone is not.", 100 * s.reversedW, green);
+        return fmt::format(
+            "The stored TANGENT.w is reversed on {:.0f} % of the area and green points the other way in {}: "
+            "together they are right, each alone is not.",
+            100 * s.reversedW, green);
     std::string text;
     if (reversed)
         text = fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area.", 100 * s.reversedW);
     else if (distrustStored(report))
-        text = fmt::format("The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
-                           "{:.0f} degrees on {:.0f} %.", 100 * s.reversedW, kTurned, 100 * s.turned);
+        text = fmt::format(
+            "The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
+            "{:.0f} degrees on {:.0f} %.",
+            100 * s.reversedW, kTurned, 100 * s.turned);
     if (!green.empty())
-        text += fmt::format("{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
-                            text.empty() ? "" : " ", green);
+        text += fmt::format(
+            "{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
+            text.empty() ? "" : " ", green);
     return text;
 }
 
@@ -149,10 +157,15 @@ std::string otherReaders(const LintReport& report)
     for (const PrimitiveLint& p : report.primitives)
         if (!p.tangentsFor.empty())
             addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
-    return names.empty() ? "" : fmt::format("Tangents are also read by what is not looked at here and stay for it: {}.", listed(names));
+    return names.empty()
+        ? ""
+        : fmt::format("Tangents are also read by what is not looked at here and stay for it: {}.", listed(names));
 }
 
-std::string nameOf(const PrimitiveLint& p) { return p.mesh.empty() ? p.material.empty() ? "a primitive" : p.material : p.mesh; }
+std::string nameOf(const PrimitiveLint& p)
+{
+    return p.mesh.empty() ? p.material.empty() ? "a primitive" : p.material : p.mesh;
+}
 
 // Normal maps that are there and could not be judged, as a sentence; empty if none.
 std::string notJudged(const LintReport& report)
@@ -174,7 +187,8 @@ std::string worstReading(const LintReport& report, const std::string& name)
         if (const Reading* r = readingOf(p, name);
             r && (r->error.mean > kUnseenMean || r->error.percentile95 > kUnseen95) && r->error.mean > worst) {
             worst = r->error.mean;
-            text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", nameOf(p), r->error.mean, r->error.percentile95);
+            text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", nameOf(p), r->error.mean,
+                               r->error.percentile95);
         }
     return text;
 }
@@ -184,14 +198,17 @@ std::string seen(const LintReport& report, const Whole& orthonormal, const Whole
     const char* how = orthonormal.unseen() ? "nobody sees a difference"
         : orthonormal.mean < kWrongMean    ? "moving highlights show a difference"
                                            : "the light seems to come from elsewhere";
-    return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: {:.2f} degrees off on average with the "
+    return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: {:.2f} degrees off on "
+                       "average with the "
                        "frame orthonormal ({:.2f} with cotangent){}.",
                        how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
 }
 
 const Spread& fitOf(const MapFit& fit, Advice advice)
 {
-    return advice == Advice::convertToCotangent ? fit.cotangent : advice == Advice::convertToSmooth ? fit.smooth : fit.orthonormal;
+    return advice == Advice::convertToCotangent ? fit.cotangent
+        : advice == Advice::convertToSmooth     ? fit.smooth
+                                                : fit.orthonormal;
 }
 
 // Counts what `convert` would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go.
@@ -207,7 +224,8 @@ void foresee(LintReport& report)
 std::string advised(const LintReport& report, const Whole& steps)
 {
     const std::string frame(name(frameOf(report.advice)));
-    const std::string why = report.advice != Advice::convertToSmooth ? ""
+    const std::string why = report.advice != Advice::convertToSmooth
+        ? ""
         : fmt::format(" (cotangent steps by up to {:.0f} degrees at edges, 95 %)", steps.percentile95);
     const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
     if (report.mapsConverted == 0 && report.dropsTangents)
@@ -216,8 +234,8 @@ std::string advised(const LintReport& report, const Whole& steps)
         return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
     if (report.mapsKept == 0)
         return fmt::format("Convert the maps to the frame {}{}.{}", frame, why, tangents);
-    return fmt::format("Convert {} of {} maps to the frame {}{}; the others can be read with it as they are.{}", report.mapsConverted,
-                       report.fits.size(), frame, why, tangents);
+    return fmt::format("Convert {} of {} maps to the frame {}{}; the others can be read with it as they are.{}",
+                       report.mapsConverted, report.fits.size(), frame, why, tangents);
 }
 
 void adviseWithoutMaps(LintReport& report)
@@ -225,7 +243,8 @@ void adviseWithoutMaps(LintReport& report)
     if (!report.notJudged.empty())
         report.advised = "No normal map was judged, so nothing is advised.";
     else if (report.otherReaders.empty())
-        report.advised = "No primitive has a normal map and uv to read it with: nothing here uses tangents, they can be dropped.";
+        report.advised =
+            "No primitive has a normal map and uv to read it with: nothing here uses tangents, they can be dropped.";
     else
         report.advised = "No primitive has a normal map and uv to read it with: no normal map uses tangents.";
 }
@@ -234,7 +253,7 @@ void adviseForMaps(LintReport& report)
 {
     const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
     report.seen = seen(report, orthonormal, wholeReading(report, "cotangent"));
-    report.advice = orthonormal.unseen()         ? Advice::readOrthonormal
+    report.advice = orthonormal.unseen()  ? Advice::readOrthonormal
         : steps.percentile95 > kCreases95 ? Advice::convertToSmooth
                                           : Advice::convertToCotangent;
     foresee(report);
@@ -262,7 +281,8 @@ void recommend(LintReport& report)
     } else {
         adviseWithoutMaps(report);
     }
-    for (const std::string* sentence : {&report.defects, &report.seen, &report.advised, &report.notJudged, &report.otherReaders})
+    for (const std::string* sentence :
+         {&report.defects, &report.seen, &report.advised, &report.notJudged, &report.otherReaders})
         if (!sentence->empty())
             report.recommendation += (report.recommendation.empty() ? "" : " ") + *sentence;
 }

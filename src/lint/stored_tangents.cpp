@@ -24,8 +24,8 @@ StoredTangents storedTangents(const MappedSurface& s)
             // Tangent first: t along dP/du, b on the side of +v.
             const f64::cotan_frame f = frameAt(s, Frame::orthonormal, TangentOrigin::generated, i, corner);
             const glm::dvec4 stored = s.stored[3 * i + k];
-            const glm::dvec3 t = f64::cotan_normalize_or(
-                glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
+            const glm::dvec3 t =
+                f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
             if (f.t == glm::dvec3(0))
                 continue;
             compared += third;

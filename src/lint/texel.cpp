@@ -7,24 +7,9 @@
 
 namespace cotan {
 
-bool hasPixels(const Image& image)
-{
-    return image.width > 0 && image.height > 0 && image.data.size() == image.pixelCount() * image.bytesPerPixel();
-}
-
 glm::dvec3 storedTexel(const Image& image, int x, int y)
 {
-    const std::size_t at = (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4;
-    if (image.type == PixelType::unorm8) {
-        const std::uint8_t* p = image.bytes8() + at;
-        return glm::dvec3(p[0], p[1], p[2]) / 255.0;
-    }
-    if (image.type == PixelType::unorm16) {
-        const std::uint16_t* p = image.words() + at;
-        return glm::dvec3(p[0], p[1], p[2]) / 65535.0;
-    }
-    const float* p = image.floats() + at;
-    return {p[0], p[1], p[2]};
+    return atTexel(image, x, y, [](const auto* c, int most) { return glm::dvec3(c[0], c[1], c[2]) / double(most); });
 }
 
 f64::cotan_normal_format formatOf(const Material& material, PixelType type)

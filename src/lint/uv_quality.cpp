@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
@@ -19,15 +20,13 @@ struct Gradients {
 
 Gradients gradientsOf(const MappedSurface& s, std::size_t triangle)
 {
-    const std::size_t a = 3 * triangle;
-    const glm::dvec3 e1 = s.positions[a + 1] - s.positions[a], e2 = s.positions[a + 2] - s.positions[a];
-    const glm::dvec2 d1 = s.uv[a + 1] - s.uv[a], d2 = s.uv[a + 2] - s.uv[a];
-    const glm::dvec3 face = glm::cross(e1, e2);
+    const TriangleEdges e = edgesOf(s, triangle);
+    const glm::dvec3 face = glm::cross(e.p1, e.p2);
     const double area2 = glm::dot(face, face);
     if (!(area2 > 0))
         return {};
-    const glm::dvec3 r1 = glm::cross(e2, face) / area2, r2 = glm::cross(face, e1) / area2;
-    return {r1 * d1.x + r2 * d2.x, r1 * d1.y + r2 * d2.y, true};
+    const glm::dvec3 r1 = glm::cross(e.p2, face) / area2, r2 = glm::cross(face, e.p1) / area2;
+    return {r1 * e.uv1.x + r2 * e.uv2.x, r1 * e.uv1.y + r2 * e.uv2.y, true};
 }
 
 // The ratio of the two singular values of (grad u, grad v), at least 1; 0 where the smaller is below
@@ -46,7 +45,7 @@ double stretchOf(const Gradients& g)
 
 double shearOf(const Gradients& g)
 {
-    const double angle = glm::degrees(std::atan2(glm::length(glm::cross(g.u, g.v)), glm::dot(g.u, g.v)));
+    const double angle = glm::degrees(angleBetween(g.u, g.v));
     return std::abs(90 - angle);
 }
 

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/bake.hpp"
-#include "cotan/bake/low_surface.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/model/load.hpp"
+#include "cotan/surface/low_surface.hpp"
 #include "cotan/surface/uv_raster.hpp"
 
 namespace cotan::maps {
@@ -79,7 +79,7 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
                 const UvPlace& place = places.places[places.first[x]];
                 ++found;
                 const std::size_t at = std::size_t(y) * normals.size() + x;
-                const LowPoint p = pointOf(*surface, mesh.frame, place.triangle, double(place.b1), double(place.b2));
+                const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));
                 if (normals[x] == glm::vec3(0)) { // no direction: that of the surface
                     ++invalid;
                     values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "cotan/maps/texels.hpp"
 
 namespace cotan::maps {
@@ -23,9 +24,7 @@ std::vector<float> anglesBetween(const Image& a, const Convention& conventionA, 
             for (std::size_t x = 0; x < width; ++x) {
                 const glm::vec3 m = rowA[x], n = rowB[x];
                 const bool both = glm::dot(m, m) > 0 && glm::dot(n, n) > 0;
-                // atan2 keeps small angles; acos of a dot product loses them.
-                const float angle = std::atan2(glm::length(glm::cross(m, n)), glm::dot(m, n));
-                out[x] = both ? angle * float(180 / std::numbers::pi) : -1.0f;
+                out[x] = both ? angleBetween(m, n) * float(180 / std::numbers::pi) : -1.0f;
             }
         }
     });

@@ -60,8 +60,7 @@ void Fft::forward(std::span<Complex> x) const
 {
     if (chirp_.empty())
         return radix2(x.data());
-    thread_local std::vector<Complex> work;
-    work.assign(padded_, 0);
+    std::vector<Complex> work(padded_, 0);
     for (std::size_t n = 0; n < size_; ++n)
         work[n] = x[n] * chirp_[n];
     radix2(work.data());
@@ -84,8 +83,7 @@ void Fft::inverse(std::span<Complex> x) const
 void cosineForward(const Fft& fft, std::span<double> x)
 {
     const std::size_t n = fft.size();
-    thread_local std::vector<Complex> v;
-    v.resize(n);
+    std::vector<Complex> v(n);
     for (std::size_t i = 0; i < n; ++i)
         v[i % 2 == 0 ? i / 2 : n - 1 - i / 2] = x[i];
     fft.forward(v);
@@ -96,8 +94,7 @@ void cosineForward(const Fft& fft, std::span<double> x)
 void cosineInverse(const Fft& fft, std::span<double> x)
 {
     const std::size_t n = fft.size();
-    thread_local std::vector<Complex> v;
-    v.resize(n);
+    std::vector<Complex> v(n);
     for (std::size_t k = 0; k < n; ++k)
         v[k] = 0.5 * turn(double(k) / double(4 * n)) * Complex(x[k], k == 0 ? 0.0 : -x[n - k]);
     fft.inverse(v);

@@ -21,10 +21,10 @@ public:
     void inverse(std::span<Complex> x) const;
 
 private:
-    void radix2(Complex* x) const; // of padded_ entries
-    std::size_t size_, padded_;    // padded_: a power of two; size_ itself where that is one
-    std::vector<Complex> twiddle_; // exp(-2 pi i k / padded_)
-    std::vector<Complex> chirp_;   // exp(-pi i n^2 / size_); empty for powers of two
+    void radix2(Complex* x) const;  // of padded_ entries
+    std::size_t size_, padded_;     // padded_: a power of two; size_ itself where that is one
+    std::vector<Complex> twiddle_;  // exp(-2 pi i k / padded_)
+    std::vector<Complex> chirp_;    // exp(-pi i n^2 / size_); empty for powers of two
     std::vector<Complex> response_; // transform of the conjugate chirp
 };
 

@@ -18,20 +18,20 @@ namespace {
 
 // Texels tilted by more than about 80 degrees say little (slopes explode); beside them a cell is skipped.
 constexpr float kLowestZ = 0.17f;
-constexpr double kLikely = 0.12, kCertain = 0.5;  // |agreement|
+constexpr double kLikely = 0.12, kCertain = 0.5; // |agreement|
 constexpr double kLikelyDeviations = 5;
-constexpr int kFewestTexels = 100;                // of a picture: noise agrees by chance in smaller ones
-constexpr double kFewest = 4;                     // patches; fewer do not tell their own spread
-constexpr int kRun = 8;                           // texels alike side by side, for the colour between charts
-constexpr double kBetween = 0.02;                 // of all texels in such runs of the commonest colour
+constexpr int kFewestTexels = 100; // of a picture: noise agrees by chance in smaller ones
+constexpr double kFewest = 4;      // patches; fewer do not tell their own spread
+constexpr int kRun = 8;            // texels alike side by side, for the colour between charts
+constexpr double kBetween = 0.02;  // of all texels in such runs of the commonest colour
 
 // Products of the cross derivatives over the cells of a patch.
 struct Products {
     double ay2 = 0, bx2 = 0, ayBx = 0; // red and green in their places
     double by2 = 0, ax2 = 0, byAx = 0; // exchanged
-    double cells = 0;  // looked at
-    double active = 0; // with a relief that is not constant: where rounding noise can be
-    double cross = 0, along = 0; // sums of ay^2 + bx^2 and of ax^2 + by^2 as they are, for noise
+    double cells = 0;                  // looked at
+    double active = 0;                 // with a relief that is not constant: where rounding noise can be
+    double cross = 0, along = 0;       // sums of ay^2 + bx^2 and of ax^2 + by^2 as they are, for noise
 
     void add(const Products& o, double sign = 1)
     {
@@ -87,10 +87,12 @@ std::string colourBetween(const std::vector<Patch>& patches)
         }
     }
     const auto most = std::ranges::max_element(inRuns, {}, [](const auto& c) { return std::pair(c.second, c.first); });
-    return most != inRuns.end() && double(most->second) > kBetween * double(all) ? std::string(most->first) : std::string();
+    return most != inRuns.end() && double(most->second) > kBetween * double(all) ? std::string(most->first)
+                                                                                 : std::string();
 }
 
-std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Swizzle swizzle, const std::string& between)
+std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Swizzle swizzle,
+                            const std::string& between)
 {
     Image moved = patch.texels;
     unswizzle(moved, swizzle);
@@ -245,7 +247,8 @@ void decide(GreenVerdict& v, const std::vector<Products>& patches, double noise)
     // Exchanged channels are believed only when they explain clearly more.
     const bool exchanged = std::abs(v.exchanged) > 0.7 && std::abs(v.exchanged) > std::abs(v.agreement) + 0.25;
     const double best = exchanged ? v.exchanged : v.agreement;
-    const double spread = uncertainty(patches, all, [&](const Products& p) { return exchanged ? p.exchanged() : p.agreement(); });
+    const double spread =
+        uncertainty(patches, all, [&](const Products& p) { return exchanged ? p.exchanged() : p.agreement(); });
     v.deviations = std::min(std::abs(best) / std::max(spread, 1e-6), 1e3);
     v.residualRatio = (1 + std::abs(best)) / std::max(1 - std::abs(best), 1e-4);
     const double sign = best < 0 ? -1 : 1;
@@ -262,8 +265,8 @@ void decide(GreenVerdict& v, const std::vector<Products>& patches, double noise)
     v.green = sign > 0 ? Green::up : Green::down;
     v.confidence = std::abs(best) >= kCertain && v.votes >= 0.8 ? Confidence::certain : Confidence::likely;
     const double other = exchanged ? v.agreement : v.exchanged;
-    v.swapped = std::abs(best) > std::abs(other) + 0.15 ? (exchanged ? Swapped::yes : Swapped::no)
-                                                        : Swapped::undecidable;
+    v.swapped =
+        std::abs(best) > std::abs(other) + 0.15 ? (exchanged ? Swapped::yes : Swapped::no) : Swapped::undecidable;
     v.reason = "the slopes in red and green belong to one relief when green points this way";
 }
 

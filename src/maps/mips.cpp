@@ -48,10 +48,7 @@ struct Footprint {
     int first = 0, last = 0;
     double from = 0, to = 0;
 
-    float weight(int i) const
-    {
-        return float((std::min(to, i + 1.0) - std::max(from, double(i))) / (to - from));
-    }
+    float weight(int i) const { return float((std::min(to, i + 1.0) - std::max(from, double(i))) / (to - from)); }
 };
 
 Footprint footprint(int i, int size, int larger)
@@ -91,7 +88,8 @@ double roughnessOf(const Moments& m, const MipSettings& s)
     if (!(m.share > 0))
         return s.roughness;
     if (s.model != SpreadModel::lean)
-        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / double(m.share)), s.model);
+        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / double(m.share)),
+                                   s.model);
     const double bx = double(m.bx / m.share), by = double(m.by / m.share), bb = double(m.bb / m.share);
     return roughnessFromVariance(s.roughness, std::max(0.0, bb - bx * bx - by * by));
 }
@@ -100,7 +98,8 @@ double roughnessOf(const Moments& m, const MipSettings& s)
 template<class RowOf> MipLevel encoded(int width, int height, const MipSettings& s, RowOf rowOf)
 {
     MipLevel out{makeImage(width, height, s.type), makeImage(width, height, s.type)};
-    std::vector<double> lengths(std::size_t(height), 0), roughness(std::size_t(height), 0), counts(std::size_t(height), 0);
+    std::vector<double> lengths(std::size_t(height), 0), roughness(std::size_t(height), 0),
+        counts(std::size_t(height), 0);
     forRowBands(height, [&](int first, int last) {
         std::vector<Moments> row(std::size_t(width), Moments{});
         std::vector<glm::vec4> normals(row.size()), rough(row.size());
@@ -155,8 +154,7 @@ std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
 {
     std::vector<MipLevel> chain;
     const auto fromMap = [&](int y, std::vector<Moments>& row) {
-        thread_local std::vector<glm::vec3> normals;
-        normals.resize(row.size());
+        std::vector<glm::vec3> normals(row.size());
         decodeRow(map, y, settings.from, normals);
         std::ranges::transform(normals, row.begin(), momentsOf);
     };

@@ -103,13 +103,13 @@ template<class Band, class Work> void sumBands(const Image& image, Band& all, Wo
         for (int y = first; y < last; ++y) {
             loadRow(image, y, row);
             for (std::size_t x = 0; x < row.size(); ++x)
-                work(bands[std::size_t(first) / 16], row[x], row[x > 0 ? x - 1 : std::min<std::size_t>(1, row.size() - 1)]);
+                work(bands[std::size_t(first) / 16], row[x],
+                     row[x > 0 ? x - 1 : std::min<std::size_t>(1, row.size() - 1)]);
         }
     });
     for (const Band& band : bands)
         all.add(band);
 }
-
 
 void addStoredValues(const Image& image, Sums& sums)
 {
@@ -306,7 +306,8 @@ void MapSurvey::State::afterFirst()
         if (s.transfer == Transfer::linear)
             s.centre = centreOf(sums);
     }
-    read.expansion = s.centre == Centre::biased || s.transfer != Transfer::linear ? Expansion::biased : Expansion::exact;
+    read.expansion =
+        s.centre == Centre::biased || s.transfer != Transfer::linear ? Expansion::biased : Expansion::exact;
     if (s.signedStored)
         read.expansion = Expansion::signedValues;
     if (two && !constantAll)

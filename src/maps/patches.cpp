@@ -31,11 +31,14 @@ void PatchSampler::add(const Image& strip, int firstRow)
 {
     const std::size_t pixel = strip.bytesPerPixel();
     for (Patch& patch : patches_) {
-        const int first = std::max(patch.y, firstRow), last = std::min(patch.y + patch.texels.height, firstRow + strip.height);
+        const int first = std::max(patch.y, firstRow),
+                  last = std::min(patch.y + patch.texels.height, firstRow + strip.height);
         const std::size_t bytes = std::size_t(patch.texels.width) * pixel;
         for (int y = first; y < last; ++y)
             std::memcpy(patch.texels.data.data() + std::size_t(y - patch.y) * bytes,
-                        strip.data.data() + (std::size_t(y - firstRow) * std::size_t(width_) + std::size_t(patch.x)) * pixel, bytes);
+                        strip.data.data()
+                            + (std::size_t(y - firstRow) * std::size_t(width_) + std::size_t(patch.x)) * pixel,
+                        bytes);
     }
 }
 

@@ -66,7 +66,8 @@ Tables tablesOf(const RecodeSettings& s)
     return t;
 }
 
-void recodeRow(const Image& map, int y, const Tables& t, const std::array<std::uint8_t, 3>& flat, Image& out, std::size_t& invalid)
+void recodeRow(const Image& map, int y, const Tables& t, const std::array<std::uint8_t, 3>& flat, Image& out,
+               std::size_t& invalid)
 {
     const std::size_t start = std::size_t(y) * std::size_t(map.width) * 4, count = std::size_t(map.width);
     const std::uint8_t* from = map.bytes8() + start;

@@ -1,6 +1,7 @@
 #include "cotan/maps/texels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,10 +18,7 @@ namespace {
 constexpr float kSame = 3.0f / 255;
 constexpr float kShortest = 1e-3f;
 
-bool finite(const glm::vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // cotan_decode with "along v" read as "up the picture".
 f32::cotan_normal_format pictureFormat(const Convention& c, PixelType type)
@@ -39,6 +37,23 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
     const glm::vec3 m = f32::cotan_decode(stored, format);
     const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
     return length2 >= kShortest * kShortest && length2 < 1e30f ? m : glm::vec3(0);
+}
+
+// The stored components from a texel on, row by row.
+void loadTexels(const Image& image, std::size_t first, std::span<glm::vec4> texels)
+{
+    const std::size_t start = first * 4;
+    float* out = &texels[0].x;
+    const std::size_t count = texels.size() * 4;
+    if (image.type == PixelType::unorm8) {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = float(image.bytes8()[start + i]) * (1.0f / 255);
+    } else if (image.type == PixelType::unorm16) {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = float(image.words()[start + i]) * (1.0f / 65535);
+    } else {
+        std::copy_n(image.floats() + start, count, out);
+    }
 }
 
 template<class T> T quantise(float value, float most)
@@ -108,18 +123,7 @@ void unswizzle(Image& image, Swizzle from)
 
 void loadRow(const Image& image, int row, std::span<glm::vec4> texels)
 {
-    const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
-    float* out = &texels[0].x;
-    const std::size_t count = texels.size() * 4;
-    if (image.type == PixelType::unorm8) {
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = float(image.bytes8()[start + i]) * (1.0f / 255);
-    } else if (image.type == PixelType::unorm16) {
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = float(image.words()[start + i]) * (1.0f / 65535);
-    } else {
-        std::copy_n(image.floats() + start, count, out);
-    }
+    loadTexels(image, std::size_t(row) * std::size_t(image.width), texels);
 }
 
 void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
@@ -146,12 +150,15 @@ glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, Pixe
 
 void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals)
 {
-    thread_local std::vector<glm::vec4> texels;
-    texels.resize(normals.size());
-    loadRow(image, row, texels);
+    std::array<glm::vec4, 64> texels;
     const auto format = pictureFormat(convention, image.type);
-    for (std::size_t i = 0; i < normals.size(); ++i)
-        normals[i] = decode(texels[i], format);
+    const std::size_t start = std::size_t(row) * std::size_t(image.width);
+    for (std::size_t x = 0; x < normals.size(); x += texels.size()) {
+        const std::size_t count = std::min(texels.size(), normals.size() - x);
+        loadTexels(image, start + x, {texels.data(), count});
+        for (std::size_t i = 0; i < count; ++i)
+            normals[x + i] = decode(texels[i], format);
+    }
 }
 
 glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength)
@@ -170,14 +177,17 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 void forRowBands(int height, const std::function<void(int first, int last)>& work)
 {
     constexpr int kBand = 16;
-    parallelFor(0, (height + kBand - 1) / kBand, [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
+    parallelFor(0, (height + kBand - 1) / kBand,
+                [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
 }
 
 double quantisationDegrees(const Convention& convention, int bits, double tilt)
 {
     // Half a step in each stored component, as a signed number.
     const double codes = std::pow(2.0, bits);
-    const double half = bits >= 32 ? 3e-7 : convention.expansion == Expansion::exact ? 1 / (codes - 2) : 1 / (codes - 1);
+    const double half = bits >= 32                 ? 3e-7
+        : convention.expansion == Expansion::exact ? 1 / (codes - 2)
+                                                   : 1 / (codes - 1);
     const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
     // Tangential part of the error, to first order:
     double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst

@@ -42,7 +42,9 @@ std::array<Complex, 2> response(Kernel kernel, double x, double y)
     const Complex i(0, 1);
     const auto spectral = [&](double w) { return std::abs(w) > std::numbers::pi - 1e-9 ? 0.0 : w; };
     const auto across = [&](double w) {
-        return kernel == Kernel::sobel ? (1 + std::cos(w)) / 2 : kernel == Kernel::scharr ? (5 + 3 * std::cos(w)) / 8 : 1.0;
+        return kernel == Kernel::sobel ? (1 + std::cos(w)) / 2
+            : kernel == Kernel::scharr ? (5 + 3 * std::cos(w)) / 8
+                                       : 1.0;
     };
     if (kernel == Kernel::spectral)
         return {i * spectral(x), i * spectral(y)};
@@ -249,7 +251,8 @@ float transposed(Kernel kernel, const Row* const rows[3], int x, int width, bool
 glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y, int width, int height)
 {
     const auto at = [&](int dx, int dy) {
-        return heights[std::size_t(std::clamp(y + dy, 0, height - 1)) * std::size_t(width) + std::size_t(std::clamp(x + dx, 0, width - 1))];
+        return heights[std::size_t(std::clamp(y + dy, 0, height - 1)) * std::size_t(width)
+                       + std::size_t(std::clamp(x + dx, 0, width - 1))];
     };
     if (kernel == Kernel::forward)
         return {at(1, 0) - at(0, 0), at(0, 0) - at(0, -1)};
@@ -291,8 +294,8 @@ void solveFreeSpectral(const Image& map, const ToHeightSettings& s, Heights& res
     divide(h, map.width, map.height, [](double x, double y) { return 4 - 2 * std::cos(x) - 2 * std::cos(y); });
 }
 
-double residualSpectral(const std::vector<float>& h, std::size_t x, std::size_t y, std::size_t width, std::size_t height,
-                        const Row& here, const Row& below)
+double residualSpectral(const std::vector<float>& h, std::size_t x, std::size_t y, std::size_t width,
+                        std::size_t height, const Row& here, const Row& below)
 {
     const float* at = h.data() + y * width + x;
     double sum = 0;

@@ -18,11 +18,11 @@
 #include "assimp_convert.hpp"
 #include "assimp_files.hpp"
 #include "collada_check.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/scene/check.hpp"
-#include "source_material.hpp"
 #include "ply_check.hpp"
+#include "source_material.hpp"
 #include "text_lines.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
@@ -114,8 +114,7 @@ bool keepOneReader(Assimp::Importer& importer, const std::string& extension)
 const aiScene* import(Job& job, Assimp::Importer& importer)
 {
     importer.SetIOHandler(new ModelFiles(job.canonical, job.bytes, job.limits, job.requests));
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     return importer.ReadFile(job.canonical.string(), 0);
@@ -136,9 +135,9 @@ Status checkIndices(const aiScene& source, const Job& job)
                                               mesh.mName.C_Str(), f, face.mNumIndices));
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
-                    return inputError(fmt::format(
-                        "{}: mesh {}: face {}: expected an index below {}, found {}", job.name(),
-                        mesh.mName.C_Str(), f, mesh.mNumVertices, face.mIndices[i]));
+                    return inputError(fmt::format("{}: mesh {}: face {}: expected an index below {}, found {}",
+                                                  job.name(), mesh.mName.C_Str(), f, mesh.mNumVertices,
+                                                  face.mIndices[i]));
         }
     }
     return Done{};
@@ -153,11 +152,9 @@ Status checkCounts(const aiScene& source, const Job& job)
     }
     // Before equal vertices are merged every corner has its own: three times the limit.
     if (vertices / 3 > job.limits.vertices)
-        return inputError(
-            fmt::format("{}: over the limit of {} vertices", job.name(), job.limits.vertices));
+        return inputError(fmt::format("{}: over the limit of {} vertices", job.name(), job.limits.vertices));
     if (triangles > job.limits.triangles)
-        return inputError(
-            fmt::format("{}: over the limit of {} triangles", job.name(), job.limits.triangles));
+        return inputError(fmt::format("{}: over the limit of {} triangles", job.name(), job.limits.triangles));
     return Done{};
 }
 
@@ -197,8 +194,7 @@ Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
         if (mesh->indices.empty())
             continue;
         const unsigned material = source.mMeshes[i]->mMaterialIndex;
-        mesh->material =
-            material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
+        mesh->material = material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
         warnAboutTexcoords(*mesh, job.scene);
         indexOf[i] = int(job.scene.meshes.size());
         job.scene.meshes.push_back(*std::move(mesh));
@@ -212,11 +208,9 @@ void warnAboutSource(const aiScene& source, Job& job)
     for (const std::string& file : job.requests.outside)
         warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
     for (const std::string& file : job.requests.tooLarge)
-        warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file,
-                                       job.limits.fileBytes));
+        warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file, job.limits.fileBytes));
     if (source.mNumLights > 0)
-        warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit",
-                                       source.mNumLights));
+        warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit", source.mNumLights));
 }
 
 Result<Scene> load(Job& job)
@@ -228,8 +222,7 @@ Result<Scene> load(Job& job)
 
     Assimp::Importer importer;
     if (!keepOneReader(importer, job.extension))
-        return inputError(
-            fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
+        return inputError(fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
         return inputError(fmt::format("{}: {}", job.name(), withoutBreaks(importer.GetErrorString())));

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "model_textures.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
+#include "model_textures.hpp"
 
 struct aiMaterial;
 struct aiMesh;
@@ -28,8 +28,7 @@ struct MeshChoices {
 
 // Checks every index, count and position before it is used. A mesh without triangles comes back
 // empty. Errors: what a broken or hostile file can make Assimp deliver.
-Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const MeshChoices& choices,
-                         Scene& scene);
+Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const MeshChoices& choices, Scene& scene);
 
 // ---- assimp_nodes.cpp -----------------------------------------------------------------------
 

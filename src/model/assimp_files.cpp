@@ -15,8 +15,7 @@ namespace {
 class BytesStream : public Assimp::MemoryIOStream {
 public:
     explicit BytesStream(std::vector<std::byte> bytes)
-        : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()),
-          bytes_(std::move(bytes))
+        : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), bytes_(std::move(bytes))
     {
     }
 
@@ -34,8 +33,7 @@ void addOnce(std::vector<std::string>& list, const std::string& text)
 
 ModelFiles::ModelFiles(const std::filesystem::path& model, std::span<const std::byte> modelBytes,
                        const LoadLimits& limits, FileRequests& requests)
-    : model_(model), folder_(model.parent_path()), bytes_(modelBytes), limits_(limits),
-      requests_(requests)
+    : model_(model), folder_(model.parent_path()), bytes_(modelBytes), limits_(limits), requests_(requests)
 {
 }
 
@@ -53,8 +51,7 @@ Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode)
     if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos)
         return nullptr;
     if (file == model_)
-        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()),
-                                          bytes_.size());
+        return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
     bool outside = false;
     const auto found = findInFolder(folder_, file, outside);
     if (outside)

@@ -24,8 +24,8 @@ struct FileRequests {
 class ModelFiles : public Assimp::IOSystem {
 public:
     // model: canonical path. Everything passed must outlive this.
-    ModelFiles(const std::filesystem::path& model, std::span<const std::byte> modelBytes,
-               const LoadLimits& limits, FileRequests& requests);
+    ModelFiles(const std::filesystem::path& model, std::span<const std::byte> modelBytes, const LoadLimits& limits,
+               FileRequests& requests);
 
     bool Exists(const char* file) const override;
     char getOsSeparator() const override { return '/'; }

@@ -24,10 +24,8 @@ Wrap wrapFrom(aiTextureMapMode mode)
 void setTransform(Texture& texture, const aiUVTransform& t)
 {
     const float c = std::cos(t.mRotation), s = std::sin(t.mRotation);
-    const glm::vec3 u(c * t.mScaling.x, -s * t.mScaling.y,
-                      0.5f - 0.5f * c + 0.5f * s + t.mTranslation.x);
-    const glm::vec3 v(s * t.mScaling.x, c * t.mScaling.y,
-                      0.5f - 0.5f * s - 0.5f * c + t.mTranslation.y);
+    const glm::vec3 u(c * t.mScaling.x, -s * t.mScaling.y, 0.5f - 0.5f * c + 0.5f * s + t.mTranslation.x);
+    const glm::vec3 v(s * t.mScaling.x, c * t.mScaling.y, 0.5f - 0.5f * s - 0.5f * c + t.mTranslation.y);
     // With v_up = 1 - v_down on both sides.
     texture.uRow = {u.x, -u.y, u.y + u.z};
     texture.vRow = {-v.x, v.y, 1.0f - v.y - v.z};
@@ -44,8 +42,8 @@ std::optional<float> number(const aiMaterial& source, const char* key, unsigned 
 glm::vec3 color(const aiMaterial& source, const char* key, glm::vec3 fallback)
 {
     aiColor3D value;
-    if (source.Get(key, 0, 0, value) != aiReturn_SUCCESS || !std::isfinite(value.r)
-        || !std::isfinite(value.g) || !std::isfinite(value.b))
+    if (source.Get(key, 0, 0, value) != aiReturn_SUCCESS || !std::isfinite(value.r) || !std::isfinite(value.g)
+        || !std::isfinite(value.b))
         return fallback;
     return glm::max(glm::vec3(value.r, value.g, value.b), glm::vec3(0));
 }
@@ -56,10 +54,8 @@ SourceMap findMap(const aiMaterial& source, std::initializer_list<aiTextureType>
     for (const aiTextureType type : types) {
         aiString path;
         unsigned uvSet = 0;
-        std::array<aiTextureMapMode, 3> modes{aiTextureMapMode_Wrap, aiTextureMapMode_Wrap,
-                                              aiTextureMapMode_Wrap};
-        if (source.GetTexture(type, 0, &path, nullptr, &uvSet, nullptr, nullptr, modes.data())
-                != aiReturn_SUCCESS
+        std::array<aiTextureMapMode, 3> modes{aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+        if (source.GetTexture(type, 0, &path, nullptr, &uvSet, nullptr, nullptr, modes.data()) != aiReturn_SUCCESS
             || path.length == 0)
             continue;
         SourceMap map{path.C_Str(), {}, number(source, AI_MATKEY_OBJ_BUMPMULT(type, 0)).value_or(1)};
@@ -92,8 +88,7 @@ Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scen
     out.opacityMap = findMap(source, {aiTextureType_OPACITY});
     out.roughnessMap = findMap(source, {aiTextureType_DIFFUSE_ROUGHNESS});
     out.metalnessMap = findMap(source, {aiTextureType_METALNESS});
-    out.normalMap = findMap(
-        source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA, aiTextureType_HEIGHT});
+    out.normalMap = findMap(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA, aiTextureType_HEIGHT});
     out.emissionMap = findMap(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
     out.occlusionMap = findMap(source, {aiTextureType_AMBIENT_OCCLUSION});
     return makeMaterial(out, textures, scene);

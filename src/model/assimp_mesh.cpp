@@ -13,10 +13,7 @@ namespace cotan {
 
 namespace {
 
-bool finite(const aiVector3D& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 float linearFromSrgb(float c)
 {
@@ -31,9 +28,8 @@ Status copyPositions(const aiMesh& source, const std::string& file, Mesh& mesh)
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
         const aiVector3D& p = source.mVertices[i];
         if (!finite(p))
-            return inputError(
-                fmt::format("{}: mesh {}: position {}: expected finite numbers, found {} {} {}",
-                            file, mesh.name, i, p.x, p.y, p.z));
+            return inputError(fmt::format("{}: mesh {}: position {}: expected finite numbers, found {} {} {}", file,
+                                          mesh.name, i, p.x, p.y, p.z));
         mesh.positions.emplace_back(p.x, p.y, p.z);
     }
     return Done{};
@@ -48,9 +44,8 @@ Status copyTriangles(const aiMesh& source, const std::string& file, Mesh& mesh)
             continue; // points and lines
         for (unsigned c = 0; c < 3; ++c) {
             if (face.mIndices[c] >= source.mNumVertices)
-                return inputError(
-                    fmt::format("{}: mesh {}: triangle {}: expected an index below {}, found {}",
-                                file, mesh.name, f, source.mNumVertices, face.mIndices[c]));
+                return inputError(fmt::format("{}: mesh {}: triangle {}: expected an index below {}, found {}", file,
+                                              mesh.name, f, source.mNumVertices, face.mIndices[c]));
             mesh.indices.push_back(face.mIndices[c]);
         }
     }
@@ -87,8 +82,8 @@ void copyTexcoords(const aiMesh& source, Mesh& mesh, Scene& scene)
             mesh.texcoords[set].push_back(good ? glm::vec2(t.x, 1.0f - t.y) : glm::vec2(0));
         }
         if (broken > 0)
-            scene.warnings.push_back(fmt::format(
-                "mesh {}: {} texture coordinates are not finite; set to 0", mesh.name, broken));
+            scene.warnings.push_back(
+                fmt::format("mesh {}: {} texture coordinates are not finite; set to 0", mesh.name, broken));
     }
 }
 
@@ -107,8 +102,7 @@ void copyColors(const aiMesh& source, Mesh& mesh)
 
 } // namespace
 
-Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const MeshChoices& choices,
-                         Scene& scene)
+Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const MeshChoices& choices, Scene& scene)
 {
     Mesh mesh;
     mesh.name = source.mName.length ? source.mName.C_Str() : "unnamed";
@@ -126,8 +120,8 @@ Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const Me
     const bool stored = source.mNormals && !choices.regenerateNormals;
     const bool usable = stored && copyNormals(source, mesh);
     if (stored && !usable)
-        scene.warnings.push_back(fmt::format(
-            "mesh {}: some normals are zero or not finite; all are made anew", mesh.name));
+        scene.warnings.push_back(
+            fmt::format("mesh {}: some normals are zero or not finite; all are made anew", mesh.name));
     if (!usable) {
         mesh.normals.clear();
         generateNormals(mesh, choices.creaseDegrees);

@@ -18,8 +18,7 @@ constexpr float kPi = 3.14159265f;
 // Assimp's matrices are stored by rows, glm's by columns.
 glm::mat4 toGlm(const aiMatrix4x4& m)
 {
-    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
-            m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
 }
 
 bool finite(const glm::mat4& m)
@@ -86,8 +85,7 @@ Status convertNodes(const aiScene& source, const std::string& file, const std::v
             return inputError(fmt::format("{}: over the limit of {} nodes", file, limits.nodes));
         visit.toWorld = visit.toWorld * toGlm(visit.node->mTransformation);
         if (!finite(visit.toWorld))
-            return inputError(fmt::format("{}: node {}: expected a finite transform", file,
-                                          visit.node->mName.C_Str()));
+            return inputError(fmt::format("{}: node {}: expected a finite transform", file, visit.node->mName.C_Str()));
         addInstances(visit, meshes, scene);
         if (const auto camera = cameras.find(visit.node->mName.C_Str()); camera != cameras.end())
             addCamera(*camera->second, visit.toWorld, scene);

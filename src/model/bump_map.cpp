@@ -45,13 +45,11 @@ bool looksLikeHeight(const Image& image)
 Image normalMapFromHeight(const Image& height, float strength)
 {
     const int w = height.width, h = height.height;
-    Image out =
-        makeImage(w, h, height.type == PixelType::unorm8 ? PixelType::unorm8 : PixelType::unorm16,
-                  height.name + " (bump)");
-    const int expansion = expansionFor(COTAN_EXPAND_EXACT, bitsPerComponent(out.type));
+    Image out = makeImage(w, h, height.type == PixelType::unorm8 ? PixelType::unorm8 : PixelType::unorm16,
+                          height.name + " (bump)");
+    const int expansion = expansionFor(Expansion::exact, bitsPerComponent(out.type));
     const auto at = [&](int x, int y) {
-        return component(
-            height, 4 * (std::size_t((y + h) % h) * std::size_t(w) + std::size_t((x + w) % w)));
+        return component(height, 4 * (std::size_t((y + h) % h) * std::size_t(w) + std::size_t((x + w) % w)));
     };
     const float depth = kDepth * float(w) * strength; // in texels
     for (int y = 0; y < h; ++y) {

@@ -109,11 +109,11 @@ Problem checkAccessors(std::string_view text)
         const std::string_view inside = text.substr(end, text.find("</accessor", end) - end);
         for (std::size_t at = inside.find("<param"); at != inside.npos; at = inside.find("<param", at + 1))
             ++params;
-        const std::uint64_t needed = numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1)
-            + std::max<std::uint64_t>(params, 1);
+        const std::uint64_t needed =
+            numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1) + std::max<std::uint64_t>(params, 1);
         if (needed > array->second)
-            problem = fmt::format("accessor of {}: expected an array of {} numbers or more, found {}", withoutBreaks(std::string(source)), needed,
-                                  array->second);
+            problem = fmt::format("accessor of {}: expected an array of {} numbers or more, found {}",
+                                  withoutBreaks(std::string(source)), needed, array->second);
     });
     return problem;
 }

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/account.hpp"
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/extension.hpp"
 #include "sandboxed.hpp"
 
 namespace cotan {
@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx",
-                                                               ".3ds"};
+constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx", ".3ds"};
 
 Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
@@ -34,9 +33,9 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
             return loadSandboxed(file, limits);
         return assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
     }
-    return inputError(fmt::format(
-        "{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
-        file.string(), file.extension().string()));
+    return inputError(
+        fmt::format("{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
+                    file.string(), file.extension().string()));
 }
 
 } // namespace

@@ -55,8 +55,8 @@ void weldVertices(Mesh& mesh)
 {
     constexpr Index kNone = ~Index(0);
     std::vector<Index> table(std::bit_ceil(mesh.vertexCount() * 2 + 1), kNone); // open addressing
-    std::vector<Index> newIndex(mesh.vertexCount(), kNone); // of the first of equal vertices
-    std::vector<Index> kept;                                // old index of every new vertex
+    std::vector<Index> newIndex(mesh.vertexCount(), kNone);                     // of the first of equal vertices
+    std::vector<Index> kept;                                                    // old index of every new vertex
     for (Index& index : mesh.indices) {
         std::size_t slot = hashVertex(mesh, index) & (table.size() - 1);
         while (table[slot] != kNone && !equalVertices(mesh, table[slot], index))

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "bump_map.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/size.hpp"
 #include "cotan/files/folder.hpp"
+#include "cotan/image/convert.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/image/size.hpp"
 
 namespace cotan {
 
@@ -37,13 +37,11 @@ int TextureReader::image(const std::string& path, const std::string& material)
 int TextureReader::load(const std::string& path, const std::string& material)
 {
     const auto unusable = [&](const std::string& why) {
-        scene_.warnings.push_back(
-            fmt::format("material {}: texture {}: {}; left out", material, path, why));
+        scene_.warnings.push_back(fmt::format("material {}: texture {}: {}; left out", material, path, why));
         return -1;
     };
     if (bytes_ >= limits_.allImageBytes)
-        return unusable(
-            fmt::format("the images are over the limit of {} bytes", limits_.allImageBytes));
+        return unusable(fmt::format("the images are over the limit of {} bytes", limits_.allImageBytes));
     if (const aiTexture* texture = source_ ? source_->GetEmbeddedTexture(path.c_str()) : nullptr) {
         std::string problem;
         if (auto image = embedded(*texture, fmt::format("{} {}", scene_.name, path), problem))
@@ -78,15 +76,13 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
     }
     if (texture.mHeight == 0) { // a whole image file of mWidth bytes
         auto image = decodeImage(
-            std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
-            name, limits_);
+            std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)), name, limits_);
         if (image)
             return *std::move(image);
         problem = image.error().message;
         return std::nullopt;
     }
-    if (auto error =
-            checkImageSize(texture.mWidth, texture.mHeight, PixelType::unorm8, name, limits_)) {
+    if (auto error = checkImageSize(texture.mWidth, texture.mHeight, PixelType::unorm8, name, limits_)) {
         problem = error->message;
         return std::nullopt;
     }
@@ -99,21 +95,18 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
     return image;
 }
 
-int TextureReader::normalMap(const std::string& path, const std::string& material, float strength,
-                             bool& converted)
+int TextureReader::normalMap(const std::string& path, const std::string& material, float strength, bool& converted)
 {
     converted = false;
     const int source = image(path, material);
     if (source < 0 || !looksLikeHeight(scene_.images[std::size_t(source)]))
         return source;
     converted = true;
-    const auto [entry, isNew] =
-        known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
+    const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {
         entry->second = add(normalMapFromHeight(scene_.images[std::size_t(source)], strength));
         scene_.warnings.push_back(fmt::format(
-            "material {}: texture {} is grey: taken as a height map and converted to a normal map",
-            material, path));
+            "material {}: texture {} is grey: taken as a height map and converted to a normal map", material, path));
     }
     return entry->second;
 }
@@ -136,8 +129,7 @@ int TextureReader::metallicRoughness(int roughness, int metallic)
 {
     if (roughness < 0 && metallic < 0)
         return -1;
-    const auto [entry, isNew] =
-        known_.try_emplace(fmt::format("roughness\n{}\nmetallic\n{}", roughness, metallic), -1);
+    const auto [entry, isNew] = known_.try_emplace(fmt::format("roughness\n{}\nmetallic\n{}", roughness, metallic), -1);
     if (!isNew)
         return entry->second;
     std::optional<Image> rough, metal;
@@ -152,8 +144,7 @@ int TextureReader::metallicRoughness(int roughness, int metallic)
         for (int x = 0; x < w; ++x) {
             const std::uint8_t rgba[4] = {255, redNearest(rough ? &*rough : nullptr, x, y, w, h),
                                           redNearest(metal ? &*metal : nullptr, x, y, w, h), 255};
-            std::memcpy(out.bytes8() + 4 * (std::size_t(y) * std::size_t(w) + std::size_t(x)), rgba,
-                        4);
+            std::memcpy(out.bytes8() + 4 * (std::size_t(y) * std::size_t(w) + std::size_t(x)), rgba, 4);
         }
     }
     return entry->second = add(std::move(out));

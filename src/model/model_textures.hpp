@@ -20,8 +20,7 @@ class TextureReader {
 public:
     // source: where embedded textures are; null: there are none. folder: canonical. Everything passed
     // must outlive this.
-    TextureReader(Scene& scene, const aiScene* source, const std::filesystem::path& folder,
-                  const LoadLimits& limits)
+    TextureReader(Scene& scene, const aiScene* source, const std::filesystem::path& folder, const LoadLimits& limits)
         : scene_(scene), source_(source), folder_(folder), limits_(limits)
     {
     }
@@ -32,8 +31,7 @@ public:
 
     // As image(); a grey picture is taken as heights and becomes a normal map, `strength` times as
     // deep, and `converted` is set.
-    int normalMap(const std::string& path, const std::string& material, float strength,
-                  bool& converted);
+    int normalMap(const std::string& path, const std::string& material, float strength, bool& converted);
 
     // One image with the roughness in green and the metalness in blue, from the red of two.
     // Either may be -1: it counts as white. Both -1: -1. The larger one gives the size.
@@ -41,8 +39,7 @@ public:
 
 private:
     int load(const std::string& path, const std::string& material);
-    std::optional<Image> embedded(const aiTexture& texture, const std::string& name,
-                                  std::string& problem) const;
+    std::optional<Image> embedded(const aiTexture& texture, const std::string& name, std::string& problem) const;
     int add(Image image);
 
     Scene& scene_;

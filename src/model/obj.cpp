@@ -9,12 +9,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/geometry.hpp"
+#include "cotan/files/bytes.hpp"
+#include "cotan/files/folder.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/files/bytes.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "mesh_weld.hpp"
-#include "cotan/files/folder.hpp"
 #include "mtl.hpp"
 #include "obj_text.hpp"
 #include "source_material.hpp"
@@ -66,10 +66,9 @@ public:
             return;
         bool ignored = false;
         const auto beside = findInFolder(folder_, otherwise, ignored);
-        scene_.warnings.push_back(fmt::format(
-            "material library {} {}{}", line,
-            outside ? "is outside the model's folder; not opened" : "was not found",
-            beside ? fmt::format("; {} is read in its place", otherwise) : ""));
+        scene_.warnings.push_back(fmt::format("material library {} {}{}", line,
+                                              outside ? "is outside the model's folder; not opened" : "was not found",
+                                              beside ? fmt::format("; {} is read in its place", otherwise) : ""));
         if (beside)
             read(*beside, otherwise);
     }

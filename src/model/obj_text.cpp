@@ -18,8 +18,7 @@ namespace {
 
 using Problem = std::optional<std::string>; // expected and found, without file and line
 
-constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate",
-                                                            "normal"};
+constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate", "normal"};
 
 // Comparisons while polygons are cut: one or two seconds. A star, a comb or a spiral of 20,000 corners
 // takes up to 30 million.
@@ -122,8 +121,7 @@ Problem readNormal(Parser& parser, Words words)
 }
 
 // The place in the array. What is above the totals is refused at the end, before it is used.
-Problem readIndex(Parser& parser, std::size_t attribute, std::int64_t index, std::size_t offset,
-                  std::uint32_t& place)
+Problem readIndex(Parser& parser, std::size_t attribute, std::int64_t index, std::size_t offset, std::uint32_t& place)
 {
     if (index == 0)
         return "expected an index from 1 or a negative one, found 0";
@@ -170,8 +168,7 @@ Problem readCorner(Parser& parser, std::string_view text, std::size_t offset, Ob
 std::size_t currentPart(Parser& parser)
 {
     if (!parser.part) {
-        const auto [entry, isNew] =
-            parser.parts.try_emplace({parser.name, parser.material}, parser.out.parts.size());
+        const auto [entry, isNew] = parser.parts.try_emplace({parser.name, parser.material}, parser.out.parts.size());
         if (isNew)
             parser.out.parts.push_back({parser.name, parser.material, {}});
         parser.part = entry->second;

@@ -25,14 +25,14 @@ struct ObjCorner {
 
 // The triangles of one group (or object) and one material.
 struct ObjPart {
-    std::string name;     // of the latest g or o; empty: none
-    std::string material; // of usemtl; empty: none
+    std::string name;               // of the latest g or o; empty: none
+    std::string material;           // of usemtl; empty: none
     std::vector<ObjCorner> corners; // three a triangle
 };
 
 struct ObjText {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec4> colors; // of the positions, as stored; white where there is none; or empty
+    std::vector<glm::vec4> colors;    // of the positions, as stored; white where there is none; or empty
     std::vector<glm::vec2> texcoords; // as stored: v runs up
     std::vector<glm::vec3> normals;
     std::vector<ObjPart> parts; // in the order of their first face

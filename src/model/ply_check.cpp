@@ -80,8 +80,8 @@ struct Header {
     std::string unknownRows; // the first element that has rows and a name that Assimp does not know
 };
 
-// Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so that what
-// comes behind is read in the wrong place.
+// Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so that
+// what comes behind is read in the wrong place.
 Problem checkElementName(const Header& header, std::string_view name)
 {
     if (name.front() >= '0' && name.front() <= '9')
@@ -102,8 +102,7 @@ Problem checkElement(Header& header, std::string_view name, std::string_view wor
     if (error != std::errc{} || end != word.data() + word.size())
         return "expected a count at the end";
     if (count > fileBytes || count > limits.vertices)
-        return fmt::format("it counts {} elements, more than the file can hold or the limit allows",
-                           count);
+        return fmt::format("it counts {} elements, more than the file can hold or the limit allows", count);
     constexpr std::array<std::string_view, 5> kRead = {"vertex", "face", "tristrips", "edge", "material"};
     if (count > 0 && header.unknownRows.empty() && std::ranges::find(kRead, name) == kRead.end())
         header.unknownRows = name.substr(0, 40);
@@ -114,8 +113,8 @@ Problem checkElement(Header& header, std::string_view name, std::string_view wor
 Problem checkProperty(Header& header, const std::vector<std::string_view>& words)
 {
     const bool list = words.size() == 5 && words[1] == "list";
-    const bool known = list ? typeSize(words[2]) > 0 && typeSize(words[3]) > 0
-                            : words.size() == 3 && typeSize(words[1]) > 0;
+    const bool known =
+        list ? typeSize(words[2]) > 0 && typeSize(words[3]) > 0 : words.size() == 3 && typeSize(words[1]) > 0;
     if (!known || header.elements.empty())
         return "expected a type and a name, behind an element";
     if (list && (words[2].starts_with("float") || words[2].starts_with("double")))
@@ -124,8 +123,7 @@ Problem checkProperty(Header& header, const std::vector<std::string_view>& words
     return std::nullopt;
 }
 
-Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
-                  const LoadLimits& limits)
+Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes, const LoadLimits& limits)
 {
     const std::vector<std::string_view> words = split(line);
     if (words.empty())
@@ -135,8 +133,7 @@ Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes,
         return std::nullopt;
     if (keyword == "format") {
         header.hasFormat = words.size() == 3
-            && (words[1] == "ascii" || words[1] == "binary_little_endian"
-                || words[1] == "binary_big_endian");
+            && (words[1] == "ascii" || words[1] == "binary_little_endian" || words[1] == "binary_big_endian");
         header.ascii = header.hasFormat && words[1] == "ascii";
         header.bigEndian = header.hasFormat && words[1] == "binary_big_endian";
         if (!header.hasFormat || !header.elements.empty())
@@ -234,15 +231,13 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
     for (std::size_t number = 1; !header.ended; ++number) {
         const std::size_t end = text.find('\n', at);
         if (end == std::string_view::npos)
-            return inputError(
-                fmt::format("{}: expected end_header, found the end of the file", name));
+            return inputError(fmt::format("{}: expected end_header, found the end of the file", name));
         std::string_view line = text.substr(at, end - at);
         at = end + 1;
         while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
             line.remove_suffix(1);
         if (number == 1 && line != "ply")
-            return inputError(
-                fmt::format("{}: expected \"ply\" at the start, found other data", name));
+            return inputError(fmt::format("{}: expected \"ply\" at the start, found other data", name));
         if (number == 1)
             continue;
         if (Problem problem = checkLine(header, line, bytes.size(), limits))

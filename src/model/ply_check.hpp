@@ -13,7 +13,6 @@ namespace cotan {
 // Checks the header of a PLY file line by line, and walks over what it counts: every row of every
 // element, and every value of every list, has to be there, as memory is taken by those counts.
 // Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
-Status checkPly(std::span<const std::byte> bytes, const std::string& name,
-                const LoadLimits& limits);
+Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
 } // namespace cotan

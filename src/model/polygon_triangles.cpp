@@ -37,10 +37,7 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
 }
 
 // Twice the area of a triangle, positive where it runs counter-clockwise.
-double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 // How much may lie in an ear. Each is tried when there is none under the one before, which happens
 // only where the polygon crosses or touches itself.
@@ -167,10 +164,10 @@ private:
     std::vector<glm::dvec2> flat_;
     std::vector<Index> next_, before_;
     std::vector<bool> gone_;
-    std::vector<Index> notConvex_; // by x; with some that have become convex, or are gone
-    std::vector<Index> ears_;      // to be clipped, in order
+    std::vector<Index> notConvex_;   // by x; with some that have become convex, or are gone
+    std::vector<Index> ears_;        // to be clipped, in order
     std::vector<std::size_t> place_; // of a corner in ears_; kNone: it is no ear
-    std::size_t clipped_ = 0;      // since notConvex_ was put in order
+    std::size_t clipped_ = 0;        // since notConvex_ was put in order
     std::size_t& stepsLeft_;
 };
 

@@ -17,7 +17,6 @@ namespace cotan {
 // area becomes a fan.
 // stepsLeft: comparisons of a corner with a triangle that may still be made, one budget for a
 // model: many corners that turn inwards take the square of their number. False: it is used up.
-bool cutPolygon(std::span<const glm::vec3> corners, std::vector<std::uint32_t>& triangles,
-                std::size_t& stepsLeft);
+bool cutPolygon(std::span<const glm::vec3> corners, std::vector<std::uint32_t>& triangles, std::size_t& stepsLeft);
 
 } // namespace cotan

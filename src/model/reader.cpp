@@ -11,11 +11,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/model/load.hpp"
-#include "cotan/model/reader.hpp"
+#include "cotan/files/account.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/image/rows.hpp"
-#include "cotan/files/account.hpp"
+#include "cotan/model/load.hpp"
+#include "cotan/model/reader.hpp"
 #include "cotan/sandbox/confine.hpp"
 #include "cotan/sandbox/request.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
@@ -27,9 +27,11 @@ namespace {
 class Reader {
 public:
     explicit Reader(int socket)
-        : question_([socket](std::span<std::byte> bytes) {
-              return std::size_t(std::max<ssize_t>(::recv(socket, bytes.data(), bytes.size(), 0), 0));
-          }, std::uint64_t(8) << 30),
+        : question_(
+            [socket](std::span<std::byte> bytes) {
+                return std::size_t(std::max<ssize_t>(::recv(socket, bytes.data(), bytes.size(), 0), 0));
+            },
+            std::uint64_t(8) << 30),
           answer_([socket](std::span<const std::byte> bytes) {
               while (!bytes.empty()) {
                   const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -142,7 +144,8 @@ int runReaderProcess()
 {
     struct stat status {};
     if (::fstat(0, &status) != 0 || !S_ISSOCK(status.st_mode)) {
-        fmt::print(stderr, "{} is for programs that read through this one; nobody asks for anything here\n", kReaderWord);
+        fmt::print(stderr, "{} is for programs that read through this one; nobody asks for anything here\n",
+                   kReaderWord);
         return 1;
     }
     // Whatever a library may read or print, it is not this.

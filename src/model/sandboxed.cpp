@@ -37,7 +37,8 @@ try {
     const auto size = usableFileSize(file, limits.fileBytes);
     if (!size)
         return size.error();
-    auto process = ReaderProcess::start({.kind = ReaderKind::model, .name = file.string(), .fileBytes = *size, .limits = limits});
+    auto process =
+        ReaderProcess::start({.kind = ReaderKind::model, .name = file.string(), .fileBytes = *size, .limits = limits});
     if (!process)
         return process.error();
     if (Status found = (*process)->await(); !found)

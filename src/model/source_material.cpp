@@ -43,8 +43,7 @@ void setSurface(const SourceMaterial& source, TextureReader& textures, Material&
         use(roughImage >= 0 ? rough : metal, textures.metallicRoughness(roughImage, metalImage));
 }
 
-void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& scene,
-                  Material& material)
+void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& scene, Material& material)
 {
     material.baseColorMap = read(source.colorMap, textures, material.name);
     glm::vec3 base = source.color;
@@ -53,8 +52,7 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
 
     float opacity = source.opacity;
     if (opacity <= 0) {
-        scene.warnings.push_back(
-            fmt::format("material {}: its opacity is 0; taken as opaque", material.name));
+        scene.warnings.push_back(fmt::format("material {}: its opacity is 0; taken as opaque", material.name));
         opacity = 1;
     }
     material.baseColor = glm::vec4(base, std::min(opacity, 1.0f));
@@ -66,9 +64,9 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
     if (source.opacityMap.path == source.colorMap.path)
         material.alphaMode = AlphaMode::mask;
     else
-        scene.warnings.push_back(fmt::format(
-            "material {}: the opacity map {} is left out; alpha is read from the colour map",
-            material.name, source.opacityMap.path));
+        scene.warnings.push_back(
+            fmt::format("material {}: the opacity map {} is left out; alpha is read from the colour map", material.name,
+                        source.opacityMap.path));
 }
 
 // Names that say that green points down: "directx", or "dx" standing alone or after "normal".
@@ -82,31 +80,27 @@ bool namesDirectX(const std::string& path)
     if (name.find("directx") != std::string::npos)
         return true;
     for (std::size_t at = name.find("dx"); at != std::string::npos; at = name.find("dx", at + 1)) {
-        const bool starts =
-            at == 0 || !letter(at - 1) || std::string_view(name).substr(0, at).ends_with("normal");
+        const bool starts = at == 0 || !letter(at - 1) || std::string_view(name).substr(0, at).ends_with("normal");
         if (starts && !letter(at + 2))
             return true;
     }
     return false;
 }
 
-void setNormalMap(const SourceMaterial& source, TextureReader& textures, Scene& scene,
-                  Material& material)
+void setNormalMap(const SourceMaterial& source, TextureReader& textures, Scene& scene, Material& material)
 {
     const SourceMap& map = source.normalMap;
     if (map.path.empty())
         return;
     bool converted = false;
-    material.normalMap =
-        use(map, textures.normalMap(map.path, material.name, map.strength, converted));
+    material.normalMap = use(map, textures.normalMap(map.path, material.name, map.strength, converted));
     if (!material.normalMap.present() || converted)
         return; // the strength is in the conversion
     material.normalScale = map.strength;
     if (namesDirectX(map.path)) {
-        material.normalFormat.greenAlongV = true;
+        material.normalFormat.greenUp = false;
         scene.warnings.push_back(fmt::format(
-            "material {}: normal map {} is taken as green down (DirectX), as its name says",
-            material.name, map.path));
+            "material {}: normal map {} is taken as green down (DirectX), as its name says", material.name, map.path));
     }
 }
 
@@ -131,15 +125,14 @@ Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Sce
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
-    const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap,
-                                  &material.normalMap, &material.occlusionMap,
-                                  &material.emissiveMap};
+    const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
+                                  &material.occlusionMap, &material.emissiveMap};
     for (const Texture* texture : all) {
         if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
-            scene.warnings.push_back(fmt::format(
-                "mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
-                "normal map cannot show",
-                mesh.name, texture->texcoord, material.name));
+            scene.warnings.push_back(
+                fmt::format("mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
+                            "normal map cannot show",
+                            mesh.name, texture->texcoord, material.name));
             return;
         }
     }

@@ -13,8 +13,8 @@ namespace cotan {
 
 // A texture as a file names it, and how it is laid on.
 struct SourceMap {
-    std::string path; // empty: none
-    Texture use;      // without its image
+    std::string path;   // empty: none
+    Texture use;        // without its image
     float strength = 1; // of a bump or normal map
 };
 

@@ -10,8 +10,7 @@ namespace {
 
 // The corner on the edge, computed from the inside to the outside whichever way round the edge is
 // walked: so neighbours agree.
-glm::dvec4 crossing(glm::dvec4 inside, double insideDistance, glm::dvec4 outside,
-                     double outsideDistance)
+glm::dvec4 crossing(glm::dvec4 inside, double insideDistance, glm::dvec4 outside, double outsideDistance)
 {
     double k = insideDistance / (insideDistance - outsideDistance);
     return inside + (outside - inside) * k;

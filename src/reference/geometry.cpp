@@ -15,8 +15,8 @@ namespace {
 // How an instance moves points, vectors and covectors.
 struct Transform {
     glm::mat3 vectors{1};
-    glm::vec3 translation{0};  // relative to the eye
-    glm::dmat3 covectors{1};   // inverse transpose, up to a positive factor
+    glm::vec3 translation{0}; // relative to the eye
+    glm::dmat3 covectors{1};  // inverse transpose, up to a positive factor
     bool mirrored = false;
 };
 
@@ -42,12 +42,10 @@ Transform transformOf(const glm::mat4& toWorld, glm::dvec3 eye)
 
 glm::vec3 unitOrZero(glm::vec3 v) { return f32::cotan_normalize_or(v, glm::vec3(0)); }
 
-glm::vec3 covector(const Transform& t, glm::vec3 v)
-{
-    return glm::vec3(t.covectors * glm::dvec3(v));
-}
+glm::vec3 covector(const Transform& t, glm::vec3 v) { return glm::vec3(t.covectors * glm::dvec3(v)); }
 
-// The one place where stored tangents meet our frames. glTF has bitangent = cross(n, t) * w, along
+// The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
+// (tangentAlongV). glTF has bitangent = cross(n, t) * w, along
 // the map's green direction, which is up the image: against +v, since v runs down. Our b points
 // along +v, hence the minus. A mirroring matrix reverses cross products once more.
 glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
@@ -57,8 +55,7 @@ glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
 }
 
 template<class In, class Out, class Function>
-void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>& out,
-                  Function function)
+void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>& out, Function function)
 {
     if (in.size() < count)
         return; // absent
@@ -78,14 +75,11 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
     draw.material = mesh.material;
     draw.vectors = t.vectors;
     draw.mirrored = t.mirrored;
-    transformAll(mesh.positions, count, draw.positions,
-                 [&](glm::vec3 p) { return t.vectors * p + t.translation; });
-    transformAll(mesh.normals, count, draw.normals,
-                 [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
-    if (frame == Frame::vertex || frame == Frame::mikktspace)
-        transformAll(mesh.tangents, count, draw.tangents,
-                     [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
-    if (frame == Frame::smooth) {
+    transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return t.vectors * p + t.translation; });
+    transformAll(mesh.normals, count, draw.normals, [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
+    if (readsTangents(frame))
+        transformAll(mesh.tangents, count, draw.tangents, [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
+    if (readsCotangents(frame)) {
         auto asCovector = [&](glm::vec3 v) { return covector(t, v); };
         transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
         transformAll(mesh.cotangentsV, count, draw.cotangentsV, asCovector);
@@ -100,21 +94,19 @@ bool isBlended(const Scene& scene, const Draw& draw)
 
 } // namespace
 
-std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, int frame, bool blending)
+std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
 {
     std::vector<Draw> draws;
     for (const Instance& instance : scene.instances) {
         if (instance.mesh < 0 || std::size_t(instance.mesh) >= scene.meshes.size())
             continue;
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        bool hasMaterial =
-            mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
+        bool hasMaterial = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
         if (hasMaterial && mesh.triangleCount() > 0)
-            draws.push_back(makeDraw(mesh, instance.toWorld, eye, Frame(frame)));
+            draws.push_back(makeDraw(mesh, instance.toWorld, eye, frame));
     }
     if (blending)
-        std::stable_partition(draws.begin(), draws.end(),
-                              [&](const Draw& draw) { return !isBlended(scene, draw); });
+        std::stable_partition(draws.begin(), draws.end(), [&](const Draw& draw) { return !isBlended(scene, draw); });
     return draws;
 }
 

@@ -20,17 +20,15 @@ struct Arrival {
 Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow)
 {
     if (light.kind == LightKind::directional)
-        return {light.toLight, light.castsShadow
-                    ? lightReaching(shadow, point.position, point.normal, light.toLight)
-                    : 1.0f};
+        return {light.toLight,
+                light.castsShadow ? lightReaching(shadow, point.position, point.normal, light.toLight) : 1.0f};
     glm::vec3 offset = light.position - point.position;
     float distance = glm::length(offset);
     Arrival arrival;
     arrival.toLight = offset / std::max(distance, 1e-6f);
     arrival.strength = f32::cotan_light_falloff(distance, light.range);
     if (light.kind == LightKind::spot)
-        arrival.strength *= f32::cotan_smooth(light.cosOuter, light.cosInner,
-                                              glm::dot(arrival.toLight, light.toLight));
+        arrival.strength *= f32::cotan_smooth(light.cosOuter, light.cosInner, glm::dot(arrival.toLight, light.toLight));
     return arrival;
 }
 
@@ -64,8 +62,7 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
 }
 
 glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
-                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
-                     const TangentSpace* tangent)
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow, const TangentSpace* tangent)
 {
     glm::vec3 radiance = surface.emissive;
     for (const PreparedLight& light : lights) {

@@ -14,9 +14,9 @@ namespace cotan::reference {
 // A light, ready for shading.
 struct PreparedLight {
     LightKind kind = LightKind::directional;
-    glm::vec3 radiance{0};       // colour times intensity
-    glm::vec3 position{0};       // relative to the eye
-    glm::vec3 toLight{0, 1, 0};  // unit, against the way the light travels
+    glm::vec3 radiance{0};      // colour times intensity
+    glm::vec3 position{0};      // relative to the eye
+    glm::vec3 toLight{0, 1, 0}; // unit, against the way the light travels
     float range = 0;
     float cosInner = 1;
     float cosOuter = 0;

@@ -14,8 +14,7 @@ namespace cotan::reference {
 namespace {
 
 // sRGB to linear for every stored value of that many bits.
-template<std::size_t Count>
-const std::array<float, Count>& linearTable()
+template<std::size_t Count> const std::array<float, Count>& linearTable()
 {
     static const std::array<float, Count> table = [] {
         std::array<float, Count> t{};
@@ -26,8 +25,7 @@ const std::array<float, Count>& linearTable()
     return table;
 }
 
-template<class Word>
-glm::vec4 srgbTexel(const Word* words, std::size_t at)
+template<class Word> glm::vec4 srgbTexel(const Word* words, std::size_t at)
 {
     constexpr std::size_t kCount = std::size_t(1) << (8 * sizeof(Word));
     constexpr float kScale = 1.0f / float(kCount - 1);
@@ -36,8 +34,7 @@ glm::vec4 srgbTexel(const Word* words, std::size_t at)
     return {linear[w[0]], linear[w[1]], linear[w[2]], float(w[3]) * kScale};
 }
 
-template<class Word>
-void storeUnorm(Word* words, glm::vec4 value)
+template<class Word> void storeUnorm(Word* words, glm::vec4 value)
 {
     constexpr float kTop = float((1 << (8 * sizeof(Word))) - 1);
     for (int c = 0; c < 4; ++c)
@@ -77,8 +74,8 @@ glm::vec4 toStored(glm::vec4 value, const MipChain& chain, const f32::cotan_norm
     }
     if (!isSrgb(chain))
         return value;
-    return {f32::cotan_linear_to_srgb(value.x), f32::cotan_linear_to_srgb(value.y),
-            f32::cotan_linear_to_srgb(value.z), value.w};
+    return {f32::cotan_linear_to_srgb(value.x), f32::cotan_linear_to_srgb(value.y), f32::cotan_linear_to_srgb(value.z),
+            value.w};
 }
 
 // The source texels that one target texel covers along an axis, and how much of each. Halving an
@@ -103,8 +100,8 @@ Taps tapsOf(int target, int targetSize, int sourceSize)
 
 // One level from the one before. `source(x, y)` gives what is averaged.
 template<class Source>
-void halve(const MipChain& chain, const f32::cotan_normal_format& format, int width, int height,
-           Source source, Image& target, std::vector<glm::vec4>& averages)
+void halve(const MipChain& chain, const f32::cotan_normal_format& format, int width, int height, Source source,
+           Image& target, std::vector<glm::vec4>& averages)
 {
     averages.resize(target.pixelCount());
     parallelFor(0, target.height, [&](int y) {
@@ -125,33 +122,22 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
 
 } // namespace
 
-bool isUsable(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
-}
-
-MipChain makeMipChain(const Image& image, Content content, NormalMapFormat stored, bool withLevels)
+MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
 {
     MipChain chain{&image, content, {}};
     if (!withLevels)
         return chain;
-    stored.greenAlongV = true; // green as it is stored
-    const auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    format.green = 1; // as it is stored
     std::vector<glm::vec4> before, averages;
     int width = image.width, height = image.height;
     while (width > 1 || height > 1) {
-        Image target =
-            makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
+        Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
         if (before.empty()) {
-            auto source = [&](int x, int y) {
-                return toAverage(texel(chain, 0, x, y), content, format);
-            };
+            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
             halve(chain, format, width, height, source, target, averages);
         } else {
-            auto source = [&](int x, int y) {
-                return before[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-            };
+            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
             halve(chain, format, width, height, source, target, averages);
         }
         std::swap(before, averages);

@@ -23,21 +23,15 @@ struct MipChain {
     std::vector<Image> smaller;
 
     int levels() const { return 1 + int(smaller.size()); }
-    const Image& level(int i) const
-    {
-        return i == 0 ? *image : smaller[std::size_t(i - 1)];
-    }
+    const Image& level(int i) const { return i == 0 ? *image : smaller[std::size_t(i - 1)]; }
 };
-
-// Whether the image has a size and the data for it.
-bool isUsable(const Image& image);
 
 // Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded
 // vectors, which are normalised before they are stored again; everything else as numbers. Every
 // texel of a level is the average of the area that it covers in the one before, also where a size
 // is odd.
 // withLevels: false keeps level 0 only.
-MipChain makeMipChain(const Image& image, Content content, NormalMapFormat format, bool withLevels);
+MipChain makeMipChain(const Image& image, Content content, Convention format, bool withLevels);
 
 // A texel, with colours made linear. Normal maps come as stored. x, y: inside the level.
 glm::vec4 texel(const MipChain& chain, int level, int x, int y);

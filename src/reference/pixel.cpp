@@ -32,13 +32,12 @@ glm::vec3 displayed(const View& view, glm::vec3 radiance)
     return view.linearOutput ? c : f32::cotan_tone_map(c);
 }
 
-glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture,
-                   const QuadPoints& quad, int lane)
+glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, const QuadPoints& quad,
+                   int lane)
 {
     if (!chain)
         return glm::vec4(1);
-    return sample(*chain, texture.sampler, uvOf(texture, quad, lane, in.view->derivatives),
-                  in.view->pointSampled);
+    return sample(*chain, texture.sampler, uvOf(texture, quad, lane, in.view->derivatives), in.view->pointSampled);
 }
 
 f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
@@ -56,28 +55,25 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     s.occlusion = 1 + m.occlusionStrength * (occlusion.x - 1);
     s.emissive = m.emissive * glm::vec3(emissive);
     s.n = n;
-    s.v = all.projection.orthographic
-        ? backwards
-        : f32::cotan_normalize_or(-quad.position[std::size_t(lane)], backwards);
+    s.v =
+        all.projection.orthographic ? backwards : f32::cotan_normalize_or(-quad.position[std::size_t(lane)], backwards);
     return s;
 }
 
-glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
-                      const QuadPoints& quad, int lane)
+glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad,
+                      int lane)
 {
     if (in.material->unlit)
         return baseColor;
     SurfaceNormal normal = normalOf(in, quad, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
-    LitPoint point{quad.position[std::size_t(lane)],
-                   in.triangle->front ? normal.interpolated : -normal.interpolated};
-    const auto tangent = tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)],
-                                        all.projection.orthographic);
+    LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
+    const auto tangent =
+        tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
     return radianceOf(surface, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
 }
 
-glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad,
-                     int lane)
+glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     if (all.view.output == Output::depth) {
         glm::dvec3 p = quad.position[std::size_t(lane)];

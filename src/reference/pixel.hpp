@@ -12,7 +12,7 @@
 namespace cotan::reference {
 
 struct Fragment {
-    glm::vec4 value{0};  // shaded: linear colour and alpha; otherwise the output's x y z, and 1
+    glm::vec4 value{0}; // shaded: linear colour and alpha; otherwise the output's x y z, and 1
     bool discarded = false;
 };
 

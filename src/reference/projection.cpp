@@ -36,10 +36,7 @@ glm::dmat4 fromRows(glm::dvec4 x, glm::dvec4 y, glm::dvec4 z, glm::dvec4 w)
     return glm::transpose(glm::dmat4(x, y, z, w));
 }
 
-double usableOr(float value, double otherwise)
-{
-    return std::isfinite(value) && value > 0 ? double(value) : otherwise;
-}
+double usableOr(float value, double otherwise) { return std::isfinite(value) && value > 0 ? double(value) : otherwise; }
 
 } // namespace
 
@@ -79,8 +76,8 @@ Projection cameraProjection(const View& view, const Ball& ball)
         w = row(p.forward, 0);
     }
     double down = view.rowsUpward ? 1.0 : -1.0;
-    p.toRaster = fromRows(row(p.right * pixels, 0) + w * halfWidth,
-                          row(p.up * (pixels * down), 0) + w * halfHeight, z, w);
+    p.toRaster =
+        fromRows(row(p.right * pixels, 0) + w * halfWidth, row(p.up * (pixels * down), 0) + w * halfHeight, z, w);
     return p;
 }
 
@@ -98,8 +95,7 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 o
     double half = 0.5 * texels;
     p.toRaster = fromRows(row(p.right * pixels, half - glm::dot(p.right, c) * pixels),
                           row(p.up * -pixels, half + glm::dot(p.up, c) * pixels),
-                          row(-p.forward * depth, 0.5 + glm::dot(p.forward, c) * depth),
-                          {0, 0, 0, 1});
+                          row(-p.forward * depth, 0.5 + glm::dot(p.forward, c) * depth), {0, 0, 0, 1});
     return p;
 }
 
@@ -112,8 +108,7 @@ glm::vec3 rayDirection(const Projection& p, double x, double y)
     glm::dmat4 rows = glm::transpose(p.toRaster);
     double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
     double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
-    glm::dvec3 d = p.forward + p.right * ((x - 0.5 * p.width) / pixelsX)
-        + p.up * ((y - 0.5 * p.height) / pixelsY);
+    glm::dvec3 d = p.forward + p.right * ((x - 0.5 * p.width) / pixelsX) + p.up * ((y - 0.5 * p.height) / pixelsY);
     return glm::vec3(normalizeOr(d, p.forward));
 }
 

@@ -15,11 +15,11 @@ namespace cotan::reference {
 //   orthographic  w = 1, z = 1 - distance/far
 struct Projection {
     glm::dmat4 toRaster{1};
-    glm::dvec3 origin{0};   // world; what positions are relative to
+    glm::dvec3 origin{0}; // world; what positions are relative to
     glm::dvec3 right{1, 0, 0};
     glm::dvec3 up{0, 1, 0};
     glm::dvec3 forward{0, 0, -1};
-    int width = 0;          // pixels
+    int width = 0; // pixels
     int height = 0;
     bool orthographic = false;
     bool rowsUpward = false; // raster row 0 is the bottom of the picture

@@ -22,8 +22,8 @@ Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area)
     auto [lowX, highX] = std::minmax({c[0].x, c[1].x, c[2].x});
     auto [lowY, highY] = std::minmax({c[0].y, c[1].y, c[2].y});
     // An arithmetic shift rounds down, for negative coordinates too.
-    return {std::max(area.x0, lowX >> 8), std::max(area.y0, lowY >> 8),
-            std::min(area.x1, (highX >> 8) + 1), std::min(area.y1, (highY >> 8) + 1)};
+    return {std::max(area.x0, lowX >> 8), std::max(area.y0, lowY >> 8), std::min(area.x1, (highX >> 8) + 1),
+            std::min(area.y1, (highY >> 8) + 1)};
 }
 
 Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y)
@@ -52,8 +52,7 @@ unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePa
     for (int s = 0; s < pattern.count; ++s) {
         std::int64_t px = std::int64_t(x) * kSubPixels + pattern.offset[std::size_t(s)].x;
         std::int64_t py = std::int64_t(y) * kSubPixels + pattern.offset[std::size_t(s)].y;
-        bool inside =
-            edges[0].at(px, py) >= 0 && edges[1].at(px, py) >= 0 && edges[2].at(px, py) >= 0;
+        bool inside = edges[0].at(px, py) >= 0 && edges[1].at(px, py) >= 0 && edges[2].at(px, py) >= 0;
         mask |= unsigned(inside) << s;
     }
     return mask;

@@ -25,12 +25,12 @@ struct Plane {
 // the corners are those of a piece that clipping left, and they are made from corners that are
 // not snapped; so interpolation knows nothing of either.
 struct RasterTriangle {
-    std::array<glm::ivec2, 3> corner;   // 1/256 pixel; clockwise in a raster whose y points down
-    std::array<Plane, 3> weight;        // weight of each vertex, times 1/w
-    Plane z;                            // nearness
-    std::uint32_t draw = 0;             // what it belongs to: an index of the caller's
+    std::array<glm::ivec2, 3> corner; // 1/256 pixel; clockwise in a raster whose y points down
+    std::array<Plane, 3> weight;      // weight of each vertex, times 1/w
+    Plane z;                          // nearness
+    std::uint32_t draw = 0;           // what it belongs to: an index of the caller's
     std::array<std::uint32_t, 3> vertex{};
-    bool front = true;                  // the side that faces the camera
+    bool front = true; // the side that faces the camera
 };
 
 // Where the samples of a pixel lie, in 1/256 pixel from its first corner.
@@ -81,8 +81,7 @@ unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePa
 // Calls visit(quad) for every quad of the area with a covered sample, rows first. Samples outside
 // the area are not covered.
 template<class Visit>
-void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePattern& pattern,
-                 Visit visit)
+void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePattern& pattern, Visit visit)
 {
     Rectangle bounds = boundsOf(triangle, area);
     std::array<Edge, 3> edges = edgesOf(triangle);

@@ -10,6 +10,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
@@ -52,28 +53,24 @@ Frozen prepare(const Scene& scene, const View& view)
     f.draws = makeDraws(scene, f.projection.origin, view.frame, view.output == Output::shaded);
     f.lights = prepareLights(view, f.projection.origin);
     if (std::optional<glm::vec3> direction = shadowDirection(view, f.lights))
-        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball,
-                                 f.projection.origin);
+        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball, f.projection.origin);
     f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
     return f;
 }
 
 // Draws one quad of one triangle into the tile.
-void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f,
-              const RasterTriangle& triangle, const Quad& quad, const SamplePattern& pattern,
-              Tile& tile)
+void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const RasterTriangle& triangle,
+              const Quad& quad, const SamplePattern& pattern, Tile& tile)
 {
     const Draw& draw = f.draws[triangle.draw];
     const Material& material = scene.materials[std::size_t(draw.material)];
     const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
     SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
-    bool blended =
-        material.alphaMode == AlphaMode::blend && all.view.output == Output::shaded;
+    bool blended = material.alphaMode == AlphaMode::blend && all.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
     for (int lane = 0; lane < 4; ++lane) {
         int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
-        unsigned samples =
-            tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
+        unsigned samples = tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
         if (!samples)
             continue;
         if (!points)
@@ -88,8 +85,7 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f,
     }
 }
 
-void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index,
-              Image& picture)
+void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index, Image& picture)
 {
     SamplePattern pattern = samplePattern(view.output == Output::shaded ? view.samples : 1);
     PixelInputs all{view, f.projection, f.lights, f.shadow};
@@ -100,9 +96,8 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
             tile.clear(x, y, background(all, x, y));
     for (std::uint32_t t : f.tiled.tiles[index]) {
         const RasterTriangle& triangle = f.tiled.triangles[t];
-        forEachQuad(triangle, area, pattern, [&](const Quad& quad) {
-            drawQuad(scene, all, f, triangle, quad, pattern, tile);
-        });
+        forEachQuad(triangle, area, pattern,
+                    [&](const Quad& quad) { drawQuad(scene, all, f, triangle, quad, pattern, tile); });
     }
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
@@ -112,8 +107,7 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
 Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
 {
     bool bytes = view.output == Output::shaded && !view.linearOutput;
-    Image picture = makeImage(view.width, view.height,
-                              bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
+    Image picture = makeImage(view.width, view.height, bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
     Frozen frozen = prepare(scene, view);
     const std::size_t tiles = frozen.tiled.tiles.size();
     CountedSteps done(progress, tiles);
@@ -132,11 +126,11 @@ std::optional<Error> checkView(const View& view)
 {
     auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
     if (!fits(view.width) || !fits(view.height))
-        return usageError("picture size: expected 1 to 16384 pixels a side, found "
-                          + std::to_string(view.width) + "x" + std::to_string(view.height));
-    if (view.frame < 0 || view.frame >= kFrameCount)
+        return usageError("picture size: expected 1 to 16384 pixels a side, found " + std::to_string(view.width) + "x"
+                          + std::to_string(view.height));
+    if (!isFrame(int(view.frame)))
         return usageError("frame: expected 0 to " + std::to_string(kFrameCount - 1) + ", found "
-                          + std::to_string(view.frame));
+                          + std::to_string(int(view.frame)));
     return std::nullopt;
 }
 
@@ -146,8 +140,9 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
 {
     if (std::optional<Error> error = checkView(view))
         return *error;
-    if (const Status ok = checkTrianglesDrawn(scene); !ok)
-        return ok.error();
+    for (const Status& ok : {checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+        if (!ok)
+            return ok.error();
     try {
         std::optional<Result<Image>> picture;
         withThreads(threads, [&] { picture = draw(scene, view, progress); });

@@ -39,8 +39,7 @@ std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
 // vertex divided by w, as functions linear over the raster (Olano and Greer, Triangle Scan
 // Conversion using 2D Homogeneous Coordinates, 1997). They exist also where corners lie behind
 // the eye. False for a triangle that is seen edge-on.
-bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle,
-                double& orientation)
+bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle, double& orientation)
 {
     std::array<glm::dvec3, 3> p;
     for (std::size_t i = 0; i < 3; ++i)
@@ -56,20 +55,17 @@ bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangl
         triangle.z.y += row.y * corner[i].z;
         triangle.z.constant += row.z * corner[i].z;
     }
-    return std::isfinite(triangle.z.x) && std::isfinite(triangle.z.y)
-        && std::isfinite(triangle.z.constant);
+    return std::isfinite(triangle.z.x) && std::isfinite(triangle.z.y) && std::isfinite(triangle.z.constant);
 }
 
 glm::ivec2 snap(glm::dvec4 corner)
 {
-    return {int(std::lround(corner.x / corner.w * kSubPixels)),
-            int(std::lround(corner.y / corner.w * kSubPixels))};
+    return {int(std::lround(corner.x / corner.w * kSubPixels)), int(std::lround(corner.y / corner.w * kSubPixels))};
 }
 
 std::int64_t doubledArea(const std::array<glm::ivec2, 3>& c)
 {
-    return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y)
-        - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
+    return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y) - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
 }
 
 // The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered
@@ -92,13 +88,11 @@ void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection
     }
 }
 
-void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
-           Cull cull, Chunk& chunk)
+void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection, Cull cull, Chunk& chunk)
 {
     const Draw& draw = draws[chunk.draw];
     const std::vector<std::uint32_t>& indices = draw.mesh->indices;
-    bool culling = cull == Cull::backFaces
-        && !scene.materials[std::size_t(draw.material)].doubleSided;
+    bool culling = cull == Cull::backFaces && !scene.materials[std::size_t(draw.material)].doubleSided;
     for (std::size_t t = chunk.first; t < chunk.last; ++t) {
         RasterTriangle triangle;
         triangle.draw = chunk.draw;
@@ -108,8 +102,7 @@ void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection&
         for (std::size_t i = 0; i < 3; ++i) {
             valid = valid && triangle.vertex[i] < draw.positions.size();
             if (valid)
-                corner[i] = projection.toRaster
-                    * glm::dvec4(draw.positions[triangle.vertex[i]], 1);
+                corner[i] = projection.toRaster * glm::dvec4(draw.positions[triangle.vertex[i]], 1);
         }
         double orientation = 0;
         if (!valid || !makePlanes(corner, triangle, orientation))
@@ -119,8 +112,7 @@ void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection&
         triangle.front = ((orientation > 0) == projection.rowsUpward) != draw.mirrored;
         if (culling && !triangle.front)
             continue;
-        addPieces(clip(corner, projection.width, projection.height), triangle, projection,
-                  chunk.result);
+        addPieces(clip(corner, projection.width, projection.height), triangle, projection, chunk.result);
     }
 }
 
@@ -134,8 +126,8 @@ void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
         Rectangle b = boundsOf(tiled.triangles[i], picture);
         for (int row = b.y0 / kTileSize; row <= (b.y1 - 1) / kTileSize; ++row)
             for (int column = b.x0 / kTileSize; column <= (b.x1 - 1) / kTileSize; ++column)
-                tiled.tiles[std::size_t(row) * std::size_t(tiled.columns) + std::size_t(column)]
-                    .push_back(std::uint32_t(i));
+                tiled.tiles[std::size_t(row) * std::size_t(tiled.columns) + std::size_t(column)].push_back(
+                    std::uint32_t(i));
     }
 }
 
@@ -148,13 +140,12 @@ Rectangle TiledTriangles::area(std::size_t tile, int width, int height) const
     return {x, y, std::min(width, x + kTileSize), std::min(height, y + kTileSize)};
 }
 
-TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws,
-                              const Projection& projection, Cull cull)
+TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
+                              Cull cull)
 {
     std::vector<Chunk> chunks = chunksOf(draws);
-    parallelFor(std::size_t(0), chunks.size(), [&](std::size_t i) {
-        setUp(scene, draws, projection, cull, chunks[i]);
-    });
+    parallelFor(std::size_t(0), chunks.size(),
+                [&](std::size_t i) { setUp(scene, draws, projection, cull, chunks[i]); });
     TiledTriangles tiled;
     for (Chunk& chunk : chunks) {
         tiled.triangles.insert(tiled.triangles.end(), chunk.result.begin(), chunk.result.end());

@@ -29,7 +29,7 @@ enum class Cull {
 
 // Clips, culls, projects and sorts into tiles. Left out: triangles with indices out of range,
 // with non-finite corners, edge-on, or outside the picture.
-TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws,
-                              const Projection& projection, Cull cull);
+TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
+                              Cull cull);
 
 } // namespace cotan::reference

@@ -44,8 +44,7 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
         float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
         if (!(z > stored))
             continue;
-        if (masked
-            && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).discarded)
+        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).discarded)
             continue;
         stored = z;
     }
@@ -59,22 +58,17 @@ void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
         const Draw& draw = draws[triangle.draw];
         if (scene.materials[std::size_t(draw.material)].alphaMode == AlphaMode::blend)
             continue;
-        forEachQuad(triangle, area, samplePattern(1),
-                    [&](const Quad& quad) { drawQuad(triangle, quad); });
+        forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
     }
 }
 
 // What four texels in a row weigh when three bilinear reads side by side are averaged.
-std::array<float, 4> filterWeights(float fraction)
-{
-    return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3};
-}
+std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3}; }
 
 } // namespace
 
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball,
-                        glm::dvec3 origin)
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin)
 {
     ShadowMap map;
     map.size = kShadowTexels;

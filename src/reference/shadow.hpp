@@ -16,17 +16,13 @@ struct ShadowMap {
     float texel = 0;             // world units a texel
     float depthUnit = 0;         // nearness of one world unit along the light
 
-    float at(int x, int y) const
-    {
-        return nearness[std::size_t(y) * std::size_t(size) + std::size_t(x)];
-    }
+    float at(int x, int y) const { return nearness[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
 };
 
 // Draws the scene as the light sees it, 2048 texels a side, fitted to the ball. Masked materials
 // cast the shadow of what their mask leaves; blended ones cast none.
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball,
-                        glm::dvec3 origin);
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin);
 
 // The share of light that arrives, 0..1: nine bilinear comparisons around the point. The point is
 // first moved off its surface along n, and compared with a bias that grows with the slope, both

@@ -6,21 +6,18 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/texture_uv.hpp"
 
 namespace cotan::reference {
 
 namespace {
 
-bool hasUv(const Draw& draw, std::size_t set)
-{
-    return draw.mesh->texcoords[set].size() >= draw.positions.size();
-}
+bool hasUv(const Draw& draw, std::size_t set) { return draw.mesh->texcoords[set].size() >= draw.positions.size(); }
 
 // In double, rounded once: what is left in a difference of neighbours is the rounding of the two
 // values, as on a GPU at its best.
 template<glm::length_t N>
-glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values,
-                                const RasterTriangle& triangle,
+glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, const RasterTriangle& triangle,
                                 const std::array<double, 3>& weights)
 {
     glm::vec<N, double> sum(0);
@@ -34,12 +31,6 @@ glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterT
                              const std::array<double, 3>& weights)
 {
     return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
-}
-
-glm::vec2 transformed(const Texture& texture, glm::vec2 uv)
-{
-    return {texture.uRow.x * uv.x + texture.uRow.y * uv.y + texture.uRow.z,
-            texture.vRow.x * uv.x + texture.vRow.y * uv.y + texture.vRow.z};
 }
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
@@ -72,9 +63,9 @@ glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
     return {glm::dot(glm::vec2(texture.uRow), edge), glm::dot(glm::vec2(texture.vRow), edge)};
 }
 
-// The frame `exact`: the triangle's edges in place of the pixel's differences. The edges are taken
+// The frames of a whole triangle: its edges in place of the pixel's differences. The edges are taken
 // in the mesh and moved afterwards, so they lose nothing far from the eye.
-f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
+f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, Frame frame, glm::vec3 n)
 {
     const Texture& texture = in.material->normalMap;
     std::size_t set = setOf(texture);
@@ -83,33 +74,27 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, glm::vec3 n)
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(Frame::exact, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
-                    in.draw->vectors * (p[v[2]] - p[v[0]]),
-                    transformedEdge(texture, uv[v[1]] - uv[v[0]]),
-                    transformedEdge(texture, uv[v[2]] - uv[v[0]]));
+    return evaluate(frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+                    transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
-// The frames that are made at the vertices. t = b = 0 where the mesh has not got what they need.
-f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n,
-                                 glm::vec3 rawNormal, const std::array<double, 3>& weights)
+// The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
+f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n, glm::vec3 rawNormal,
+                                 const std::array<double, 3>& weights)
 {
     const Draw& draw = *in.draw;
     const RasterTriangle& triangle = *in.triangle;
-    if (frame == Frame::smooth && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
-        return f32::cotan_frame_smooth(n, interpolated(draw.cotangentsU, triangle, weights),
-                                       interpolated(draw.cotangentsV, triangle, weights));
-    if (frame == Frame::smooth || draw.tangents.empty())
+    if (readsCotangents(frame) && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
+        return evaluateCotangents(frame, n, interpolated(draw.cotangentsU, triangle, weights),
+                                  interpolated(draw.cotangentsV, triangle, weights));
+    if (readsCotangents(frame) || draw.tangents.empty())
         return {glm::vec3(0), glm::vec3(0), n};
     glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
-    if (frame == Frame::vertex)
-        return f32::cotan_frame_vertex(n, glm::vec3(tangent), tangent.w);
-    return f32::cotan_frame_mikktspace(rawNormal, glm::vec3(tangent), tangent.w);
+    // `mikktspace` wants its normal as interpolated.
+    return evaluateTangents(frame, frame == Frame::mikktspace ? rawNormal : n, glm::vec3(tangent), tangent.w);
 }
 
-glm::vec3 finiteOrZero(glm::vec3 v)
-{
-    return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0);
-}
+glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
 
 // The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
 // zero floats are dense, so close steps of uv far from zero are not lost to rounding.
@@ -155,12 +140,11 @@ QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, 
     return quad;
 }
 
-UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
-                   Derivatives derivatives)
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives)
 {
     Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {transformed(texture, quad.uv[setOf(texture)][std::size_t(lane)]),
-            uvDifference(texture, quad, x), uvDifference(texture, quad, y)};
+    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, quad, x),
+            uvDifference(texture, quad, y)};
 }
 
 BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -170,8 +154,7 @@ BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
     base.value = m.baseColor;
     if (in.maps->baseColor)
         base.value *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
-                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives),
-                             in.view->pointSampled);
+                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
     const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
     if (colors.size() >= in.draw->positions.size())
         base.value *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
@@ -199,14 +182,13 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     f32::cotan_differences safe = f32::cotan_scale_differences(dpdx, dpdy, uv.dx, uv.dy);
     glm::vec3 n = f32::cotan_safe_normal(raw, safe.dpdx, safe.dpdy);
 
-    auto frameName = Frame(view.frame);
     f32::cotan_frame frame;
-    if (frameName == Frame::exact)
-        frame = frameOfTriangle(in, n);
-    else if (info(frameName).source == FrameSource::vertices)
-        frame = frameOfVertices(in, frameName, n, raw, weights);
+    if (info(view.frame).source == FrameSource::triangle)
+        frame = frameOfTriangle(in, view.frame, n);
+    else if (readsVertices(view.frame))
+        frame = frameOfVertices(in, view.frame, n, raw, weights);
     else
-        frame = evaluate(frameName, n, dpdx, dpdy, uv.dx, uv.dy);
+        frame = evaluate(view.frame, n, dpdx, dpdy, uv.dx, uv.dy);
 
     SurfaceNormal result;
     result.interpolated = result.finished = n;
@@ -214,13 +196,12 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
-    result.mapped =
-        in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
+    result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
-        glm::vec4 texel =
-            sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
-        glm::vec3 m = f32::cotan_decode(
-            glm::vec3(texel), toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
+        glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
+        glm::vec3 m =
+            f32::cotan_decode(glm::vec3(texel),
+                              toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
                                                                  double(material.normalScale)));
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);

@@ -1,4 +1,7 @@
 // What a pixel of a triangle sees of its surface: normal, frame, material.
+//
+// The part `surface` answers the same question for bakers and checkers. This is a second answer on purpose: what they
+// make is judged by pictures that are drawn here, so nothing is shared but Scene and the portable text.
 #pragma once
 
 #include <array>
@@ -19,9 +22,9 @@ namespace cotan::reference {
 // Interpolated values in the four pixels of a quad, covered or not: helper lanes extrapolate the
 // triangle's plane. Order: as in Quad.
 struct QuadPoints {
-    std::array<std::array<double, 3>, 4> weights{}; // of the three vertices, perspective-correct
-    std::array<glm::vec3, 4> position{};            // relative to the eye
-    std::array<std::array<glm::vec2, 4>, 2> uv{};   // both sets; 0 where the mesh has none
+    std::array<std::array<double, 3>, 4> weights{};     // of the three vertices, perspective-correct
+    std::array<glm::vec3, 4> position{};                // relative to the eye
+    std::array<std::array<glm::vec2, 4>, 2> uv{};       // both sets; 0 where the mesh has none
     std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus that of the triangle's first corner
 };
 
@@ -37,8 +40,7 @@ struct SurfaceInputs {
 };
 
 // Texture coordinates of a map in one lane, transformed as it asks, with their differences.
-UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane,
-                   Derivatives derivatives);
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives);
 
 // The base colour: factor, map and vertex colour; alpha 1 unless the material is blended.
 // discarded: cut out by a mask, or, where nothing is blended, all but invisible.
@@ -54,10 +56,10 @@ struct SurfaceNormal {
     glm::vec3 finished{0};     // unit, perturbed, turned towards the camera's side
     glm::vec3 t{0};
     glm::vec3 b{0};
-    glm::vec2 uv{0};           // of the normal map
-    bool mapped = false;       // there is a normal map, and what follows is set
-    f32::cotan_frame frame{};  // that `finished` was made with
-    glm::vec3 texel{0, 0, 1};  // decoded, unit, in the frame; turned towards the camera's side
+    glm::vec2 uv{0};          // of the normal map
+    bool mapped = false;      // there is a normal map, and what follows is set
+    f32::cotan_frame frame{}; // that `finished` was made with
+    glm::vec3 texel{0, 0, 1}; // decoded, unit, in the frame; turned towards the camera's side
 };
 
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);

@@ -45,8 +45,8 @@ void setCorners(TangentSpace& space, const Draw& draw, const RasterTriangle& tri
 } // namespace
 
 std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, const SurfaceNormal& normal,
-                                           const f32::cotan_surface& surface,
-                                           const std::array<double, 3>& weights, bool orthographic)
+                                           const f32::cotan_surface& surface, const std::array<double, 3>& weights,
+                                           bool orthographic)
 {
     const Draw& draw = *in.draw;
     const Lighting lighting = in.view->lighting;

@@ -71,23 +71,21 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
     bool stretched = longer > 1 && s.mip != MipFilter::none && s.minify == Filter::linear;
     // Less a little, so that rounding does not make two probes of a square.
     if (stretched)
-        f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer) - 1e-3f)), 1,
-                              kMaxProbes);
+        f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer) - 1e-3f)), 1, kMaxProbes);
     f.axis = alongX >= alongY ? dx : dy;
     f.lod = std::log2(longer / float(f.probes));
     return f;
 }
 
-const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture,
-                        Content content, NormalMapFormat format, bool withLevels)
+const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture, Content content,
+                        Convention format, bool withLevels)
 {
     if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
         return nullptr;
     const Image& image = scene.images[std::size_t(texture.image)];
-    if (!isUsable(image))
+    if (!hasPixels(image))
         return nullptr;
-    const MipChain*& known =
-        library.made[{texture.image, content, format.expansion, format.channels}];
+    const MipChain*& known = library.made[{texture.image, content, format.expansion, format.channels}];
     if (!known) {
         library.chains.push_back(makeMipChain(image, content, format, withLevels));
         known = &library.chains.back();
@@ -97,8 +95,7 @@ const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Textu
 
 } // namespace
 
-glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at,
-                 bool pointSampled)
+glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at, bool pointSampled)
 {
     glm::vec2 uv = usable(at.uv);
     if (pointSampled)
@@ -117,7 +114,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
     TextureLibrary library;
     bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
     for (const Material& m : scene.materials) {
-        auto get = [&](const Texture& texture, Content content, NormalMapFormat format = {}) {
+        auto get = [&](const Texture& texture, Content content, Convention format = {}) {
             return chainOf(library, scene, texture, content, format, levels);
         };
         MaterialMaps maps;

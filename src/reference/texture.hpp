@@ -25,8 +25,7 @@ struct UvDifferences {
 // (OpenGL 4.6, section 8.14); stretched footprints are read with up to eight probes along their
 // longer axis. Coordinates that are not finite are taken as 0.
 // pointSampled: the nearest texel of level 0 instead, whatever the sampler says.
-glm::vec4 sample(const MipChain& chain, const Sampler& sampler, const UvDifferences& at,
-                 bool pointSampled);
+glm::vec4 sample(const MipChain& chain, const Sampler& sampler, const UvDifferences& at, bool pointSampled);
 
 // The chains of one material; null where the material has no such map or its image is unusable.
 struct MaterialMaps {
@@ -43,7 +42,7 @@ struct TextureLibrary {
     std::deque<MipChain> chains; // a deque, since the materials point into it
 
     // The chain of every (image, content, expansion, channels) made so far.
-    std::map<std::tuple<int, Content, int, int>, const MipChain*> made;
+    std::map<std::tuple<int, Content, Expansion, Channels>, const MipChain*> made;
 };
 
 // Makes the chains that the view reads: all for shaded pictures, otherwise normal maps and the

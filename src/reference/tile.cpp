@@ -16,41 +16,33 @@ float nearnessAt(const Plane& z, int x, int y, glm::ivec2 offset)
     return float(z.at(x + offset.x / double(kSubPixels), y + offset.y / double(kSubPixels)));
 }
 
-std::uint8_t toByte(float x)
-{
-    return std::uint8_t(std::lround(f32::cotan_saturate(x) * 255.0f));
-}
+std::uint8_t toByte(float x) { return std::uint8_t(std::lround(f32::cotan_saturate(x) * 255.0f)); }
 
 } // namespace
 
 Tile::Tile(Rectangle area, int samples) : area_(area), samples_(samples)
 {
-    std::size_t count = std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0)
-        * std::size_t(samples);
+    std::size_t count = std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0) * std::size_t(samples);
     value_.assign(count, glm::vec4(0));
     nearness_.assign(count, -1.0f);
 }
 
 std::size_t Tile::at(int x, int y) const
 {
-    std::size_t pixel = std::size_t(y - area_.y0) * std::size_t(area_.x1 - area_.x0)
-        + std::size_t(x - area_.x0);
+    std::size_t pixel = std::size_t(y - area_.y0) * std::size_t(area_.x1 - area_.x0) + std::size_t(x - area_.x0);
     return pixel * std::size_t(samples_);
 }
 
-unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z,
-                      const SamplePattern& pattern) const
+unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const
 {
     unsigned passed = 0;
     for (std::size_t s = 0; s < std::size_t(samples_); ++s)
-        if ((covered >> s & 1)
-            && nearnessAt(z, x, y, pattern.offset[s]) > nearness_[at(x, y) + s])
+        if ((covered >> s & 1) && nearnessAt(z, x, y, pattern.offset[s]) > nearness_[at(x, y) + s])
             passed |= 1u << s;
     return passed;
 }
 
-void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
-                 const SamplePattern& pattern)
+void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern)
 {
     for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
         if (!(samples >> s & 1))
@@ -60,8 +52,7 @@ void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
     }
 }
 
-void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
-                 const SamplePattern& pattern)
+void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern)
 {
     if (layers_.size() == kMostLayers)
         throw TooManyLayers{};

@@ -24,12 +24,10 @@ public:
     Tile(Rectangle area, int samples);
 
     // The samples of `covered` for which z passes: nearer than what is there.
-    unsigned nearer(int x, int y, unsigned covered, const Plane& z,
-                    const SamplePattern& pattern) const;
+    unsigned nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const;
 
     // Replaces the samples and their nearness.
-    void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z,
-               const SamplePattern& pattern);
+    void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern);
 
     // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
     // composed in `resolve`, by nearness; of equally near ones the later is in front.

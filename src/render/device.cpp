@@ -18,10 +18,8 @@ struct Candidate {
     std::string missing; // empty: it can run the renderer
 };
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                              VkDebugUtilsMessageTypeFlagsEXT,
-                                              const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                              void* messages)
+VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages)
 {
     // The layer calls from inside Vulkan, through which no exception may pass.
     try {
@@ -35,11 +33,8 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& mes
 {
     using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
     using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    return {{},
-            Severity::eWarning | Severity::eError,
-            Type::eValidation | Type::ePerformance,
-            collectMessage,
-            &messages};
+    return {
+        {}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, collectMessage, &messages};
 }
 
 bool hasValidation(const vk::raii::Context& context)
@@ -50,8 +45,7 @@ bool hasValidation(const vk::raii::Context& context)
     return false;
 }
 
-vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
-                                std::vector<std::string>& messages)
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate, std::vector<std::string>& messages)
 {
     const vk::ApplicationInfo application("cotan", 1, "cotan", 1, VK_API_VERSION_1_3);
     std::vector<const char*> layers;
@@ -61,8 +55,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
-    const vk::InstanceCreateInfo info({}, &application, layers, extensions,
-                                      validate ? &messenger : nullptr);
+    const vk::InstanceCreateInfo info({}, &application, layers, extensions, validate ? &messenger : nullptr);
     return vk::raii::Instance(context, info);
 }
 
@@ -81,8 +74,7 @@ int rank(vk::PhysicalDeviceType type)
 
 std::string versionText(std::uint32_t version)
 {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "."
-        + std::to_string(VK_API_VERSION_MINOR(version));
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
 }
 
 // The family with graphics; -1 if there is none.
@@ -102,8 +94,7 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
         return "needs Vulkan 1.3, has " + versionText(properties.apiVersion);
     if (graphicsFamily(physical) < 0)
         return "has no graphics queue";
-    const auto features =
-        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+    const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
     if (!v13.dynamicRendering || !v13.synchronization2)
         return "lacks dynamicRendering or synchronization2";
@@ -119,12 +110,11 @@ std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
         const vk::PhysicalDeviceProperties properties = physical.getProperties();
         std::string missing = missingFeature(physical);
         const auto family = static_cast<std::uint32_t>(std::max(graphicsFamily(physical), 0));
-        candidates.push_back({std::move(physical), std::string(properties.deviceName.data()),
-                              properties.deviceType, family, std::move(missing)});
+        candidates.push_back({std::move(physical), std::string(properties.deviceName.data()), properties.deviceType,
+                              family, std::move(missing)});
     }
-    std::stable_sort(
-        candidates.begin(), candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return rank(a.type) < rank(b.type); });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return rank(a.type) < rank(b.type); });
     return candidates;
 }
 
@@ -139,8 +129,7 @@ std::string listed(const std::vector<Candidate>& candidates)
 {
     std::string text;
     for (const Candidate& c : candidates)
-        text +=
-            (text.empty() ? "" : ", ") + c.name + (c.missing.empty() ? "" : " (" + c.missing + ")");
+        text += (text.empty() ? "" : ", ") + c.name + (c.missing.empty() ? "" : " (" + c.missing + ")");
     return text.empty() ? "none" : text;
 }
 
@@ -152,16 +141,14 @@ Result<Candidate> choose(std::vector<Candidate> candidates, const std::string& w
             return std::move(c);
     if (wanted.empty())
         return unavailableError("no Vulkan device can be used; found: " + listed(candidates));
-    return unavailableError("no Vulkan device named '" + wanted
-                            + "' can be used; found: " + listed(candidates));
+    return unavailableError("no Vulkan device named '" + wanted + "' can be used; found: " + listed(candidates));
 }
 
 // ---- opening --------------------------------------------------------------------------------
 
 bool filterable(const vk::raii::PhysicalDevice& physical, vk::Format format)
 {
-    const auto needed = vk::FormatFeatureFlagBits::eSampledImage
-        | vk::FormatFeatureFlagBits::eSampledImageFilterLinear
+    const auto needed = vk::FormatFeatureFlagBits::eSampledImage | vk::FormatFeatureFlagBits::eSampledImageFilterLinear
         | vk::FormatFeatureFlagBits::eTransferDst;
     return (physical.getFormatProperties(format).optimalTilingFeatures & needed) == needed;
 }
@@ -169,8 +156,7 @@ bool filterable(const vk::raii::PhysicalDevice& physical, vk::Format format)
 void describe(Device& d)
 {
     const auto properties =
-        d.physical
-            .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        d.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
     const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
     d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
@@ -184,8 +170,7 @@ void describe(Device& d)
 
 void openLogicalDevice(Device& d)
 {
-    const auto has =
-        d.physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    const auto has = d.physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     const auto& core = has.get<vk::PhysicalDeviceFeatures2>().features;
     const auto& v12 = has.get<vk::PhysicalDeviceVulkan12Features>();
     // Mesa's CPU driver (22.3) draws dots along magnified texel edges with it, and takes long.

@@ -38,8 +38,7 @@ glm::uvec2 split(vk::DeviceAddress address)
 // Addresses and flags of CotanDraw.
 void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
 {
-    const Stream texcoord =
-        scene.materials[std::size_t(mesh.material)].normalTexcoord == 1 ? kTexcoord1 : kTexcoord0;
+    const Stream texcoord = scene.materials[std::size_t(mesh.material)].normalTexcoord == 1 ? kTexcoord1 : kTexcoord0;
     const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
     if (base != 0) {
         constants.positions = split(base + mesh.offsets[kPosition]);
@@ -68,28 +67,28 @@ Status checkView(const Device& device, const View& view)
     if (view.lighting != Lighting::world)
         return unavailableError("lighting in tangent space: only the reference renderer does it "
                                 "(--device reference)");
-    const std::uint32_t largest =
-        std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
-                  device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
-                  device.limits.maxViewportDimensions[1]});
+    const std::uint32_t largest = std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
+                                            device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
+                                            device.limits.maxViewportDimensions[1]});
     const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
     if (view.width < 1 || view.height < 1 || std::uint32_t(view.width) > largest
         || std::uint32_t(view.height) > largest)
-        return usageError("size " + size + ": " + device.name + " draws 1 to "
-                          + std::to_string(largest) + " pixels a side");
+        return usageError("size " + size + ": " + device.name + " draws 1 to " + std::to_string(largest)
+                          + " pixels a side");
     vk::DeviceSize room = 0;
     for (std::uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
         room = std::max(room, device.memory.memoryHeaps[i].size);
     const vk::DeviceSize needed = Targets::bytes(targetKind(device, view));
     if (needed > room / 10 * 9)
-        return usageError("size " + size + " needs " + std::to_string(needed >> 20)
-                          + " MiB: " + device.name + " has " + std::to_string(room >> 20));
-    if (view.frame < 0 || view.frame >= kFrameCount)
-        return usageError("frame " + std::to_string(view.frame) + ": expected 0 to "
+        return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: " + device.name + " has "
+                          + std::to_string(room >> 20));
+    if (!isFrame(int(view.frame)))
+        return usageError("frame " + std::to_string(int(view.frame)) + ": expected 0 to "
                           + std::to_string(kFrameCount - 1));
-    if (view.frame == int(Frame::exact) && !device.exact)
-        return unavailableError("the frame exact needs the features geometryShader and "
-                                "bufferDeviceAddress: "
+    if (info(view.frame).source == FrameSource::triangle && !device.exact)
+        return unavailableError("the frame " + std::string(name(view.frame))
+                                + " needs the features geometryShader and "
+                                  "bufferDeviceAddress: "
                                 + device.name + " lacks them");
     return Done{};
 }
@@ -105,8 +104,7 @@ void divideByAlpha(Image& image)
         const float alpha = float(p[3]) / 255.0f;
         for (int c = 0; c < 3; ++c) {
             const float linear = f32::cotan_srgb_to_linear(float(p[c]) / 255.0f) / alpha;
-            p[c] = std::uint8_t(
-                std::lround(255.0f * f32::cotan_linear_to_srgb(std::min(linear, 1.0f))));
+            p[c] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(std::min(linear, 1.0f))));
         }
     }
 }
@@ -132,11 +130,9 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
 }
 
 Drawer::Drawer(const Device& device, const Layouts& layouts)
-    : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device),
-      memory_(device)
+    : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
 {
-    viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView),
-                                 vk::BufferUsageFlagBits::eUniformBuffer);
+    viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
     vk::SamplerCreateInfo sampler;
     sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
     sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
@@ -205,8 +201,7 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, b
     if (lightBuffer_.size < size) {
         lightBuffer_ = {};
         lightMemory_ = std::make_unique<Memory>(*device_);
-        lightBuffer_ =
-            makeHostBuffer(*device_, *lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
+        lightBuffer_ = makeHostBuffer(*device_, *lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
@@ -230,30 +225,26 @@ void Drawer::writePictureSet(bool layered)
 {
     const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view,
-                                         vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::DescriptorBufferInfo lists(layered ? *layers_->lists().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     using T = vk::DescriptorType;
-    device_->device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
-         vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
-         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
-         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
-         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
-                                layered && targets_->multisampled() ? depth : shadow)},
-        {});
+    device_->device.updateDescriptorSets({vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
+                                          vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
+                                          vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
+                                          vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
+                                          vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
+                                          vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
+                                                                 layered && targets_->multisampled() ? depth : shadow)},
+                                         {});
 }
 
-void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                      const Item& item) const
+void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
 {
     const GpuMesh& mesh = *item.mesh;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 1,
-                                item.material->set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 1, item.material->set, {});
     std::array<vk::Buffer, kStreamCount> buffers;
     buffers.fill(*scene.buffers[mesh.buffer].buffer);
     // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
@@ -263,8 +254,8 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
     commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
 }
 
-void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                       const std::vector<Item>& items, PipelineKey key)
+void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
+                       PipelineKey key)
 {
     const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
     const std::uint32_t asked = shadow ? 0 : mapsNeeded(key);
@@ -276,14 +267,12 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
         before = &item;
         const bool both = shadow || item.material->doubleSided;
         commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-        commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise
-                                             : vk::FrontFace::eCounterClockwise);
+        commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         drawItem(commands, scene, item);
     }
 }
 
-void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                          const DrawLists& lists)
+void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists)
 {
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
     const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
@@ -292,8 +281,7 @@ void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScen
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
     if (draws) {
-        vk::RenderingAttachmentInfo depth(*shadowMap_.view,
-                                          vk::ImageLayout::eDepthAttachmentOptimal);
+        vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal);
         depth.loadOp = vk::AttachmentLoadOp::eClear;
         depth.storeOp = vk::AttachmentStoreOp::eStore;
         depth.clearValue.depthStencil = vk::ClearDepthStencilValue(1.0f, 0);
@@ -325,8 +313,8 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
 }
 
 // Everything that writes depth, and the background.
-void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                           const DrawLists& lists, const View& view)
+void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                           const View& view)
 {
     PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
@@ -349,14 +337,15 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
 const vk::raii::CommandBuffer& Drawer::begin()
 {
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0,
-                                pictureSet_, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, pictureSet_, {});
     return commands;
 }
 
 Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
 {
     if (const Status ok = checkView(*device_, view); !ok)
+        return ok.error();
+    if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
         return ok.error();
     const Targets::Kind kind = targetKind(*device_, view);
     if (!targets_ || !(targets_->kind() == kind)) {

@@ -44,19 +44,17 @@ private:
     void prepareShadowMap(bool needed);
     void prepareLayers();
     void writePictureSet(bool layered);
-    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                      const DrawLists& lists);
-    void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                       const DrawLists& lists, const View& view);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists);
+    void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                       const View& view);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
     Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
     std::uint32_t keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view, const vk::Rect2D& band);
     void composeLayers(const vk::Rect2D& band);
-    void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                  const Item& item) const;
-    void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                   const std::vector<Item>& items, PipelineKey key);
+    void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const;
+    void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
+                   PipelineKey key);
 
     const Device* device_;
     const Layouts* layouts_;

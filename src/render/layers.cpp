@@ -40,10 +40,7 @@ std::uint32_t LayerLists::mostRows() const
     return static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / width_, 1));
 }
 
-std::uint32_t LayerLists::capacity() const
-{
-    return static_cast<std::uint32_t>(kLayerBytes / sizeof(gpu::CotanLayer));
-}
+std::uint32_t LayerLists::capacity() const { return static_cast<std::uint32_t>(kLayerBytes / sizeof(gpu::CotanLayer)); }
 
 void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const
 {

@@ -17,9 +17,8 @@ vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
-Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
-                  vk::BufferUsageFlags usage, vk::MemoryPropertyFlags needed,
-                  vk::MemoryPropertyFlags wanted)
+Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
+                  vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
 {
     Buffer b;
     b.size = std::max<vk::DeviceSize>(size, 4);
@@ -48,20 +47,19 @@ std::uint32_t Memory::chooseType(std::uint32_t allowed, vk::MemoryPropertyFlags 
 
 Memory::Block& Memory::addBlock(std::uint32_t type, vk::DeviceSize size)
 {
-    const vk::MemoryAllocateFlagsInfo flags(
-        device_->exact ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags());
+    const vk::MemoryAllocateFlagsInfo flags(device_->exact ? vk::MemoryAllocateFlagBits::eDeviceAddress
+                                                           : vk::MemoryAllocateFlags());
     vk::MemoryAllocateInfo info(size, type, &flags);
     Block block{vk::raii::DeviceMemory(device_->device, info), type, size};
     const vk::MemoryPropertyFlags properties = device_->memory.memoryTypes[type].propertyFlags;
-    const auto mappable =
-        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+    const auto mappable = vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
     if ((properties & mappable) == mappable)
         block.mapped = static_cast<std::byte*>(block.memory.mapMemory(0, VK_WHOLE_SIZE));
     return blocks_.emplace_back(std::move(block));
 }
 
-Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements,
-                               vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
+Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
+                               vk::MemoryPropertyFlags wanted)
 {
     const std::uint32_t type = chooseType(requirements.memoryTypeBits, needed, wanted);
     // Buffers and images may share a block, so both keep the distance that they need.
@@ -77,19 +75,17 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements,
     return {*block->memory, offset, block->mapped ? block->mapped + offset : nullptr};
 }
 
-Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
-                        vk::BufferUsageFlags usage)
+Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {
     return makeBuffer(device, memory, size, usage, {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
 }
 
-Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
-                      vk::BufferUsageFlags usage, bool readBack)
+Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
+                      bool readBack)
 {
-    return makeBuffer(
-        device, memory, size, usage,
-        vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent,
-        readBack ? vk::MemoryPropertyFlagBits::eHostCached : vk::MemoryPropertyFlags());
+    return makeBuffer(device, memory, size, usage,
+                      vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent,
+                      readBack ? vk::MemoryPropertyFlagBits::eHostCached : vk::MemoryPropertyFlags());
 }
 
 Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
@@ -107,22 +103,19 @@ Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& i
     create.samples = info.samples;
     create.usage = info.usage;
     t.image = vk::raii::Image(device.device, create);
-    const Memory::Piece piece = memory.allocate(t.image.getMemoryRequirements(), {},
-                                                vk::MemoryPropertyFlagBits::eDeviceLocal);
+    const Memory::Piece piece =
+        memory.allocate(t.image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
     t.image.bindMemory(piece.memory, piece.offset);
     const vk::ImageSubresourceRange range(info.aspect, 0, info.levels, 0, 1);
-    t.view = vk::raii::ImageView(
-        device.device,
-        vk::ImageViewCreateInfo({}, *t.image, vk::ImageViewType::e2D, info.format, {}, range));
+    t.view = vk::raii::ImageView(device.device,
+                                 vk::ImageViewCreateInfo({}, *t.image, vk::ImageViewType::e2D, info.format, {}, range));
     return t;
 }
 
 Commands::Commands(const Device& device) : device_(&device)
 {
-    pool_ = vk::raii::CommandPool(device.device,
-                                  {vk::CommandPoolCreateFlagBits::eTransient, device.queueFamily});
-    buffer_ = std::move(
-        vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+    pool_ = vk::raii::CommandPool(device.device, {vk::CommandPoolCreateFlagBits::eTransient, device.queueFamily});
+    buffer_ = std::move(vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
     fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
 }
 
@@ -143,23 +136,20 @@ void Commands::submitAndWait()
     device_->device.resetFences(*fence_);
 }
 
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image,
-                vk::ImageAspectFlags aspect, vk::ImageLayout from, vk::ImageLayout to,
-                vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
+                vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
                 vk::PipelineStageFlags2 after, vk::AccessFlags2 used)
 {
-    const vk::ImageMemoryBarrier2 barrier(
-        before, written, after, used, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
-        image, {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS});
+    const vk::ImageMemoryBarrier2 barrier(before, written, after, used, from, to, VK_QUEUE_FAMILY_IGNORED,
+                                          VK_QUEUE_FAMILY_IGNORED, image,
+                                          {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS});
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
-Uploader::Uploader(const Device& device, vk::DeviceSize capacity)
-    : memory_(device), commands_(device)
+Uploader::Uploader(const Device& device, vk::DeviceSize capacity) : memory_(device), commands_(device)
 {
     const vk::DeviceSize widest = vk::DeviceSize(device.limits.maxImageDimension2D) * 16;
-    staging_ = makeHostBuffer(device, memory_, std::max(capacity, widest),
-                              vk::BufferUsageFlagBits::eTransferSrc);
+    staging_ = makeHostBuffer(device, memory_, std::max(capacity, widest), vk::BufferUsageFlagBits::eTransferSrc);
 }
 
 const vk::raii::CommandBuffer& Uploader::recording()
@@ -190,8 +180,7 @@ void Uploader::buffer(const Buffer& target, vk::DeviceSize offset, std::span<con
     while (!data.empty()) {
         const vk::DeviceSize part = room(data.size(), 4096);
         std::memcpy(staging_.mapped + used_, data.data(), part);
-        recording().copyBuffer(*staging_.buffer, *target.buffer,
-                               vk::BufferCopy(used_, offset, part));
+        recording().copyBuffer(*staging_.buffer, *target.buffer, vk::BufferCopy(used_, offset, part));
         used_ += part;
         offset += part;
         data = data.subspan(part);
@@ -210,8 +199,7 @@ void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<con
         std::memcpy(staging_.mapped + used_, data.data() + y * row, rows * row);
         const vk::BufferImageCopy copy(used_, 0, 0, {vk::ImageAspectFlagBits::eColor, index, 0, 1},
                                        {0, std::int32_t(y), 0}, {width, rows, 1});
-        recording().copyBufferToImage(*staging_.buffer, *target.image,
-                                      vk::ImageLayout::eTransferDstOptimal, copy);
+        recording().copyBufferToImage(*staging_.buffer, *target.image, vk::ImageLayout::eTransferDstOptimal, copy);
         used_ += rows * row;
         y += rows;
     }
@@ -221,9 +209,8 @@ void Uploader::image(const Texture2D& target, std::span<const std::span<const st
                      std::size_t bytesPerTexel)
 {
     const auto color = vk::ImageAspectFlagBits::eColor;
-    transition(recording(), *target.image, color, vk::ImageLayout::eUndefined,
-               vk::ImageLayout::eTransferDstOptimal, Stage::eTopOfPipe, {}, Stage::eTransfer,
-               Access::eTransferWrite);
+    transition(recording(), *target.image, color, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal,
+               Stage::eTopOfPipe, {}, Stage::eTransfer, Access::eTransferWrite);
     for (std::uint32_t i = 0; i < target.levels; ++i)
         level(target, i, levels[i], bytesPerTexel);
     transition(recording(), *target.image, color, vk::ImageLayout::eTransferDstOptimal,

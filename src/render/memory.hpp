@@ -57,11 +57,10 @@ struct Texture2D {
     std::uint32_t levels = 1;
 };
 
-Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
-                        vk::BufferUsageFlags usage);
+Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage);
 // Host visible and coherent, mapped. readBack: prefer cached memory.
-Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
-                      vk::BufferUsageFlags usage, bool readBack = false);
+Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
+                      bool readBack = false);
 
 struct TextureInfo {
     vk::Format format = vk::Format::eR8G8B8A8Unorm;
@@ -87,9 +86,8 @@ private:
     vk::raii::Fence fence_{nullptr};
 };
 
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image,
-                vk::ImageAspectFlags aspect, vk::ImageLayout from, vk::ImageLayout to,
-                vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
+void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
+                vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
                 vk::PipelineStageFlags2 after, vk::AccessFlags2 used);
 
 // Copies data into device buffers and images through one staging buffer, which is emptied when
@@ -101,8 +99,7 @@ public:
 
     void buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data);
     // levels: finest first, as many as the texture has, each without padding.
-    void image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
-               std::size_t bytesPerTexel);
+    void image(const Texture2D& target, std::span<const std::span<const std::byte>> levels, std::size_t bytesPerTexel);
     void finish();
 
 private:

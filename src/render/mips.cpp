@@ -31,9 +31,9 @@ struct FloatLevel {
 // Green as it is stored: levels are made in the map's own terms.
 f32::cotan_normal_format portableFormat(const MipRequest& request)
 {
-    NormalMapFormat format = request.normalFormat;
-    format.greenAlongV = true;
-    return toFormat<f32::cotan_normal_format>(format, request.image->type);
+    auto format = toFormat<f32::cotan_normal_format>(request.normalFormat, request.image->type);
+    format.green = 1;
+    return format;
 }
 
 vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
@@ -67,8 +67,7 @@ const std::array<std::uint8_t, kSrgbSteps>& byteOfLinear()
         std::array<std::uint8_t, kSrgbSteps> t{};
         for (int i = 0; i < kSrgbSteps; ++i) {
             const float root = float(i) / float(kSrgbSteps - 1);
-            t[std::size_t(i)] =
-                std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(root * root)));
+            t[std::size_t(i)] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(root * root)));
         }
         return t;
     }();
@@ -226,8 +225,7 @@ bool storedAsItIs(const MipRequest& request)
     const PixelType type = request.image->type;
     return (type == PixelType::unorm8
             && (request.format == TexelFormat::srgb8 || request.format == TexelFormat::unorm8))
-        || (type == PixelType::unorm16 && request.format == TexelFormat::unorm16
-            && request.kind != TextureKind::color);
+        || (type == PixelType::unorm16 && request.format == TexelFormat::unorm16 && request.kind != TextureKind::color);
 }
 
 void addFinestLevel(MipChain& chain, const MipRequest& request)
@@ -272,9 +270,8 @@ void addSmallerLevel(MipChain& chain, const MipRequest& request, const FloatLeve
 {
     const f32::cotan_normal_format format = portableFormat(request);
     const bool normal = request.kind == TextureKind::normal;
-    addLevel(chain, level.width, level.height, [&](std::size_t i) {
-        return normal ? encodedNormal(level.texels[i], format) : level.texels[i];
-    });
+    addLevel(chain, level.width, level.height,
+             [&](std::size_t i) { return normal ? encodedNormal(level.texels[i], format) : level.texels[i]; });
 }
 
 } // namespace
@@ -289,12 +286,6 @@ std::size_t bytesPerTexel(TexelFormat format)
     case TexelFormat::float32: break;
     }
     return 16;
-}
-
-bool usableImage(const Image& image)
-{
-    return image.width > 0 && image.height > 0
-        && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
 }
 
 TexelFormat texelFormat(PixelType type, TextureKind kind, bool filterable16, bool filterable32)
@@ -317,9 +308,8 @@ MipChain buildMips(const MipRequest& request)
         addFinestLevel(chain, request);
     FloatLevel level;
     while (width > 1 || height > 1) {
-        level = level.texels.empty()
-            ? firstHalf(request)
-            : halved(width, height, [&level](int y) { return std::as_const(level).row(y); });
+        level = level.texels.empty() ? firstHalf(request)
+                                     : halved(width, height, [&level](int y) { return std::as_const(level).row(y); });
         width = level.width;
         height = level.height;
         if (fits())

@@ -35,15 +35,12 @@ struct MipChain {
 };
 
 struct MipRequest {
-    const Image* image = nullptr; // must outlive the chain; see usableImage
+    const Image* image = nullptr; // must outlive the chain; see hasPixels
     TextureKind kind = TextureKind::data;
-    NormalMapFormat normalFormat; // for kind normal
+    Convention normalFormat; // for kind normal
     TexelFormat format = TexelFormat::unorm8;
     int largest = 16384; // levels wider or higher than this are left out
 };
-
-// Whether the image has a size and all of its bytes.
-bool usableImage(const Image& image);
 
 // The format that keeps all of an image's precision; filterable16 and filterable32: whether the
 // device filters 16-bit unorm and 32-bit float textures.

@@ -9,14 +9,12 @@ namespace cotan {
 
 namespace {
 
-vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
-                                            std::span<const vk::DescriptorType> types)
+vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<const vk::DescriptorType> types)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const vk::DescriptorType type : types)
         bindings.emplace_back(static_cast<std::uint32_t>(bindings.size()), type, 1, kBothStages);
-    return vk::raii::DescriptorSetLayout(device.device,
-                                         vk::DescriptorSetLayoutCreateInfo({}, bindings));
+    return vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
 }
 
 // The values of shaders/constants.glsl, in the order of their numbers.
@@ -39,8 +37,8 @@ struct Specialization {
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
-        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                      sizeof values, values.data());
+        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
+                                      values.data());
     }
     Specialization(const Specialization&) = delete; // info points into this
 };
@@ -53,21 +51,18 @@ struct StageShaders {
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
-    constexpr int kExact = 10;
     switch (key.pass) {
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers:
-        return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
+    case Pass::layers: return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
     case Pass::compose:
-        return {Shader::composeVert, key.samples == vk::SampleCountFlagBits::e1
-                                            ? Shader::composeFrag
-                                            : Shader::composeMultisampledFrag};
+        return {Shader::composeVert,
+                key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
     case Pass::forward: break;
     }
     return {Shader::forwardVert,
-            key.frame == kExact ? Shader::forwardExactFrag : Shader::forwardFrag};
+            info(key.frame).source == FrameSource::triangle ? Shader::forwardExactFrag : Shader::forwardFrag};
 }
 
 // One triangle, made by the vertex stage, over everything.
@@ -88,16 +83,15 @@ struct VertexInput {
             F::eR32G32B32Sfloat, F::eR32G32B32Sfloat,    F::eR32G32B32A32Sfloat};
         std::uint32_t count = 0;
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
-            const bool forShadow = i == kPosition || i == kTexcoord0 || i == kTexcoord1
-                || i == kColor || i == kTexcoordOrigin;
+            const bool forShadow =
+                i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor || i == kTexcoordOrigin;
             const bool shadow = pass == Pass::shadow || pass == Pass::shadowMask;
             if (coversPicture(pass) || (shadow && !forShadow))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
             attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
         }
-        info = vk::PipelineVertexInputStateCreateInfo({}, count, bindings.data(), count,
-                                                      attributes.data());
+        info = vk::PipelineVertexInputStateCreateInfo({}, count, bindings.data(), count, attributes.data());
     }
     VertexInput(const VertexInput&) = delete;
 };
@@ -123,7 +117,7 @@ vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
     vk::PipelineDepthStencilStateCreateInfo state;
     state.depthTestEnable = pass != Pass::compose;
     state.depthWriteEnable = pass != Pass::compose && pass != Pass::background && pass != Pass::layers;
-    state.depthCompareOp = camera          ? vk::CompareOp::eGreater
+    state.depthCompareOp = camera  ? vk::CompareOp::eGreater
         : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
                                    : vk::CompareOp::eLess;
     return state;
@@ -144,14 +138,12 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    picture = makeSetLayout(device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
-                                               T::eStorageBuffer, kImage});
-    material = makeSetLayout(device,
-                             std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
+    picture = makeSetLayout(
+        device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage});
+    material = makeSetLayout(device, std::array{T::eUniformBuffer, kImage, kImage, kImage, kImage, kImage});
     const std::array sets{*picture, *material};
     const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
-    pipeline =
-        vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
 }
 
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
@@ -180,16 +172,14 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const Specialization specialization(key);
     const StageShaders shaders = shadersOf(key, device_->exact);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
-    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex,
-                        module(shaders.vertex), "main");
+    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex, module(shaders.vertex),
+                        "main");
     if (shaders.fragment)
-        stages.emplace_back(vk::PipelineShaderStageCreateFlags(),
-                            vk::ShaderStageFlagBits::eFragment, module(*shaders.fragment), "main",
-                            &specialization.info);
+        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eFragment,
+                            module(*shaders.fragment), "main", &specialization.info);
 
     const VertexInput vertexInput(key.pass);
-    const vk::PipelineInputAssemblyStateCreateInfo assembly({},
-                                                            vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
@@ -197,16 +187,14 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose);
     const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
     std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
-                                          vk::DynamicState::eCullMode,
-                                          vk::DynamicState::eFrontFace};
+                                          vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
     if (!coversPicture(key.pass))
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(
         0, colors, &key.format, key.pass == Pass::compose ? vk::Format::eUndefined : vk::Format::eD32Sfloat);
-    vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr,
-                                        &viewport, &raster, &multisample, &depth, &color,
-                                        &dynamicState, *layouts_->pipeline);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
+                                        &multisample, &depth, &color, &dynamicState, *layouts_->pipeline);
     info.pNext = &rendering;
     return vk::raii::Pipeline(device_->device, nullptr, info);
 }

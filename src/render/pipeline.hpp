@@ -34,7 +34,7 @@ enum class Pass { shadow, shadowMask, forward, background, layers, compose };
 struct PipelineKey {
     Pass pass = Pass::forward;
     AlphaMode alphaMode = AlphaMode::opaque;
-    int frame = 0;
+    Frame frame = Frame::cotangent;
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     bool coarse = false;
@@ -51,9 +51,7 @@ struct PipelineKey {
 
 class Pipelines {
 public:
-    Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts)
-    {
-    }
+    Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
     vk::Pipeline get(const PipelineKey& key);
 
 private:

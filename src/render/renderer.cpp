@@ -74,8 +74,7 @@ Result<Image> Renderer::render(const View& view)
     if (!state_->scene)
         if (const Status loaded = load(Scene{}); !loaded)
             return loaded.error();
-    return guarded<Image>(
-        "drawing", [&] { return state_->drawer->draw(*state_->scene, view, state_->timings); });
+    return guarded<Image>("drawing", [&] { return state_->drawer->draw(*state_->scene, view, state_->timings); });
 }
 
 const std::string& Renderer::deviceName() const { return state_->device->name; }

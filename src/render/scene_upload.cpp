@@ -5,6 +5,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "gpu_structs.hpp"
 #include "view_data.hpp"
 
@@ -19,10 +20,7 @@ constexpr vk::DeviceSize kStaging = vk::DeviceSize(16) << 20;
 constexpr std::array<float, 8> kConstants{1, 1, 1, 1, 0, 0, 0, 0};
 constexpr vk::DeviceSize kZeroOffset = 16;
 
-template<class T> std::span<const std::byte> bytesOf(const T& array)
-{
-    return std::as_bytes(std::span(array));
-}
+template<class T> std::span<const std::byte> bytesOf(const T& array) { return std::as_bytes(std::span(array)); }
 
 struct StreamData {
     std::span<const std::byte> bytes; // empty: absent
@@ -116,8 +114,7 @@ Bounds withinReach(const Bounds& box)
 vk::DeviceSize padded(std::size_t bytes) { return (vk::DeviceSize(bytes) + 15) / 16 * 16; }
 
 // Gives every stream and the indices of the mesh their place from `offset` on; returns the end.
-vk::DeviceSize place(GpuMesh& gpu, const Mesh& mesh, const RelativeTexcoords& texcoords,
-                     vk::DeviceSize offset)
+vk::DeviceSize place(GpuMesh& gpu, const Mesh& mesh, const RelativeTexcoords& texcoords, vk::DeviceSize offset)
 {
     const std::array<StreamData, kStreamCount> streams = streamsOf(mesh, texcoords);
     for (std::size_t s = 0; s < kStreamCount; ++s) {
@@ -149,9 +146,8 @@ bool sameUse(const Texture& a, const Texture& b)
 {
     const Sampler& s = a.sampler;
     const Sampler& t = b.sampler;
-    return a.image == b.image && a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow
-        && s.wrapU == t.wrapU && s.wrapV == t.wrapV && s.magnify == t.magnify
-        && s.minify == t.minify && s.mip == t.mip;
+    return a.image == b.image && a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow && s.wrapU == t.wrapU
+        && s.wrapV == t.wrapV && s.magnify == t.magnify && s.minify == t.minify && s.mip == t.mip;
 }
 
 std::uint32_t mapsOf(const Material& m, const Textures& textures)
@@ -181,13 +177,13 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.baseColor = m.baseColor;
     g.emissive = gpu::vec4(m.emissive, m.alphaCutoff);
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
-    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)), m.normalFormat.channels,
-                             m.normalFormat.greenAlongV ? 1 : -1, m.unlit ? 1 : 0);
+    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)),
+                             int(m.normalFormat.channels), greenAlongV(m.normalFormat) ? 1 : -1, m.unlit ? 1 : 0);
     g.baseColorMap = use(m.baseColorMap, TextureKind::color);
     g.metallicRoughnessMap = use(m.metallicRoughnessMap, TextureKind::data);
     // Without a normal map the frame is that of uv set 0 as it is.
-    g.normalMapUse = m.normalMap.present() ? use(m.normalMap, TextureKind::normal)
-                                           : useConstants(Texture{}, /*present*/ false);
+    g.normalMapUse =
+        m.normalMap.present() ? use(m.normalMap, TextureKind::normal) : useConstants(Texture{}, /*present*/ false);
     g.occlusionMap = use(m.occlusionMap, TextureKind::data);
     g.emissiveMap = use(m.emissiveMap, TextureKind::color);
     return g;
@@ -196,9 +192,10 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
 } // namespace
 
 GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& scene)
-    : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
-      textures_(device)
+    : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device), textures_(device)
 {
+    for (const FrameInfo& f : frames())
+        withFrame.push_back(checkVertexAttributes(scene, f.frame));
     Uploader uploader(device, kStaging);
     textures_.load(scene, uploader);
     loadMeshes(scene, uploader);
@@ -243,11 +240,10 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
         meshes[i].buffer = sizes.size() - 1;
         sizes.back() = place(meshes[i], *sources[i], texcoords[i], sizes.back());
     }
-    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eVertexBuffer
-        | vk::BufferUsageFlagBits::eIndexBuffer | vk::BufferUsageFlagBits::eTransferDst;
+    vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eIndexBuffer
+        | vk::BufferUsageFlagBits::eTransferDst;
     if (device_->exact)
-        usage |=
-            vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eStorageBuffer;
+        usage |= vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eStorageBuffer;
     for (const vk::DeviceSize size : sizes) {
         buffers.push_back(makeDeviceBuffer(*device_, memory_, size, usage));
         uploader.buffer(buffers.back(), 0, bytesOf(kConstants));
@@ -268,20 +264,15 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
     maps_.resize(count);
     if (count == 0)
         return;
-    const vk::DeviceSize alignment =
-        std::max<vk::DeviceSize>(device_->limits.minUniformBufferOffsetAlignment, 16);
-    const vk::DeviceSize stride =
-        (sizeof(gpu::CotanMaterial) + alignment - 1) / alignment * alignment;
+    const vk::DeviceSize alignment = std::max<vk::DeviceSize>(device_->limits.minUniformBufferOffsetAlignment, 16);
+    const vk::DeviceSize stride = (sizeof(gpu::CotanMaterial) + alignment - 1) / alignment * alignment;
     materialBuffer_ = makeDeviceBuffer(*device_, memory_, stride * count,
-                                       vk::BufferUsageFlagBits::eUniformBuffer
-                                           | vk::BufferUsageFlagBits::eTransferDst);
+                                       vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
 
     const auto sets = static_cast<std::uint32_t>(count);
-    const std::array sizes{
-        vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, sets),
-        vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, sets * 5)};
-    pool_ =
-        vk::raii::DescriptorPool(device_->device, vk::DescriptorPoolCreateInfo({}, sets, sizes));
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, sets),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, sets * 5)};
+    pool_ = vk::raii::DescriptorPool(device_->device, vk::DescriptorPoolCreateInfo({}, sets, sizes));
 
     for (std::size_t i = 0; i < count; ++i) {
         const Material& m = scene.materials[i];
@@ -290,8 +281,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         const auto use = [&](const Texture& texture, TextureKind kind) {
             return MapUse{texture.sampler, textures_.view(texture, kind, m.normalFormat)};
         };
-        maps_[i] = {use(m.baseColorMap, TextureKind::color),
-                    use(m.metallicRoughnessMap, TextureKind::data),
+        maps_[i] = {use(m.baseColorMap, TextureKind::color), use(m.metallicRoughnessMap, TextureKind::data),
                     use(m.normalMap, TextureKind::normal), use(m.occlusionMap, TextureKind::data),
                     use(m.emissiveMap, TextureKind::color)};
 
@@ -301,11 +291,9 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         gpu.normalTexcoord = m.normalMap.present() && m.normalMap.texcoord == 1 ? 1 : 0;
         gpu.maps = mapsOf(m, textures_);
         gpu.set = allocateSet(*device_, pool_, layouts.material);
-        const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride,
-                                              sizeof(gpu::CotanMaterial));
+        const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
         device_->device.updateDescriptorSets(
-            vk::WriteDescriptorSet(gpu.set, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffer),
-            {});
+            vk::WriteDescriptorSet(gpu.set, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffer), {});
         writeTextures(i);
     }
     limitPipelines();
@@ -324,8 +312,8 @@ void GpuScene::limitPipelines()
     if (sets.size() <= kMost)
         return;
     for (GpuMaterial& material : materials)
-        material.maps = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL
-            | COTAN_MAP_OCCLUSION | COTAN_MAP_EMISSIVE;
+        material.maps = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
+            | COTAN_MAP_EMISSIVE;
 }
 
 void GpuScene::writeTextures(std::size_t material)
@@ -333,13 +321,12 @@ void GpuScene::writeTextures(std::size_t material)
     std::array<vk::DescriptorImageInfo, 5> images;
     for (std::size_t k = 0; k < images.size(); ++k) {
         const MapUse& use = maps_[material][k];
-        images[k] = {samplers_.get(use.sampler, pointSampled_), use.view,
-                     vk::ImageLayout::eShaderReadOnlyOptimal};
+        images[k] = {samplers_.get(use.sampler, pointSampled_), use.view, vk::ImageLayout::eShaderReadOnlyOptimal};
     }
     std::array<vk::WriteDescriptorSet, 5> writes;
     for (std::uint32_t k = 0; k < writes.size(); ++k)
-        writes[k] = vk::WriteDescriptorSet(materials[material].set, k + 1, 0,
-                                           vk::DescriptorType::eCombinedImageSampler, images[k]);
+        writes[k] = vk::WriteDescriptorSet(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler,
+                                           images[k]);
     device_->device.updateDescriptorSets(writes, {});
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
 #include "memory.hpp"
 #include "pipeline.hpp"
@@ -64,7 +65,8 @@ public:
     std::vector<GpuMesh> meshes;
     std::vector<GpuMaterial> materials; // as in the scene
     std::vector<GpuInstance> instances;
-    Bounds bounds; // world
+    Bounds bounds;                 // world
+    std::vector<Status> withFrame; // whether it has what each frame reads at the vertices
 
 private:
     void loadMeshes(const Scene& scene, Uploader& uploader);

@@ -13,10 +13,7 @@ constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
 constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
 constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
-vk::DeviceSize bytesPerPixel(vk::Format format)
-{
-    return format == vk::Format::eR32G32B32A32Sfloat ? 16 : 4;
-}
+vk::DeviceSize bytesPerPixel(vk::Format format) { return format == vk::Format::eR32G32B32A32Sfloat ? 16 : 4; }
 
 TextureInfo attachmentInfo(const Targets::Kind& kind)
 {
@@ -55,16 +52,14 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
         depth.usage |= vk::ImageUsageFlagBits::eSampled;
     depth.aspect = vk::ImageAspectFlagBits::eDepth;
     depth_ = makeTexture(device, memory_, depth);
-    readBack_ = makeHostBuffer(
-        device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.format),
-        vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
+    readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.format),
+                               vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
 
 // The viewport is the whole picture, whatever part of it is drawn.
 void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const
 {
-    commands.setViewport(0,
-                         vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
+    commands.setViewport(0, vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
     commands.setScissor(0, area);
 }
 
@@ -86,9 +81,9 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, bool layersFollow)
                Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite);
     if (resolved_)
-        transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined,
-                   kAttachment, Stage::eTransfer | Stage::eColorAttachmentOutput, {},
-                   Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+        transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
+                   Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
+                   Access::eColorAttachmentWrite);
     transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
                Access::eDepthStencilAttachmentWrite, kDepthStages,
@@ -108,9 +103,8 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, bool layersFollow)
 void Targets::endOpaque(const vk::raii::CommandBuffer& commands)
 {
     commands.endRendering();
-    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
-               vk::ImageLayout::eDepthAttachmentOptimal, kDepthRead, kDepthStages,
-               Access::eDepthStencilAttachmentWrite, kDepthStages | Stage::eFragmentShader,
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+               kDepthRead, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages | Stage::eFragmentShader,
                Access::eDepthStencilAttachmentRead | Access::eShaderSampledRead);
 }
 
@@ -128,9 +122,8 @@ void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rec
 void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
     const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
-    transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment,
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
-               Stage::eColorAttachmentOutput, both);
+    transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
     vk::RenderingAttachmentInfo color = colorInfo(/*resolve*/ true);
     color.loadOp = vk::AttachmentLoadOp::eLoad;
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
@@ -147,29 +140,24 @@ void Targets::copy(const vk::raii::CommandBuffer& commands)
 {
     const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
     transition(commands, source, kColorAspect, kAttachment, vk::ImageLayout::eTransferSrcOptimal,
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer,
-               Access::eTransferRead);
-    const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0},
-                                   {kind_.width, kind_.height, 1});
-    commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer,
-                               copy);
-    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost,
-                                    Access::eHostRead);
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer, Access::eTransferRead);
+    const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0}, {kind_.width, kind_.height, 1});
+    commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer, copy);
+    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
     commands.pipelineBarrier2(vk::DependencyInfo({}, toHost));
 }
 
 Image Targets::image(bool flipRows) const
 {
     const bool floats = kind_.format == vk::Format::eR32G32B32A32Sfloat;
-    Image image = makeImage(int(kind_.width), int(kind_.height),
-                            floats ? PixelType::float32 : PixelType::unorm8, "render");
+    Image image =
+        makeImage(int(kind_.width), int(kind_.height), floats ? PixelType::float32 : PixelType::unorm8, "render");
     const std::size_t row = kind_.width * image.bytesPerPixel();
     if (!flipRows)
         std::memcpy(image.data.data(), readBack_.mapped, image.data.size());
     else
         for (std::size_t y = 0; y < kind_.height; ++y)
-            std::memcpy(image.data.data() + y * row,
-                        readBack_.mapped + (kind_.height - 1 - y) * row, row);
+            std::memcpy(image.data.data() + y * row, readBack_.mapped + (kind_.height - 1 - y) * row, row);
     return image;
 }
 
@@ -179,13 +167,11 @@ Targets::Kind targetKind(const Device& device, const View& view)
     kind.width = static_cast<std::uint32_t>(view.width);
     kind.height = static_cast<std::uint32_t>(view.height);
     const bool shaded = view.output == Output::shaded;
-    kind.format =
-        shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR32G32B32A32Sfloat;
+    kind.format = shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR32G32B32A32Sfloat;
     if (shaded && view.samples > 1) {
         const vk::SampleCountFlags can =
             device.physical
-                .getImageFormatProperties(kind.format, vk::ImageType::e2D,
-                                          vk::ImageTiling::eOptimal,
+                .getImageFormatProperties(kind.format, vk::ImageType::e2D, vk::ImageTiling::eOptimal,
                                           vk::ImageUsageFlagBits::eColorAttachment)
                 .sampleCounts
             & device.limits.framebufferDepthSampleCounts;

@@ -36,10 +36,7 @@ vk::SamplerAddressMode addressMode(Wrap wrap)
     return vk::SamplerAddressMode::eClampToEdge;
 }
 
-vk::Filter filterOf(Filter filter)
-{
-    return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear;
-}
+vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
 
 // Calls work(0) ... work(count - 1) on all cores, in no order; passes the first exception on.
 template<class Work> void onAllCores(std::size_t count, Work work)
@@ -90,31 +87,30 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     info.addressModeV = addressMode(s.wrapV);
     info.magFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.magnify);
     info.minFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.minify);
-    info.mipmapMode = s.mip == MipFilter::linear && !pointSampled ? vk::SamplerMipmapMode::eLinear
-                                                                  : vk::SamplerMipmapMode::eNearest;
+    info.mipmapMode =
+        s.mip == MipFilter::linear && !pointSampled ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest;
     // 0.25 keeps the choice between magnification and minification, but not a second level.
     info.maxLod = pointSampled ? 0.0f : s.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE;
-    const bool stretch = device_->anisotropy && !pointSampled && s.mip != MipFilter::none
-        && s.minify == Filter::linear && s.magnify == Filter::linear;
+    const bool stretch = device_->anisotropy && !pointSampled && s.mip != MipFilter::none && s.minify == Filter::linear
+        && s.magnify == Filter::linear;
     info.anisotropyEnable = stretch;
     info.maxAnisotropy = stretch ? std::min(8.0f, device_->limits.maxSamplerAnisotropy) : 1.0f;
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
-Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const NormalMapFormat& format)
+Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const Convention& format)
 {
     if (kind != TextureKind::normal)
-        return {use.image, kind, 0, 0};
+        return {use.image, kind, Expansion{}, Channels{}};
     return {use.image, kind, format.expansion, format.channels};
 }
 
-void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
-                       const NormalMapFormat& format)
+void Textures::request(const Scene& scene, const Texture& use, TextureKind kind, const Convention& format)
 {
     if (!use.present() || std::size_t(use.image) >= scene.images.size())
         return;
     const Image& image = scene.images[std::size_t(use.image)];
-    if (!usableImage(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
+    if (!hasPixels(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
         return;
     MipRequest r;
     r.image = &image;
@@ -168,21 +164,19 @@ void Textures::load(const Scene& scene, Uploader& uploader)
         for (std::size_t bytes = 0; end < requests_.size() && bytes < kBatchBytes; ++end)
             bytes += requests_[end].image->data.size();
         std::vector<MipChain> chains(end - first);
-        onAllCores(chains.size(),
-                   [&](std::size_t i) { chains[i] = buildMips(requests_[first + i]); });
+        onAllCores(chains.size(), [&](std::size_t i) { chains[i] = buildMips(requests_[first + i]); });
         for (const MipChain& chain : chains)
             textures_.push_back(upload(chain, uploader));
         first = end;
     }
 }
 
-bool Textures::present(const Texture& use, TextureKind kind, const NormalMapFormat& format) const
+bool Textures::present(const Texture& use, TextureKind kind, const Convention& format) const
 {
     return use.present() && index_.contains(keyOf(use, kind, format));
 }
 
-vk::ImageView Textures::view(const Texture& use, TextureKind kind,
-                             const NormalMapFormat& format) const
+vk::ImageView Textures::view(const Texture& use, TextureKind kind, const Convention& format) const
 {
     if (!present(use, kind, format))
         return *textures_.back().view;

@@ -33,16 +33,15 @@ public:
     void load(const Scene& scene, Uploader& uploader);
 
     // The view of a use of an image; a white texel where there is none.
-    vk::ImageView view(const Texture& use, TextureKind kind, const NormalMapFormat& format) const;
-    bool present(const Texture& use, TextureKind kind, const NormalMapFormat& format) const;
+    vk::ImageView view(const Texture& use, TextureKind kind, const Convention& format) const;
+    bool present(const Texture& use, TextureKind kind, const Convention& format) const;
 
 private:
     // Image, kind, and for normal maps the coding that they are averaged in.
-    using Key = std::tuple<int, TextureKind, int, int>;
-    static Key keyOf(const Texture& use, TextureKind kind, const NormalMapFormat& format);
+    using Key = std::tuple<int, TextureKind, Expansion, Channels>;
+    static Key keyOf(const Texture& use, TextureKind kind, const Convention& format);
     void collect(const Scene& scene);
-    void request(const Scene& scene, const Texture& use, TextureKind kind,
-                 const NormalMapFormat& format);
+    void request(const Scene& scene, const Texture& use, TextureKind kind, const Convention& format);
     Texture2D upload(const MipChain& chain, Uploader& uploader);
 
     const Device* device_;

@@ -12,10 +12,7 @@ namespace {
 
 using glm::dvec3;
 
-bool finite(const dvec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 dvec3 unitOr(const dvec3& v, const dvec3& otherwise)
 {
@@ -39,17 +36,13 @@ double positiveOr(float value, double otherwise)
     return std::isfinite(value) && value > 0 ? double(value) : otherwise;
 }
 
-gpu::vec4 row(const dvec3& v, double w)
-{
-    return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w));
-}
+gpu::vec4 row(const dvec3& v, double w) { return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w)); }
 
 std::array<dvec3, 8> corners(const Bounds& b)
 {
     std::array<dvec3, 8> result;
     for (std::size_t i = 0; i < 8; ++i)
-        result[i] = dvec3(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y,
-                          i & 4 ? b.high.z : b.low.z);
+        result[i] = dvec3(i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z);
     return result;
 }
 
@@ -115,9 +108,8 @@ void orthographicRows(gpu::CotanView& g, const View& view, const Axes& axes, con
 
 const Light* shadowLight(const View& view)
 {
-    const auto found = std::find_if(view.lights.begin(), view.lights.end(), [](const Light& light) {
-        return light.kind == LightKind::directional;
-    });
+    const auto found = std::find_if(view.lights.begin(), view.lights.end(),
+                                    [](const Light& light) { return light.kind == LightKind::directional; });
     return found == view.lights.end() ? nullptr : &*found;
 }
 
@@ -180,9 +172,7 @@ std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes)
     const Light* caster = view.shadows ? shadowLight(view) : nullptr;
     for (const Light& light : view.lights) {
         gpu::CotanLight g{};
-        const double kind = light.kind == LightKind::directional ? 0
-            : light.kind == LightKind::point                     ? 1
-                                                                 : 2;
+        const double kind = light.kind == LightKind::directional ? 0 : light.kind == LightKind::point ? 1 : 2;
         g.position = row(dvec3(light.position) - axes.eye, kind);
         g.direction = row(unitOr(dvec3(light.direction), dvec3(0, -1, 0)), light.range);
         g.color = row(dvec3(light.color) * double(light.intensity), &light == caster ? 1 : 0);

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
 namespace {
@@ -69,8 +71,7 @@ std::vector<float> anglesBetween(const Image& a, const Image& b)
         const glm::dvec3 u = directionAt(a, i), v = directionAt(b, i);
         if (u == glm::dvec3(0) || v == glm::dvec3(0))
             continue;
-        const double angle = std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
-        degrees[i] = float(angle * 180 / std::numbers::pi);
+        degrees[i] = float(angleBetween(u, v) * 180 / std::numbers::pi);
     }
     return degrees;
 }

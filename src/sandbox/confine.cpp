@@ -63,16 +63,65 @@ constexpr std::uint32_t kForeign = 0;
 
 // What no reader does. Files are Landlock's affair, but for what it leaves out: owners, modes, times.
 constexpr long kForbidden[] = {
-    SYS_execve, SYS_execveat, SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_kill, SYS_tkill,
-    SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_pidfd_open, SYS_pidfd_getfd, SYS_pidfd_send_signal, SYS_socket,
-    SYS_socketpair, SYS_connect, SYS_bind, SYS_listen, SYS_accept, SYS_accept4, SYS_io_uring_setup, SYS_bpf,
-    SYS_perf_event_open, SYS_userfaultfd, SYS_keyctl, SYS_add_key, SYS_request_key, SYS_mount, SYS_umount2, SYS_chroot,
-    SYS_pivot_root, SYS_unshare, SYS_setns, SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat,
-    SYS_setxattr, SYS_lsetxattr, SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr, SYS_shmget,
-    SYS_shmat, SYS_msgget, SYS_mq_open, SYS_setsid, SYS_setpgid,
-    SYS_ioctl, // a terminal would take what is put into its input for the user's
+    SYS_execve,
+    SYS_execveat,
+    SYS_ptrace,
+    SYS_process_vm_readv,
+    SYS_process_vm_writev,
+    SYS_kill,
+    SYS_tkill,
+    SYS_rt_sigqueueinfo,
+    SYS_rt_tgsigqueueinfo,
+    SYS_pidfd_open,
+    SYS_pidfd_getfd,
+    SYS_pidfd_send_signal,
+    SYS_socket,
+    SYS_socketpair,
+    SYS_connect,
+    SYS_bind,
+    SYS_listen,
+    SYS_accept,
+    SYS_accept4,
+    SYS_io_uring_setup,
+    SYS_bpf,
+    SYS_perf_event_open,
+    SYS_userfaultfd,
+    SYS_keyctl,
+    SYS_add_key,
+    SYS_request_key,
+    SYS_mount,
+    SYS_umount2,
+    SYS_chroot,
+    SYS_pivot_root,
+    SYS_unshare,
+    SYS_setns,
+    SYS_fchmod,
+    SYS_fchmodat,
+    SYS_fchown,
+    SYS_fchownat,
+    SYS_utimensat,
+    SYS_setxattr,
+    SYS_lsetxattr,
+    SYS_fsetxattr,
+    SYS_removexattr,
+    SYS_lremovexattr,
+    SYS_fremovexattr,
+    SYS_shmget,
+    SYS_shmat,
+    SYS_msgget,
+    SYS_mq_open,
+    SYS_setsid,
+    SYS_setpgid,
+    SYS_ioctl,  // a terminal would take what is put into its input for the user's
 #ifdef SYS_fork // the old calls that newer machines do without
-    SYS_fork, SYS_vfork, SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat,
+    SYS_fork,
+    SYS_vfork,
+    SYS_chmod,
+    SYS_chown,
+    SYS_lchown,
+    SYS_utime,
+    SYS_utimes,
+    SYS_futimesat,
 #endif
 };
 
@@ -117,10 +166,10 @@ void forbidCalls()
     filter.give(kRefuse);
     for (const long number : kForbidden)
         filter.call(number, kRefuse);
-    filter.call(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);        // its flags cannot be seen; clone's can
-    filter.callWith(SYS_clone, 0, BPF_JSET, 0x00010000);         // CLONE_THREAD
+    filter.call(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);                // its flags cannot be seen; clone's can
+    filter.callWith(SYS_clone, 0, BPF_JSET, 0x00010000);                // CLONE_THREAD
     filter.callWith(SYS_tgkill, 0, BPF_JEQ, std::uint32_t(::getpid())); // abort()
-    filter.callWith(SYS_prlimit64, 0, BPF_JEQ, 0);               // our own
+    filter.callWith(SYS_prlimit64, 0, BPF_JEQ, 0);                      // our own
     filter.give(kAllow);
     const sock_fprog program{static_cast<unsigned short>(filter.code.size()), filter.code.data()};
     ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);

@@ -14,8 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/account.hpp"
+#include "cotan/files/extension.hpp"
 
 namespace cotan {
 
@@ -24,7 +24,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr double kWallPerProcessor = 15; // other programs want the processor, too
-constexpr std::size_t kSaid = 4096;     // bytes of standard error that are kept
+constexpr std::size_t kSaid = 4096;      // bytes of standard error that are kept
 
 std::string readerName(const ReaderRequest& request)
 {
@@ -75,8 +75,7 @@ int spawn(const std::string& program, int socket, int messages, pid_t& process)
     ::posix_spawnattr_setsigmask(&attributes, &none);
     ::posix_spawnattr_setsigdefault(&attributes, &all);
     ::posix_spawnattr_setpgroup(&attributes, 0);
-    ::posix_spawnattr_setflags(&attributes,
-                               POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     std::string name = program, word = kReaderWord;
     char* const words[] = {name.data(), word.data(), nullptr};
     const int problem = ::posix_spawn(&process, program.c_str(), &files, &attributes, words, environ);
@@ -98,13 +97,13 @@ std::string printable(std::string text, std::size_t most)
 {
     if (text.size() > most)
         text.replace(most, text.size() - most, "...");
-    std::ranges::replace_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     return text;
 }
 
 ReaderProcess::ReaderProcess(const ReaderRequest& request)
-    : limits_(request.limits), name_(request.name), reader_(readerName(request)),
-      fileBytes_(request.fileBytes),
+    : limits_(request.limits), name_(request.name), reader_(readerName(request)), fileBytes_(request.fileBytes),
       answer_([this](std::span<std::byte> bytes) { return receive(bytes); },
               std::uint64_t(budgetFor(limits_, SIZE_MAX, SIZE_MAX).megabytes) << 20),
       question_([this](std::span<const std::byte> bytes) { return send(bytes); })

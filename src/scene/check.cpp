@@ -110,9 +110,9 @@ private:
         const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
         if (Problem problem = checkNumbers("expected finite factors", m.baseColor, m.emissive, factors, m.alphaCutoff))
             return problem;
-        const NormalMapFormat& format = m.normalFormat;
-        if (!below(format.expansion, COTAN_EXPAND_EXACT16 + 1) || !below(format.channels, COTAN_CHANNELS_SLOPE + 1))
-            return joined("expected a way to store normals, found ", format.expansion, " ", format.channels);
+        const int expansion = int(m.normalFormat.expansion), channels = int(m.normalFormat.channels);
+        if (!below(expansion, COTAN_EXPAND_EXACT16 + 1) || !below(channels, COTAN_CHANNELS_SLOPE + 1))
+            return joined("expected a way to store normals, found ", expansion, " ", channels);
         return std::nullopt;
     }
 

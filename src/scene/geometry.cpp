@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/texture_uv.hpp"
+
 namespace cotan {
 
 namespace {
@@ -14,7 +16,7 @@ bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && st
 
 constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
 constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
-constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
+constexpr float kFlatness = 0.05f;                // depth over width or height below which a box is a picture
 const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
 
 // The smallest distance along `back` from the centre at which every corner of the box is inside
@@ -25,10 +27,8 @@ float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
     const glm::vec3 up = glm::cross(back, right);
     float distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p =
-            halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const float beside =
-            std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
+        const glm::vec3 p = halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float beside = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
         distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
     }
     return distance;
@@ -79,6 +79,29 @@ std::vector<Light> defaultLights()
     key.kind = LightKind::directional;
     key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
     return {key};
+}
+
+Status checkVertexAttributes(const Scene& scene, Frame frame)
+{
+    if (!readsVertices(frame))
+        return Done{};
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (!mesh || mesh->triangleCount() == 0 || mesh->material < 0
+            || std::size_t(mesh->material) >= scene.materials.size())
+            continue;
+        const std::size_t vertices = mesh->vertexCount();
+        const bool hasUv =
+            mesh->texcoords[uvSetOf(scene.materials[std::size_t(mesh->material)].normalMap)].size() >= vertices;
+        const bool has = readsTangents(frame)
+            ? mesh->tangents.size() >= vertices
+            : mesh->cotangentsU.size() >= vertices && mesh->cotangentsV.size() >= vertices;
+        if (vertices > 0 && hasUv && !has)
+            return usageError((scene.name.empty() ? "scene" : scene.name) + ": mesh '" + mesh->name + "': expected "
+                              + (readsTangents(frame) ? "tangents" : "cotangents") + " for the frame "
+                              + std::string(name(frame)) + "; found none (deriveVertexFrames makes them)");
+    }
+    return Done{};
 }
 
 bool drawsNormalMaps(const Scene& scene)

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/angle.hpp"
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan {
@@ -23,9 +24,7 @@ using Index = std::uint32_t;
 std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
 {
     // By bit pattern, which orders every float; adding zero makes -0 and 0 one.
-    const auto key = [&](Index i) {
-        return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f);
-    };
+    const auto key = [&](Index i) { return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f); };
     std::vector<Index> order(positions.size());
     std::iota(order.begin(), order.end(), Index(0));
     std::ranges::sort(order, [&](Index a, Index b) { return key(a) < key(b); });
@@ -44,11 +43,6 @@ struct Face {
     std::array<double, 3> angle{}; // at each corner, radians
     bool usable() const { return normal != glm::dvec3(0); }
 };
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 std::vector<Face> measureFaces(const Mesh& mesh)
 {
@@ -71,10 +65,7 @@ std::vector<Face> measureFaces(const Mesh& mesh)
 // Union-find over corners (three a triangle, numbered as the indices are).
 class Groups {
 public:
-    explicit Groups(std::size_t corners) : parent_(corners)
-    {
-        std::iota(parent_.begin(), parent_.end(), Index(0));
-    }
+    explicit Groups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), Index(0)); }
     Index find(Index corner)
     {
         while (parent_[corner] != corner)
@@ -111,14 +102,13 @@ std::vector<Edge> sortedEdges(const std::vector<Index>& pointOfCorner)
         }
         edges.push_back(edge);
     }
-    std::ranges::sort(edges, {},
-                      [](const Edge& e) { return std::tuple(e.low, e.high, e.cornerAtLow); });
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.low, e.high, e.cornerAtLow); });
     return edges;
 }
 
 // Joins the corners of triangles that meet at an edge within the crease angle.
-void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner,
-                     const std::vector<Face>& faces, double minimumCosine)
+void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner, const std::vector<Face>& faces,
+                     double minimumCosine)
 {
     const std::vector<Edge> edges = sortedEdges(pointOfCorner);
     for (std::size_t i = 1; i < edges.size(); ++i) {
@@ -128,8 +118,7 @@ void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner,
             continue;
         const Face& faceA = faces[a.cornerAtLow / 3];
         const Face& faceB = faces[b.cornerAtLow / 3];
-        if (!faceA.usable() || !faceB.usable()
-            || glm::dot(faceA.normal, faceB.normal) < minimumCosine)
+        if (!faceA.usable() || !faceB.usable() || glm::dot(faceA.normal, faceB.normal) < minimumCosine)
             continue;
         groups.join(a.cornerAtLow, b.cornerAtLow);
         groups.join(a.cornerAtHigh, b.cornerAtHigh);
@@ -154,8 +143,8 @@ void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::
 
 // One normal a group, at the group's first corner. A corner of a degenerate triangle, which has
 // no group but its own, takes over that of another corner at the same point.
-std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& pointOfCorner,
-                                    std::size_t points, const std::vector<Face>& faces)
+std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+                                    const std::vector<Face>& faces)
 {
     std::vector<glm::dvec3> sums(pointOfCorner.size(), glm::dvec3(0));
     for (Index corner = 0; corner < pointOfCorner.size(); ++corner)

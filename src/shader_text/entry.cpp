@@ -13,29 +13,86 @@ std::string normalFor(Frame frame)
     return anyLength ? "normal" : "normal * cotan_inversesqrt(dot(normal, normal))";
 }
 
-std::string fromVertices(Frame frame)
+std::string fromVertices(Frame frame, Form form)
 {
-    const bool covectors = frame == Frame::smooth;
-    const std::string arguments = covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent"
-                                            : "cotan_vec3 tangent, cotan_real handedness";
+    const bool covectors = readsCotangents(frame);
+    const std::string arguments =
+        covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent" : "cotan_vec3 tangent, cotan_real handedness";
     const std::string what = covectors
-        ? "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n"
-        : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
-          "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
-    return fill("// The perturbed normal, unit.\n"
-                       "// normal: interpolated.\n{}"
-                       "// texel: the normal map as sampled.\n"
-                       "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
-                       "    cotan_vec3 m = cotan_decode(texel);\n"
-                       "    cotan_frame frame = cotan_frame_{}(normal, {});\n"
-                       "    return cotan_apply(frame, m);\n}}\n",
-                       what, kVertexEntry, arguments, functionWord(frame),
-                       covectors ? "cotangent, cobitangent" : "tangent, handedness");
+        ? std::string(
+              "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n")
+            + (form == Form::fused
+                   ? "// At the vertices the normal has length 1, and so has the longer of the two covectors.\n"
+                   : "")
+        : std::string()
+            + "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
+              "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
+    const std::string head = fill("// The perturbed normal, unit.\n"
+                                  "// normal: interpolated.\n{}"
+                                  "// texel: the normal map as sampled.\n"
+                                  "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
+                                  "    cotan_vec3 m = cotan_decode(texel);\n",
+                                  what, kVertexEntry, arguments);
+    const std::string attributes = covectors ? "cotangent, cobitangent" : "tangent, handedness";
+    if (form == Form::fused)
+        return fill("{}    return cotan_perturb_{}(normal, {}, m);\n}}\n", head, functionWord(frame), attributes);
+    return fill("{}    cotan_frame frame = cotan_frame_{}(normal, {});\n"
+                "    return cotan_apply(frame, m);\n}}\n",
+                head, functionWord(frame), attributes);
+}
+
+// What makes U and V of a triangle, for another stage than the pixel's.
+const char* const kTriangleMaker =
+    "// U and V of a triangle as three words of two halfs, 12 bytes.\n"
+    "// p0 p1 p2: the triangle's corners in the space of the frame. Their order does not matter.\n"
+    "// uv0 uv1 uv2: as the normal map is sampled with. n0 n1 n2: normals, which say what is outside.\n"
+    "COTAN_FUNCTION cotan_packed_triangle cotan_make_triangle(cotan_vec3 p0, cotan_vec3 p1, cotan_vec3 p2, "
+    "cotan_vec2 uv0, cotan_vec2 uv1, cotan_vec2 uv2, cotan_vec3 n0, cotan_vec3 n1, cotan_vec3 n2)\n{\n"
+    "    cotan_triangle vectors = cotan_triangle_of_sound_edges(p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, n0 + n1 + "
+    "n2);\n"
+    "    return cotan_pack_triangle(vectors.u, vectors.v);\n}\n";
+
+// The pixel's part.
+const char* const kTrianglePixel =
+    "// The perturbed normal, unit.\n"
+    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
+    "// words: as cotan_make_triangle gave them, the same at every pixel of the triangle.\n"
+    "// texel: the normal map as sampled.\n"
+    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_packed_triangle words, "
+    "cotan_vec3 texel)\n{\n"
+    "    cotan_vec3 m = cotan_decode(texel);\n"
+    "    cotan_vec3 u = cotan_unpack_triangle_u(words);\n"
+    "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
+    "    return cotan_perturb_triangle(normal, u, v, m);\n}\n";
+
+// Both in one stage, where the corners are at hand and nothing has to be packed.
+const char* const kTriangleAtOnce =
+    "// The perturbed normal, unit, where one stage has it all (compute, ray tracing).\n"
+    "// normal: interpolated at the shaded point.\n"
+    "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
+    "// duvdx, duvdy: uv1 - uv0 and uv2 - uv0.\n"
+    "// texel: the normal map as sampled.\n"
+    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_from_edges(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
+    "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{\n"
+    "    cotan_vec3 m = cotan_decode(texel);\n"
+    "    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
+    "    return cotan_perturb_triangle(normal, vectors.u, vectors.v, m);\n}\n";
+
+std::string ofTriangle(Stage stage)
+{
+    switch (stage) {
+    case Stage::fragment: return kTrianglePixel;
+    case Stage::vertex:
+    case Stage::mesh: return kTriangleMaker;
+    case Stage::compute: return kTriangleAtOnce;
+    case Stage::all: break;
+    }
+    return std::string(kTriangleMaker) + "\n" + kTrianglePixel + "\n" + kTriangleAtOnce;
 }
 
 std::string fromDifferences(Frame frame, Form form)
 {
-    const bool edges = frame == Frame::exact;
+    const bool edges = info(frame).source == FrameSource::triangle;
     const std::string what = edges
         ? "// normal: interpolated at the shaded point.\n"
           "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
@@ -43,19 +100,18 @@ std::string fromDifferences(Frame frame, Form form)
         : "// normal: interpolated.\n"
           "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
           "// duvdx, duvdy: differences of uv along the same two.\n";
-    const std::string head = fill(
-        "// The perturbed normal, unit.\n{}"
-        "// texel: the normal map as sampled.\n"
-        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
-        "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
-        "    cotan_vec3 m = cotan_decode(texel);\n",
-        what, entryOf(frame));
+    const std::string head = fill("// The perturbed normal, unit.\n{}"
+                                  "// texel: the normal map as sampled.\n"
+                                  "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
+                                  "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
+                                  "    cotan_vec3 m = cotan_decode(texel);\n",
+                                  what, entryOf(frame));
     if (form == Form::fused)
         return fill("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
-                           functionWord(frame));
+                    functionWord(frame));
     return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
-                       "    return cotan_apply(frame, m);\n}}\n",
-                       head, functionWord(frame), normalFor(frame));
+                "    return cotan_apply(frame, m);\n}}\n",
+                head, functionWord(frame), normalFor(frame));
 }
 
 // What follows for every uv set, {0} being its number.
@@ -69,23 +125,22 @@ std::string perSet(int sets, std::string_view pattern)
 
 std::string fromSeveralSets(Frame frame, int sets)
 {
-    std::string text = fill(
-        "// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
-        "// added as surface gradients.\n"
-        "// normal: interpolated.\n"
-        "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
-        "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
-        "// texelK: its normal map as sampled.\n"
-        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
-        "    cotan_vec3 n = {};\n",
-        sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
-        normalFor(frame));
+    std::string text =
+        fill("// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
+             "// added as surface gradients.\n"
+             "// normal: interpolated.\n"
+             "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
+             "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
+             "// texelK: its normal map as sampled.\n"
+             "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
+             "    cotan_vec3 n = {};\n",
+             sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
+             normalFor(frame));
     for (int k = 0; k < sets; ++k)
-        text += fill(
-            "    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
-            "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
-            "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
-            k, functionWord(frame));
+        text += fill("    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
+                     "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
+                     "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
+                     k, functionWord(frame));
     std::string sum = "gradient0";
     for (int k = 1; k < sets; ++k)
         sum += fill(" + gradient{}", k);
@@ -101,30 +156,36 @@ std::string fromScreen(int sets)
         "// position: camera-relative, interpolated, not normalised.\n"
         "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{})\n{{\n"
         "    return {}(normal, cotan_ddx(position), cotan_ddy(position){});\n}}\n",
-        kScreenEntry, one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"),
-        kEntry,
-        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel"
-            : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
+        kScreenEntry,
+        one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"), kEntry,
+        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel" : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
 }
 
 } // namespace
 
-std::string functionWord(Frame frame)
-{
-    std::string word(name(frame));
-    for (char& c : word)
-        c = c == '-' ? '_' : c;
-    return word;
-}
+std::string functionWord(Frame frame) { return std::string(info(frame).word); }
 
 std::string entryOf(Frame frame)
 {
     switch (info(frame).source) {
-    case FrameSource::vertices: return kVertexEntry;
+    case FrameSource::cotangents:
+    case FrameSource::tangents: return kVertexEntry;
     case FrameSource::triangle: return kEdgeEntry;
     case FrameSource::differences: break;
     }
     return kEntry;
+}
+
+std::string entryOf(const Choice& choice)
+{
+    switch (choice.stage) {
+    case Stage::fragment: return "cotan_perturb_normal_on_triangle";
+    case Stage::vertex:
+    case Stage::mesh: return "cotan_make_triangle";
+    case Stage::compute:
+    case Stage::all: break;
+    }
+    return entryOf(choice.frame);
 }
 
 bool hasScreenEntry(const Choice& choice)
@@ -135,10 +196,12 @@ bool hasScreenEntry(const Choice& choice)
 
 std::string entryText(const Choice& choice, Form form)
 {
-    if (info(choice.frame).source == FrameSource::vertices)
-        return fromVertices(choice.frame);
-    std::string text = choice.uvSets == 1 ? fromDifferences(choice.frame, form)
-                                          : fromSeveralSets(choice.frame, choice.uvSets);
+    if (readsVertices(choice.frame))
+        return fromVertices(choice.frame, form);
+    if (choice.frame == Frame::triangle && form == Form::fused)
+        return ofTriangle(choice.stage);
+    std::string text =
+        choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, choice.uvSets);
     return hasScreenEntry(choice) ? text + fromScreen(choice.uvSets) : text;
 }
 

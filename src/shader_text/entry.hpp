@@ -12,6 +12,8 @@ inline constexpr const char* kScreenEntry = "cotan_perturb_normal";
 
 // The entry's name for a frame.
 std::string entryOf(Frame frame);
+// And for a choice, which may leave that one out.
+std::string entryOf(const Choice& choice);
 
 // What a frame is called in function names: '-' is '_'.
 std::string functionWord(Frame frame);

@@ -58,21 +58,31 @@ std::string declared(Language language, const std::string& value)
 {
     if (language == Language::wgsl)
         return "let n = " + value + ";";
-    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value + ";";
+    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value
+        + ";";
 }
 
-std::string call(const Choice& choice)
+std::string call(const Choice& choice, Form form)
 {
     const Language l = choice.language;
     const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
-    if (info(choice.frame).source == FrameSource::vertices)
-        return declared(l, scope + kVertexEntry
-                               + (choice.frame == Frame::smooth ? "(normal, cotangent, cobitangent, "
-                                                                : "(normal, tangent, handedness, ")
-                               + std::string(sample(l)) + ")");
-    if (choice.frame == Frame::exact)
-        return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, "
-                               + std::string(sample(l)) + ")");
+    if (readsVertices(choice.frame))
+        return declared(l,
+                        scope + kVertexEntry
+                            + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
+                                                             : "(normal, tangent, handedness, ")
+                            + std::string(sample(l)) + ")");
+    if (choice.frame == Frame::triangle && form == Form::fused && choice.stage != Stage::compute) {
+        const std::string make = "words = " + scope + "cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);";
+        const std::string pixel =
+            declared(l, scope + "cotan_perturb_normal_on_triangle(normal, words, " + std::string(sample(l)) + ")");
+        return choice.stage == Stage::fragment ? pixel
+            : choice.stage == Stage::all       ? make + "   (vertex or mesh stage)\n//   " + pixel + "   (pixels)"
+                                               : make;
+    }
+    if (info(choice.frame).source == FrameSource::triangle)
+        return declared(
+            l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, " + std::string(sample(l)) + ")");
     const bool screen = hasScreenEntry(choice);
     std::string arguments = screen ? "normal, position" : "normal, dpdx, dpdy";
     for (int k = 0; k < choice.uvSets; ++k) {
@@ -85,19 +95,38 @@ std::string call(const Choice& choice)
 
 std::string needs(const Choice& choice)
 {
+    if (choice.stage == Stage::vertex)
+        return "// Needs from the caller:\n"
+               "//   the corners of the triangle that this vertex provokes: its own position, uv and normal, and "
+               "those\n"
+               "//   of the other two, read from storage buffers. Hand the three words on without interpolation "
+               "(flat).\n"
+               "//   An index buffer in which every triangle owns a vertex: provokingMesh of cotan/provoking.hpp.\n";
+    if (choice.stage == Stage::mesh)
+        return "// Needs from the caller:\n"
+               "//   the corners of the primitive. Hand the three words on for each primitive.\n";
+    if (choice.stage == Stage::fragment)
+        return "// Needs from the caller:\n"
+               "//   normal     interpolated surface normal, in the space that the triangle was made in\n"
+               "//   words      from the stage before, not interpolated (flat, or for each primitive), or read from a\n"
+               "//              buffer by the number of the triangle\n";
     std::string text = "// Needs from the caller:\n"
                        "//   normal     interpolated surface normal; any space, the same for all vectors\n";
-    if (info(choice.frame).source == FrameSource::vertices)
+    if (readsVertices(choice.frame))
         return text + "//   the vertex attributes named at the function below, interpolated\n";
-    if (choice.frame == Frame::exact)
+    if (choice.frame == Frame::triangle && choice.stage == Stage::all)
+        return text
+            + "//   p0 p1 p2, uv0 uv1 uv2, n0 n1 n2  the triangle's corners, in the vertex stage (at the provoking\n"
+              "//              vertex), the mesh stage, or in one stage with all the rest; no screen derivatives\n";
+    if (info(choice.frame).source == FrameSource::triangle)
         return text + "//   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives\n";
     text += "//   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;\n"
             "//              normalising it first is wrong by 11 degrees at 45 degrees of grazing\n"
             "//   uv         as the normal map is sampled with\n";
     if (hasScreenEntry(choice))
         return text
-            + fill("//   derivatives of position and uv: taken here by {} and {}\n",
-                          namesOf(choice.language).ddx, namesOf(choice.language).ddy);
+            + fill("//   derivatives of position and uv: taken here by {} and {}\n", namesOf(choice.language).ddx,
+                   namesOf(choice.language).ddy);
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
@@ -122,7 +151,19 @@ std::string_view languageNote(Language language)
 std::string limits(const Choice& choice, Form form)
 {
     std::string text = "// Limits:\n";
-    if (form == Form::fused)
+    if (form == Form::fused && choice.frame == Frame::triangle)
+        text +=
+            "//   No NaN for constant uv, zero edges or empty texels: the result is then the interpolated normal.\n"
+            "//   Undefined for non-finite input and normals shorter than 0.01. The frame to 0.03 degrees, the error\n"
+            "//   of halfs, for (longest edge) * (longest uv difference) within 1e-12 .. 1e5, each within 1e-9 .. "
+            "1e6,\n"
+            "//   and triangles that are no slivers (area a tenth of the longest edge squared).\n"
+            "//   Slopes are those of `cotangent` times a factor between cos(a) and 1, where the normal leans by a\n"
+            "//   from the triangle's own.\n";
+    else if (form == Form::fused && readsVertices(choice.frame))
+        text += "//   No NaN for empty texels or covectors of zero: the result is then the interpolated normal.\n"
+                "//   Undefined for non-finite input and normals shorter than 0.01.\n";
+    else if (form == Form::fused)
         text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
                 "//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest\n"
@@ -164,15 +205,18 @@ std::string credits(const Choice& choice)
 std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
-    return fill(
-        "// Normal mapping, frame `{}` ({}), for {}.\n"
-        "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
-        "//\n"
-        "// Normal map: {}, {}, green {} increasing v.\n"
-        "//\n{}//\n// Call:\n//   {}\n// It returns the perturbed normal, unit, in the space of the arguments.\n//\n{}//\n{}\n",
-        name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
-        channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against", needs(choice),
-        call(choice), limits(choice, form), credits(choice));
+    return fill("// Normal mapping, frame `{}` ({}), for {}.\n"
+                "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
+                "//\n"
+                "// Normal map: {}, {}, green {} increasing v.\n"
+                "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}\n",
+                name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
+                channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
+                needs(choice), call(choice, form),
+                choice.stage == Stage::vertex || choice.stage == Stage::mesh
+                    ? "three words, the same for the whole triangle"
+                    : "the perturbed normal, unit, in the space of the arguments",
+                limits(choice, form), credits(choice));
 }
 
 } // namespace cotan::shader_text

@@ -18,7 +18,13 @@ const Names kGlsl = {{{"cotan_real", "float"},
                       {"cotan_unpack_half", "unpackHalf2x16"},
                       {"cotan_ddx", "dFdx"},
                       {"cotan_ddy", "dFdy"}},
-                     "", "", "dFdx", "dFdy", false, false, false};
+                     "",
+                     "",
+                     "dFdx",
+                     "dFdy",
+                     false,
+                     false,
+                     false};
 
 const Names kHlsl = {{{"cotan_real", "float"},
                       {"cotan_vec2", "float2"},
@@ -32,7 +38,13 @@ const Names kHlsl = {{{"cotan_real", "float"},
                       {"cotan_real_of", "float"},
                       {"cotan_ddx", "ddx_fine"},
                       {"cotan_ddy", "ddy_fine"}},
-                     "", "", "ddx_fine", "ddy_fine", false, false, false};
+                     "",
+                     "",
+                     "ddx_fine",
+                     "ddy_fine",
+                     false,
+                     false,
+                     false};
 
 const Names kWgsl = {{{"cotan_real", "f32"},
                       {"cotan_vec2", "vec2f"},
@@ -50,7 +62,13 @@ const Names kWgsl = {{{"cotan_real", "f32"},
                       {"cotan_ddx", "dpdxFine"},
                       {"cotan_ddy", "dpdyFine"},
                       {"target", "target_normal"}}, // a reserved word
-                     "", "", "dpdxFine", "dpdyFine", false, false, true};
+                     "",
+                     "",
+                     "dpdxFine",
+                     "dpdyFine",
+                     false,
+                     false,
+                     true};
 
 const Names kMsl = {{{"cotan_real", "float"},
                      {"cotan_vec2", "float2"},
@@ -64,7 +82,13 @@ const Names kMsl = {{{"cotan_real", "float"},
                      {"cotan_real_of", "float"},
                      {"cotan_ddx", "dfdx"},
                      {"cotan_ddy", "dfdy"}},
-                    "f", "inline ", "dfdx", "dfdy", false, false, false};
+                    "f",
+                    "inline ",
+                    "dfdx",
+                    "dfdy",
+                    false,
+                    false,
+                    false};
 
 const Names kCpp = {{}, "", "inline ", "", "", true, true, false};
 

@@ -10,9 +10,8 @@ namespace {
 std::string askedFor(const std::string& line)
 {
     const std::size_t open = line.find('('), close = line.find(')');
-    return open == std::string::npos || close == std::string::npos
-        ? std::string()
-        : line.substr(open + 1, close - open - 1);
+    return open == std::string::npos || close == std::string::npos ? std::string()
+                                                                   : line.substr(open + 1, close - open - 1);
 }
 
 bool startsWith(const std::string& line, const char* start) { return line.rfind(start, 0) == 0; }

@@ -23,8 +23,7 @@ std::string wrapped(std::string line, std::size_t indent)
             if (line[i] != ' ' || i <= indent + 24)
                 continue;
             const bool behindComma = line[i - 1] == ',';
-            const bool beforeOperator =
-                std::string("+-*/?:&|").find(line[i + 1]) != std::string::npos;
+            const bool beforeOperator = std::string("+-*/?:&|").find(line[i + 1]) != std::string::npos;
             if ((behindComma || beforeOperator) && depth <= bestDepth) {
                 best = i;
                 bestDepth = depth;
@@ -46,7 +45,8 @@ public:
     {
         std::string text = comments(s.comments, 0) + "struct " + s.name + (names_.wgsl ? " {\n" : "\n{\n");
         for (const Variable& f : s.fields) {
-            const std::string field = names_.wgsl ? f.name + ": " + word(f.type) + "," : word(f.type) + " " + f.name + ";";
+            const std::string field =
+                names_.wgsl ? f.name + ": " + word(f.type) + "," : word(f.type) + " " + f.name + ";";
             text += "    " + field + (f.comment.empty() ? "" : " " + f.comment) + '\n';
         }
         return text + (names_.wgsl ? "}\n" : "};\n");
@@ -111,8 +111,7 @@ private:
         case Statement::Kind::declare: return wrapped(space + declaration(s) + ";", indent) + '\n';
         case Statement::Kind::assign:
             return wrapped(space + expression(s.target) + " = " + expression(s.value) + ";", indent) + '\n';
-        case Statement::Kind::giveBack:
-            return wrapped(space + "return " + expression(s.value) + ";", indent) + '\n';
+        case Statement::Kind::giveBack: return wrapped(space + "return " + expression(s.value) + ";", indent) + '\n';
         case Statement::Kind::branch: break;
         }
         return wrapped(space + "if (" + expression(s.value) + ") {", indent) + '\n' + body(s.body, indent + 4) + space

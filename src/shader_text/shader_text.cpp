@@ -1,5 +1,7 @@
 #include "cotan/shader_text/shader_text.hpp"
 
+#include <algorithm>
+
 #include "entry.hpp"
 #include "fill.hpp"
 #include "parse.hpp"
@@ -11,7 +13,10 @@ namespace cotan::shader_text {
 
 namespace {
 
-std::string_view branchOf(Language language) { return language == Language::cpp ? "COTAN_LANG_CPP" : "COTAN_LANG_GLSL"; }
+std::string_view branchOf(Language language)
+{
+    return language == Language::cpp ? "COTAN_LANG_CPP" : "COTAN_LANG_GLSL";
+}
 
 // All of the portable text, and `extra` after it.
 Module parseAll(Language language, std::string_view extra)
@@ -61,20 +66,34 @@ Result<Form> formOf(const Choice& choice)
     if (choice.uvSets < 1 || choice.uvSets > 4)
         return usageError(fill("uv sets: expected 1 to 4; found {}", choice.uvSets));
     if (several && info(choice.frame).source != FrameSource::differences)
-        return usageError(fill("several uv sets: expected a frame made from differences; found '{}'",
-                                      name(choice.frame)));
+        return usageError(
+            fill("several uv sets: expected a frame made from differences; found '{}'", name(choice.frame)));
     if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
-        return usageError(several ? std::string("the fused form has one uv set; for several, the form is total")
-                                  : fill("the fused form: expected cotangent, gradient or orthonormal; found '{}'",
-                                                name(choice.frame)));
-    return choice.form ? *choice.form : !several && hasFusedForm(choice.frame) ? Form::fused : Form::total;
+        return usageError(
+            several ? std::string("the fused form has one uv set; for several, the form is total")
+                    : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "), name(choice.frame)));
+    const bool fusedByItself = !several && hasFusedForm(choice.frame) && !readsVertices(choice.frame);
+    const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
+    if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
+        return usageError("a stage: expected the frame triangle in its fused form; found another");
+    return form;
 }
 
 } // namespace
 
-bool hasFusedForm(Frame frame)
+bool hasFusedForm(Frame frame) { return info(frame).fused; }
+
+std::string fusedFrameNames(std::string_view beforeLast)
 {
-    return frame == Frame::cotangent || frame == Frame::gradient || frame == Frame::orthonormal;
+    std::vector<std::string_view> names;
+    for (const FrameInfo& f : frames())
+        if (f.fused)
+            names.push_back(f.name);
+    std::ranges::sort(names);
+    std::string text(names.front());
+    for (std::size_t i = 1; i < names.size(); ++i)
+        text += std::string(i + 1 < names.size() ? ", " : beforeLast) + std::string(names[i]);
+    return text;
 }
 
 Result<ShaderText> makeShaderText(const Choice& choice)
@@ -87,7 +106,7 @@ Result<ShaderText> makeShaderText(const Choice& choice)
     const Module needed = neededBy(module, rootsOf(module, choice));
     ShaderText result;
     result.form = *form;
-    result.entry = entryOf(choice.frame);
+    result.entry = entryOf(choice);
     for (const Function& f : needed.functions)
         result.functions.push_back(f.name);
     result.text = introduction(choice, *form) + print(needed, choice.language);

@@ -77,8 +77,8 @@ bool isAssignmentTo(const Statement& s, const std::string& name)
 
 } // namespace
 
-void bindArgument(Module& module, const std::string& function, const std::string& name,
-                  const std::string& field, const std::string& value)
+void bindArgument(Module& module, const std::string& function, const std::string& name, const std::string& field,
+                  const std::string& value)
 {
     Expression constant{Kind::number, value, {}};
     if (value[0] == '-')

@@ -8,8 +8,8 @@ namespace cotan::shader_text {
 
 // Puts `value` in the place of parameter `name` of `function` (of its field `field` unless that is
 // empty). A parameter without a field goes from the function and from all calls.
-void bindArgument(Module& module, const std::string& function, const std::string& name,
-                  const std::string& field, const std::string& value);
+void bindArgument(Module& module, const std::string& function, const std::string& name, const std::string& field,
+                  const std::string& value);
 
 // Takes a parameter whose fields are all bound out of the function; its calls are not changed.
 void dropParameter(Module& module, const std::string& function, const std::string& name);

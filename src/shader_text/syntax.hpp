@@ -25,10 +25,10 @@ struct Expression {
 
 struct Statement {
     enum class Kind {
-        declare,    // type name = value, or without a value
-        assign,     // target = value
-        branch,     // if (value) body
-        giveBack,   // return value
+        declare,  // type name = value, or without a value
+        assign,   // target = value
+        branch,   // if (value) body
+        giveBack, // return value
     };
     Kind kind = Kind::declare;
     std::vector<std::string> comments; // the lines above it, with their slashes
@@ -63,8 +63,7 @@ struct Module {
 };
 
 // Calls visit(expression) for the expression and all below it.
-template<class Node, class Visit>
-void visitAll(Node& e, const Visit& visit)
+template<class Node, class Visit> void visitAll(Node& e, const Visit& visit)
 {
     visit(e);
     for (auto& child : e.children)
@@ -72,8 +71,7 @@ void visitAll(Node& e, const Visit& visit)
 }
 
 // The same for all expressions of statements, targets included.
-template<class Body, class Visit>
-void visitBody(Body& body, const Visit& visit)
+template<class Body, class Visit> void visitBody(Body& body, const Visit& visit)
 {
     for (auto& s : body) {
         if (s.kind == Statement::Kind::assign)

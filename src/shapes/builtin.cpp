@@ -33,8 +33,7 @@ int addMaterial(Scene& scene, const Look& look)
 }
 
 // Adds a mesh and its one instance: turned about the vertical, scaled, moved to `place`.
-void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0,
-              float scale = 1)
+void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0, float scale = 1)
 {
     mesh.material = addMaterial(scene, look);
     glm::mat4 toWorld = glm::translate(glm::mat4(1), place);
@@ -59,23 +58,21 @@ Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV
 
 void addShapes(Scene& scene)
 {
-    addShape(scene, makePlane(40, 20, 24),
-             {"brick floor", Relief::bricks, {0.20f, 0.075f, 0.045f}, 0, 0.7f}, {0, 0, 0});
-    addShape(scene, makeTeapot(12), {"copper", Relief::domes, {0.93f, 0.52f, 0.36f}, 1, 0.32f},
-             {-0.1f, 0, 0}, -25, 1.5f);
+    addShape(scene, makePlane(40, 20, 24), {"brick floor", Relief::bricks, {0.20f, 0.075f, 0.045f}, 0, 0.7f},
+             {0, 0, 0});
+    addShape(scene, makeTeapot(12), {"copper", Relief::domes, {0.93f, 0.52f, 0.36f}, 1, 0.32f}, {-0.1f, 0, 0}, -25,
+             1.5f);
     scene.materials.back().doubleSided = true; // the spout is open
     addShape(scene, makeTorus(0.46f, 0.19f, 96, 6, 2.5f),
-             {"blue plastic", Relief::waves, {0.02f, 0.08f, 0.32f}, 0, 0.3f},
-             {-1.75f, 0.19f, 1.25f});
-    addShape(scene, makeMirroredSphere(0.5f, 96, 4, 2),
-             {"gold", Relief::domes, {1.0f, 0.71f, 0.29f}, 1, 0.4f}, {1.75f, 0.5f, 0.95f}, -20);
+             {"blue plastic", Relief::waves, {0.02f, 0.08f, 0.32f}, 0, 0.3f}, {-1.75f, 0.19f, 1.25f});
+    addShape(scene, makeMirroredSphere(0.5f, 96, 4, 2), {"gold", Relief::domes, {1.0f, 0.71f, 0.29f}, 1, 0.4f},
+             {1.75f, 0.5f, 0.95f}, -20);
     addShape(scene, makeCube(0.9f, 1), {"stone", Relief::bricks, {0.26f, 0.25f, 0.23f}, 0, 0.6f},
              {-2.1f, 0.45f, -0.75f}, 30);
     Mesh panel = makePatch(2, 0.7f, /*mirrored*/ false, 1);
     scaleTexcoords(panel, 2, 2);
-    addShape(scene, std::move(panel),
-             {"plaster panel", Relief::domes, {0.30f, 0.32f, 0.30f}, 0, 0.35f}, {1.1f, 0.9f, -1.7f},
-             -12, 1.8f);
+    addShape(scene, std::move(panel), {"plaster panel", Relief::domes, {0.30f, 0.32f, 0.30f}, 0, 0.35f},
+             {1.1f, 0.9f, -1.7f}, -12, 1.8f);
     scene.materials.back().doubleSided = true; // a sheet without a back
 }
 

@@ -47,8 +47,7 @@ HeightSample bricks(double u, double v)
     const bool odd = course - 2 * std::floor(course / 2) == 1;
     const Ramp x = brickProfile(centred(u - (odd ? 0 : kLength / 2), kLength), kLength);
     const Ramp y = brickProfile(v - (course + 0.5) * kHeight, kHeight);
-    return {kAmplitude * x.value * y.value, kAmplitude * x.slope * y.value,
-            kAmplitude * x.value * y.slope};
+    return {kAmplitude * x.value * y.value, kAmplitude * x.slope * y.value, kAmplitude * x.value * y.slope};
 }
 
 // A sum of sines that repeat with the unit square.

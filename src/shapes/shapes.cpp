@@ -67,8 +67,7 @@ SurfacePoint spoutPoint(double u, double v)
     const double angle = turns(u);
     const glm::dvec3 radial = side * std::cos(angle) + glm::dvec3(0, 0, std::sin(angle));
     const glm::dvec3 around = side * -std::sin(angle) + glm::dvec3(0, 0, std::cos(angle));
-    const glm::dvec3 down =
-        glm::dvec3(c.centre1, 0) + radial * c.radius1 + side1 * (c.radius * std::cos(angle));
+    const glm::dvec3 down = glm::dvec3(c.centre1, 0) + radial * c.radius1 + side1 * (c.radius * std::cos(angle));
     return {glm::dvec3(c.centre, 0) + radial * c.radius, glm::normalize(glm::cross(down, around))};
 }
 
@@ -95,8 +94,7 @@ Mesh makeCube(float side, float uvRepeat)
     Mesh mesh = namedMesh("cube");
     const double s = side;
     for (const auto& f : faces)
-        appendGrid(mesh, {},
-                   flatSurface((f.out - f.right - f.down) * (s / 2), f.right * s, f.down * s));
+        appendGrid(mesh, {}, flatSurface((f.out - f.right - f.down) * (s / 2), f.right * s, f.down * s));
     scaleTexcoords(mesh, uvRepeat, uvRepeat);
     return mesh;
 }
@@ -111,8 +109,7 @@ Mesh makeSphere(float radius, int segments)
         const double colatitude = std::numbers::pi * v;
         // sin by the nearer pole, so that both poles are exactly on the axis
         const double ring = std::sin(std::numbers::pi * std::min(v, 1 - v));
-        const glm::dvec3 n{ring * std::sin(longitude), std::cos(colatitude),
-                           ring * std::cos(longitude)};
+        const glm::dvec3 n{ring * std::sin(longitude), std::cos(colatitude), ring * std::cos(longitude)};
         return SurfacePoint{n * double(radius), n};
     });
     return mesh;

@@ -12,15 +12,10 @@ namespace cotan {
 
 namespace {
 
-constexpr double kFarthest = 1e6;         // uv beyond have no texel of their own in float
-constexpr double kReach = 0.70710678;     // half the diagonal of a texel
-constexpr int kTile = 4;                  // side of the squares in which first places come
-constexpr int kMostCopies = 64;           // of one triangle that wraps: per axis
-
-struct UvFirst {
-    glm::ivec2 texel;
-    UvPlace place;
-};
+constexpr double kFarthest = 1e6;     // uv beyond have no texel of their own in float
+constexpr double kReach = 0.70710678; // half the diagonal of a texel
+constexpr int kTile = 4;              // side of the squares in which first places come
+constexpr int kMostCopies = 64;       // of one triangle that wraps: per axis
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -155,8 +150,7 @@ std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, doub
             int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1))};
 }
 
-template<class Emit>
-void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
+template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
 {
     const double py = y + 0.5;
     double low, high;
@@ -214,10 +208,11 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
 
 void UvRaster::row(int y, UvReach reach, UvRow& result) const
 {
-    thread_local Found found;
-    thread_local std::vector<std::uint8_t> taken;
+    std::vector<std::pair<int, UvPlace>>& found = result.scratch.found;
+    std::vector<std::uint8_t>& taken = result.scratch.taken;
+    std::vector<std::uint32_t>& next = result.scratch.next;
     found.clear();
-    const auto emit = [](int x, const UvPlace& place) { found.push_back({x, place}); };
+    const auto emit = [&found](int x, const UvPlace& place) { found.push_back({x, place}); };
     const auto eachShown = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(y / kBlockRows))
             if (shown_[i].first.y <= y && y <= shown_[i].last.y)
@@ -239,7 +234,6 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
     for (std::size_t x = 1; x < result.first.size(); ++x)
         result.first[x] += result.first[x - 1];
     result.places.resize(found.size());
-    thread_local std::vector<std::uint32_t> next;
     next.assign(result.first.begin(), result.first.end() - 1);
     for (const auto& [x, place] : found) // in the order of the triangles
         result.places[next[std::size_t(x)]++] = place;
@@ -249,14 +243,16 @@ void UvRaster::firsts(int block, UvFirsts& result) const
 {
     const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
     const int across = (width_ + kTile - 1) / kTile; // tiles
-    thread_local std::vector<std::uint8_t> taken;
-    thread_local std::vector<UvFirst> found;
-    thread_local std::vector<std::uint32_t> next; // of each tile, where in the result its next texel goes
+    std::vector<std::pair<glm::ivec2, UvPlace>>& found = result.scratch.found;
+    std::vector<std::uint8_t>& taken = result.scratch.taken;
+    std::vector<std::uint32_t>& next = result.scratch.next; // of each tile
     taken.assign(std::size_t(bottom - top + 1) * std::size_t(width_), 0);
     next.assign(std::size_t(kBlockRows / kTile * across) + 1, 0);
     found.clear();
     result.again.clear();
-    const auto tileOf = [&](glm::ivec2 texel) { return std::size_t((texel.y - top) / kTile * across + texel.x / kTile); };
+    const auto tileOf = [&](glm::ivec2 texel) {
+        return std::size_t((texel.y - top) / kTile * across + texel.x / kTile);
+    };
     const auto eachRow = [&](const auto& scan) {
         for (std::uint32_t i : shownIn(block)) {
             const Shown& t = shown_[i];
@@ -280,10 +276,10 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     std::partial_sum(next.begin(), next.end(), next.begin());
     result.texels.resize(found.size());
     result.places.resize(found.size());
-    for (const UvFirst& f : found) {
-        const std::uint32_t at = next[tileOf(f.texel)]++;
-        result.texels[at] = f.texel;
-        result.places[at] = f.place;
+    for (const auto& [texel, place] : found) {
+        const std::uint32_t at = next[tileOf(texel)]++;
+        result.texels[at] = texel;
+        result.places[at] = place;
     }
 }
 

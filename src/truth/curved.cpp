@@ -22,10 +22,11 @@ PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
     return PixelCamera::lookAt(target + direction * 4.0, target + random.direction() * 0.5, {0.1, 0.2, 1}, 1800);
 }
 
-// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse than.
+// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse
+// than.
 struct CurvedRows {
     FrameRows frames;
-    AngleCollector none, normal, gradients, blinn;
+    AngleCollector none, normal, gradients, blinn, fusedSmooth;
     Measurement names;
 
     CurvedRows(const AccuracySelection& selection, Measurement names_) : names(std::move(names_))
@@ -53,6 +54,7 @@ struct CurvedRows {
             const glm::dvec3 shaded = shade(row.frame, row.single, x, screen, isMetric ? metric : texel);
             row.angles.add(degreesBetween(shaded, row.names.truth == "E" ? e : s));
         }
+        fusedSmooth.add(degreesBetween(f64::cotan_perturb_smooth(x.n, x.unitU, x.unitV, texel), s));
         normal.add(degreesBetween(n, p.normal));
         none.add(degreesBetween(n, s));
         SurfacePoint interpolated = p; // the true gradients on the interpolated normal
@@ -71,6 +73,7 @@ struct CurvedRows {
         } controls[] = {{&none, "(no map)", "S"},
                         {&normal, "(interpolated normal)", "smooth normal"},
                         {&gradients, "(analytic gradients)", "S"},
+                        {&fusedSmooth, "(smooth, fused)", "S"},
                         {&blinn, "(Blinn, analytic)", "E"}};
         for (const auto& c : controls) {
             Measurement row = names;
@@ -95,8 +98,9 @@ std::vector<Measurement> measureCurved(const AccuracySelection& selection)
         for (bool irregular : {false, true})
             for (int segments : kSegments) {
                 const Tessellation mesh = tessellate(surface, segments, irregular);
-                CurvedRows rows(selection, {"curved", surface.name,
-                                            fmt::format("{}{}", segments, irregular ? " irregular" : ""), "", "", ""});
+                CurvedRows rows(
+                    selection,
+                    {"curved", surface.name, fmt::format("{}{}", segments, irregular ? " irregular" : ""), "", "", ""});
                 Random random(std::uint64_t(1000 + segments));
                 for (int i = 0; i < kCurvedSamples; ++i) {
                     const Interpolated x = interpolate(mesh, randomPoint(random, mesh));

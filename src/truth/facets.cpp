@@ -13,8 +13,8 @@ namespace cotan {
 namespace {
 
 constexpr int kFacetSamples = 6000;
-constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,     Frame::orthonormal,
-                             Frame::gradient,  Frame::smooth,    Frame::vertex,    Frame::mikktspace};
+constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,  Frame::triangle,  Frame::orthonormal,
+                             Frame::gradient,  Frame::smooth,    Frame::vertex, Frame::mikktspace};
 
 // An edge that two triangles share: for each, its number and which of its corners the ends are.
 struct Edge {
@@ -77,8 +77,7 @@ void measure(const AccuracySelection& selection, const Surface& surface, int seg
     Random random(61);
     for (int i = 0; i < kFacetSamples; ++i) {
         const glm::dvec3 texel = tiltedTexel(random, 35);
-        const glm::dvec3 metric =
-            glm::normalize(glm::dvec3(texel.x * unitsPerUv, texel.y * unitsPerUv, texel.z));
+        const glm::dvec3 metric = glm::normalize(glm::dvec3(texel.x * unitsPerUv, texel.y * unitsPerUv, texel.z));
         const Edge& edge = edges[std::size_t(random.unit() * double(edges.size()))];
         const double t = random.unit();
         const Interpolated a = onEdge(mesh, edge, 0, t), b = onEdge(mesh, edge, 1, t);

@@ -10,8 +10,8 @@ namespace {
 
 // What the generators of per-vertex frames give on a patch: the same at every vertex.
 struct VertexFrames {
-    glm::dvec3 tangent, mikktspaceTangent, cotangentU, cotangentV;
-    double handedness, mikktspaceHandedness;
+    std::array<glm::dvec4, kFrameCount> tangents; // of the frames that read them, as tangentAlongV
+    glm::dvec3 cotangentU, cotangentV;
 };
 
 VertexFrames vertexFrames(const Layout& l)
@@ -23,31 +23,30 @@ VertexFrames vertexFrames(const Layout& l)
         texcoords.emplace_back(uv);
     }
     // Triangles run counter-clockwise seen from +z, also where the layout mirrors.
-    const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0
-        ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
+    const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0 ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}
+                                                                         : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
     const MeshView mesh{positions, normals, texcoords, indices};
-    const glm::vec4 classic = vertexTangents(mesh).front(), mikktspace = mikktspaceTangents(mesh).front();
     const Cotangents cotangents = smoothCotangents(mesh);
-    // handedness: the negative of glTF's w, see cotan_frame_vertex
-    return {glm::dvec3(classic), glm::dvec3(mikktspace), glm::dvec3(cotangents.u.front()),
-            glm::dvec3(cotangents.v.front()), -double(classic.w), -double(mikktspace.w)};
+    VertexFrames made{{}, glm::dvec3(cotangents.u.front()), glm::dvec3(cotangents.v.front())};
+    for (const FrameInfo& f : frames())
+        if (readsTangents(f.frame))
+            made.tangents[std::size_t(f.frame)] = glm::dvec4(tangentAlongV(generateTangents(f.frame, mesh).front()));
+    return made;
 }
 
 glm::dvec3 shadeVertexFrame(bool single, Frame frame, const VertexFrames& v, glm::dvec3 m)
 {
     const glm::dvec3 n(0, 0, 1);
+    const glm::dvec4 t = v.tangents[std::size_t(frame)];
     if (single) {
         const glm::vec3 nf(n);
-        const auto f = frame == Frame::smooth
-            ? f32::cotan_frame_smooth(nf, glm::vec3(v.cotangentU), glm::vec3(v.cotangentV))
-            : frame == Frame::vertex
-            ? f32::cotan_frame_vertex(nf, glm::vec3(v.tangent), float(v.handedness))
-            : f32::cotan_frame_mikktspace(nf, glm::vec3(v.mikktspaceTangent), float(v.mikktspaceHandedness));
+        const auto f = readsCotangents(frame)
+            ? evaluateCotangents(frame, nf, glm::vec3(v.cotangentU), glm::vec3(v.cotangentV))
+            : evaluateTangents(frame, nf, glm::vec3(t), float(t.w));
         return glm::dvec3(f32::cotan_apply(f, glm::vec3(m)));
     }
-    const auto f = frame == Frame::smooth ? f64::cotan_frame_smooth(n, v.cotangentU, v.cotangentV)
-        : frame == Frame::vertex ? f64::cotan_frame_vertex(n, v.tangent, v.handedness)
-                                 : f64::cotan_frame_mikktspace(n, v.mikktspaceTangent, v.mikktspaceHandedness);
+    const auto f = readsCotangents(frame) ? evaluateCotangents(frame, n, v.cotangentU, v.cotangentV)
+                                          : evaluateTangents(frame, n, glm::dvec3(t), t.w);
     return f64::cotan_apply(f, m);
 }
 
@@ -73,9 +72,8 @@ struct PatchRows {
             if (degreesBetween(truths[k], patch.normal) < leastTilt)
                 continue;
             for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
-                const glm::dvec3 n = info(row.frame).source == FrameSource::vertices
-                    ? shadeVertexFrame(row.single, row.frame, vertices, m)
-                    : shadeAs(row.single, row.frame, patch.normal, d, m);
+                const glm::dvec3 n = readsVertices(row.frame) ? shadeVertexFrame(row.single, row.frame, vertices, m)
+                                                              : shadeAs(row.single, row.frame, patch.normal, d, m);
                 row.angles.add(degreesBetween(n, truths[k]));
             }
         }
@@ -87,8 +85,7 @@ void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::d
 {
     const AffinePatch patch = patchOf(layout);
     const VertexFrames vertices = vertexFrames(layout);
-    const PixelCamera camera =
-        PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
+    const PixelCamera camera = PixelCamera::lookAt(glm::dvec3(1, 1, 0) + from * 5.0, {1, 1, 0}, up, 200, true);
     for (int j = 0; j < 128; ++j)
         for (int i = 0; i < 128; ++i) {
             const double u = (i + 0.5) / 128, v = (j + 0.5) / 128;

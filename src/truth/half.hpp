@@ -60,7 +60,8 @@ inline Half cotan_inverse_power_of_two(Half x) { return Half(std::ldexp(1.0, -st
 
 } // namespace cotan
 
-template<> struct std::numeric_limits<cotan::Half> : std::numeric_limits<float> {};
+template<> struct std::numeric_limits<cotan::Half> : std::numeric_limits<float> {
+};
 
 namespace cotan::f16 {
 #define COTAN_LANG_CPP

@@ -30,8 +30,8 @@ HalfInput input(const PrecisionTrial& t, const Differences<float>& d, bool scale
     f32::cotan_differences s{d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy, 1, 1};
     if (scaled)
         s = f32::cotan_scale_differences(d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy);
-    return {toHalf(glm::vec3(t.normal)), toHalf(s.dpdx), toHalf(s.dpdy), toHalf(glm::vec3(t.texel)),
-            toHalf(s.duvdx), toHalf(s.duvdy)};
+    return {toHalf(glm::vec3(t.normal)), toHalf(s.dpdx),  toHalf(s.dpdy),
+            toHalf(glm::vec3(t.texel)),  toHalf(s.duvdx), toHalf(s.duvdy)};
 }
 
 void measure(const AccuracySelection& selection, const char* scene, Frame frame, bool scaled, double footprint,
@@ -44,17 +44,15 @@ void measure(const AccuracySelection& selection, const char* scene, Frame frame,
     for (int i = 0; i < kTrials; ++i) {
         const PrecisionTrial t = makeTrial(random, {0, footprint, 1, std::max(1.0, 10 * footprint)});
         const HalfInput x = input(t, measuredDifferences(t, PositionSource::cameraRelative), scaled);
-        const auto f = frame == Frame::cotangent
-            ? f16::cotan_frame_cotangent(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
-            : frame == Frame::orthonormal
-            ? f16::cotan_frame_orthonormal(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
-            : f16::cotan_frame_cotangent_2013(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy);
+        const auto f = frame == Frame::cotangent ? f16::cotan_frame_cotangent(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
+            : frame == Frame::orthonormal        ? f16::cotan_frame_orthonormal(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
+                                          : f16::cotan_frame_cotangent_2013(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy);
         // Not cotan_apply: its guard would hide that the sum is not finite.
         const glm::dvec3 v = toDouble(f.t * x.m.x + f.b * x.m.y + f.n * x.m.z);
         angles.add(degreesBetween(v, shade(frame, t.normal, t.exact, t.texel)));
     }
-    result.push_back(angles.finish({"half", scene, fmt::format("footprint {:g}", footprint),
-                                    std::string(name(frame)), "exact arithmetic", "half"}));
+    result.push_back(angles.finish({"half", scene, fmt::format("footprint {:g}", footprint), std::string(name(frame)),
+                                    "exact arithmetic", "half"}));
 }
 
 // Positions and uv themselves in half, differenced, and the frame in float.

@@ -72,7 +72,7 @@ PaintedScene paintedScene(const Surface& surface, int segments, int texelsPerUni
     scene.images.push_back(
         slopeMap(painted.mapOrigin, painted.mapSide, int(std::ceil(painted.mapSide * texelsPerUnit))));
     Material material;
-    material.normalFormat.greenAlongV = true;
+    material.normalFormat.greenUp = false;
     material.normalMap.image = 0;
     material.normalMap.sampler.mip = MipFilter::none;
     material.normalMap.sampler.wrapU = material.normalMap.sampler.wrapV = Wrap::clamp;
@@ -110,7 +110,8 @@ void addPaintedAngles(const PaintedScene& painted, Frame frame, const Image& nor
         const SurfacePoint p = painted.surface.at(painted.surface.parameters(texcoords));
         const ReliefSample relief = Waves{}.at(texcoords.x, texcoords.y);
         const glm::dvec3 truth = frame == Frame::gradient
-            ? painted.surface.displacedNormal(p, relief, painted.unitsPerUv) : truthS(p, texelOf(relief));
+            ? painted.surface.displacedNormal(p, relief, painted.unitsPerUv)
+            : truthS(p, texelOf(relief));
         angles.add(degreesBetween(glm::dvec3(n[0], n[1], n[2]), truth));
     }
 }

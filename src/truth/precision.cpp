@@ -45,8 +45,7 @@ PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting)
     const glm::dvec3 h = glm::cross(q.normal, e);
     const double turn = random.azimuth();
     q.gradU = e * std::cos(turn) + h * std::sin(turn);
-    q.gradV = (h * std::cos(turn) - e * std::sin(turn)) / random.range(1, 2)
-        + q.gradU * random.range(-0.3, 0.3);
+    q.gradV = (h * std::cos(turn) - e * std::sin(turn)) / random.range(1, 2) + q.gradU * random.range(-0.3, 0.3);
     const glm::dvec2 base = glm::dvec2{random.unit(), random.unit()} * setting.texcoords;
     for (int k = 0; k < 3; ++k) {
         const double z = 2 * std::numbers::pi * k / 3 + random.range(-0.3, 0.3);
@@ -54,15 +53,14 @@ PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting)
         t.positions[k] = glm::dvec3(glm::vec3(origin + local));
         t.texcoords[k] = glm::dvec2(glm::vec2(base + q.uvAt(local)));
     }
-    t.normal = glm::normalize(
-        glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
+    t.normal = glm::normalize(glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
     glm::dvec3 view;
     do
         view = random.direction();
     while (glm::dot(view, t.normal) < 0.35);
     const glm::dvec3 centre = at(glm::dvec2(random.range(0.2, 0.4), random.range(0.2, 0.4)), t.positions);
-    const PixelCamera camera = PixelCamera::lookAt(centre + view * (setting.footprint * 1000), centre,
-                                                   random.direction(), 1000);
+    const PixelCamera camera =
+        PixelCamera::lookAt(centre + view * (setting.footprint * 1000), centre, random.direction(), 1000);
     t.eye = glm::dvec3(glm::vec3(camera.eye));
     const glm::dvec2 pixels[3] = {{0, 0}, {1, 0}, {0, 1}};
     for (int k = 0; k < 3; ++k)
@@ -70,8 +68,8 @@ PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting)
     auto difference = [&](const auto& corner, int k) {
         return at(t.barycentrics[k], corner) - at(t.barycentrics[0], corner);
     };
-    t.exact = {Vector3d(difference(t.positions, 1)), Vector3d(difference(t.positions, 2)),
-               difference(t.texcoords, 1), difference(t.texcoords, 2)};
+    t.exact = {Vector3d(difference(t.positions, 1)), Vector3d(difference(t.positions, 2)), difference(t.texcoords, 1),
+               difference(t.texcoords, 2)};
     t.texel = tiltedTexel(random, 35);
     return t;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kTrials = 4000;
 constexpr double kFootprints[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
-constexpr Frame kFrames[] = {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact};
+constexpr Frame kFrames[] = {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact, Frame::triangle};
 
 void measure(const AccuracySelection& selection, const std::string& scene, const std::string& settingName,
              const PrecisionSetting& setting, PositionSource source, std::uint64_t seed,
@@ -26,13 +26,13 @@ void measure(const AccuracySelection& selection, const std::string& scene, const
         AngleCollector angles;
         for (int i = 0; i < kTrials; ++i) {
             const PrecisionTrial t = makeTrial(random, setting);
-            const bool edges = frame == Frame::exact; // its differences span the triangle
+            const bool edges = info(frame).source == FrameSource::triangle; // its differences span the triangle
             const glm::dvec3 truth = shade(frame, t.normal, edges ? exactEdges(t) : t.exact, t.texel);
             const auto d = edges ? floatEdges(t) : measuredDifferences(t, source);
             angles.add(degreesBetween(shadeFloat(frame, t.normal, d, t.texel), truth));
         }
-        result.push_back(angles.finish(
-            {"precision", scene, settingName, std::string(name(frame)), "exact arithmetic", "float"}));
+        result.push_back(
+            angles.finish({"precision", scene, settingName, std::string(name(frame)), "exact arithmetic", "float"}));
     }
 }
 

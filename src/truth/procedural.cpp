@@ -29,19 +29,13 @@ struct Pixel {
     glm::dvec2 quad; // of its first lane
     int lane[2];
 
-    glm::dvec3 at(int x, int y) const
-    {
-        return camera.meet(quad + glm::dvec2(x, y), {0, 0, 0}, {0, 0, 1});
-    }
+    glm::dvec3 at(int x, int y) const { return camera.meet(quad + glm::dvec2(x, y), {0, 0, 0}, {0, 0, 1}); }
     Differences<double> differences(glm::ivec2 x0, glm::ivec2 x1, glm::ivec2 y0, glm::ivec2 y1) const
     {
         const glm::dvec3 a = at(x0.x, x0.y), b = at(x1.x, x1.y), c = at(y0.x, y0.y), d = at(y1.x, y1.y);
         return {Vector3d(b - a), Vector3d(d - c), warpedUv(b) - warpedUv(a), warpedUv(d) - warpedUv(c)};
     }
-    Differences<double> fine() const
-    {
-        return differences({0, lane[1]}, {1, lane[1]}, {lane[0], 0}, {lane[0], 1});
-    }
+    Differences<double> fine() const { return differences({0, lane[1]}, {1, lane[1]}, {lane[0], 0}, {lane[0], 1}); }
     Differences<double> coarse() const { return differences({0, 0}, {1, 0}, {0, 0}, {0, 1}); }
     Differences<double> centred() const
     {
@@ -76,10 +70,10 @@ std::vector<Measurement> measureProcedural(const AccuracySelection& selection)
         for (int pixels : {256, 64, 16, 8, 4}) {
             FrameRows rows;
             for (Frame frame : {Frame::cotangent, Frame::gradient})
-                rows.add(selection, frame, {"procedural", scene, fmt::format("{} pixels a wave", pixels), "",
-                                            frame == Frame::gradient ? "E" : "S", ""});
-            const PixelCamera camera =
-                PixelCamera::lookAt({12, -16, 20}, {0, 0, 0}, {0.5, 0, 1}, pixels, true);
+                rows.add(selection, frame,
+                         {"procedural", scene, fmt::format("{} pixels a wave", pixels), "",
+                          frame == Frame::gradient ? "E" : "S", ""});
+            const PixelCamera camera = PixelCamera::lookAt({12, -16, 20}, {0, 0, 0}, {0.5, 0, 1}, pixels, true);
             Random random(7);
             for (int i = 0; i < 6000; ++i) {
                 const glm::dvec2 quad{std::floor(random.range(-500, 500)), std::floor(random.range(-500, 500))};
@@ -88,8 +82,7 @@ std::vector<Measurement> measureProcedural(const AccuracySelection& selection)
                 const glm::dvec3 m = tiltedTexel(random, 35);
                 const Differences<double> d = (pixel.*differences)();
                 for (FrameRows::Row& row : rows.rows) {
-                    const glm::dvec3 truth =
-                        row.frame == Frame::gradient ? truthE(patch, m) : truthS(patch, m);
+                    const glm::dvec3 truth = row.frame == Frame::gradient ? truthE(patch, m) : truthS(patch, m);
                     row.angles.add(degreesBetween(shadeAs(row.single, row.frame, patch.normal, d, m), truth));
                 }
             }

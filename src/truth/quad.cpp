@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "cotan/angle.hpp"
+
 namespace cotan {
 
-PixelCamera PixelCamera::lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double focal,
-                                bool orthographic)
+PixelCamera PixelCamera::lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double focal, bool orthographic)
 {
     PixelCamera c;
     c.eye = eye;
@@ -37,16 +38,14 @@ glm::dvec3 PixelCamera::meet(glm::dvec2 pixel, glm::dvec3 pointOfPlane, glm::dve
     return eye + d * (glm::dot(normal, pointOfPlane - eye) / glm::dot(normal, d));
 }
 
-Differences<double> screenDifferences(const PixelCamera& camera, const AffinePatch& patch,
-                                      glm::dvec3 point, double step, bool normalizedView)
+Differences<double> screenDifferences(const PixelCamera& camera, const AffinePatch& patch, glm::dvec3 point,
+                                      double step, bool normalizedView)
 {
     const glm::dvec2 pixel = camera.project(point);
     const glm::dvec3 p0 = camera.meet(pixel, patch.origin, patch.normal);
     const glm::dvec3 px = camera.meet(pixel + glm::dvec2(step, 0), patch.origin, patch.normal);
     const glm::dvec3 py = camera.meet(pixel + glm::dvec2(0, step), patch.origin, patch.normal);
-    auto position = [&](glm::dvec3 p) {
-        return normalizedView ? glm::normalize(p - camera.eye) : p;
-    };
+    auto position = [&](glm::dvec3 p) { return normalizedView ? glm::normalize(p - camera.eye) : p; };
     Differences<double> d;
     d.dpdx = Vector3d(position(px) - position(p0));
     d.dpdy = Vector3d(position(py) - position(p0));
@@ -70,9 +69,6 @@ double commonScale(glm::dvec3 gradU, glm::dvec3 gradV)
     return 1 / std::sqrt(std::max(glm::dot(gradU, gradU), glm::dot(gradV, gradV)));
 }
 
-double degreesBetween(glm::dvec3 a, glm::dvec3 b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
-}
+double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return angleBetween(a, b) * 180 / std::numbers::pi; }
 
 } // namespace cotan

@@ -55,7 +55,7 @@ inline std::vector<Frame> differenceFrames()
 {
     std::vector<Frame> list;
     for (const FrameInfo& f : frames())
-        if (f.source != FrameSource::vertices)
+        if (!readsVertices(f.frame))
             list.push_back(f.frame);
     return list;
 }

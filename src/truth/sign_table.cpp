@@ -55,8 +55,7 @@ void measureCase(const AccuracySelection& selection, const SignCase& c, std::vec
 // green points are independent; the flag to store is whether green points along +v.
 void measureGreen(const AccuracySelection& selection, bool vDown, bool greenUp, std::vector<Measurement>& result)
 {
-    const std::string scene =
-        std::string(vDown ? "v down" : "v up") + (greenUp ? ", green up" : ", green down");
+    const std::string scene = std::string(vDown ? "v down" : "v up") + (greenUp ? ", green up" : ", green down");
     if (!selection.wantsScene(scene))
         return;
     AffinePatch patch;
@@ -65,8 +64,7 @@ void measureGreen(const AccuracySelection& selection, bool vDown, bool greenUp, 
     const bool alongV = greenUp != vDown;
     for (bool flagRight : {true, false}) {
         FrameRows rows;
-        rows.add(selection, Frame::cotangent,
-                 {"signs", scene, flagRight ? "flag right" : "flag wrong", "", "S", ""});
+        rows.add(selection, Frame::cotangent, {"signs", scene, flagRight ? "flag right" : "flag wrong", "", "S", ""});
         Random random(8);
         for (int i = 0; i < 500; ++i) {
             const double slopeRight = random.range(-0.4, 0.4), slopeUp = random.range(-0.4, 0.4);

@@ -124,9 +124,7 @@ const std::vector<Surface>& surfaces()
 
 Surface patchSurface(const Layout& l)
 {
-    auto position = [l](Jet u, Jet v) {
-        return JetVector{u * l.a + v * l.b, u * l.c + v * l.d, 0};
-    };
+    auto position = [l](Jet u, Jet v) { return JetVector{u * l.a + v * l.b, u * l.c + v * l.d, 0}; };
     return {l.name, glm::dmat2(1), l.a * l.d - l.b * l.c < 0, position};
 }
 

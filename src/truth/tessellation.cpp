@@ -1,6 +1,7 @@
 #include "cotan/truth/tessellation.hpp"
 
 #include "cotan/tangents.hpp"
+#include "cotan/triangle.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {
@@ -29,20 +30,19 @@ AffinePatch planeOf(glm::dvec3 origin, const Differences<double>& edges, glm::dv
 
 glm::dvec3 shadeFromVertices(Frame frame, const Interpolated& x, glm::dvec3 m)
 {
-    const auto f = frame == Frame::smooth ? f64::cotan_frame_smooth(x.n, x.cotangentU, x.cotangentV)
-        : frame == Frame::vertex          ? f64::cotan_frame_vertex(x.n, x.classic, x.classicHandedness)
-                                          : f64::cotan_frame_mikktspace(x.n, x.mikktspace, x.mikktspaceHandedness);
+    const glm::dvec4 t = x.tangents[std::size_t(frame)];
+    const auto f = readsCotangents(frame) ? evaluateCotangents(frame, x.n, x.cotangentU, x.cotangentV)
+                                          : evaluateTangents(frame, x.n, glm::dvec3(t), t.w);
     return f64::cotan_apply(f, m);
 }
 
 glm::dvec3 shadeFromVerticesFloat(Frame frame, const Interpolated& x, glm::dvec3 m)
 {
     const glm::vec3 n(x.n);
-    const auto f = frame == Frame::smooth
-        ? f32::cotan_frame_smooth(n, glm::vec3(x.cotangentU), glm::vec3(x.cotangentV))
-        : frame == Frame::vertex
-        ? f32::cotan_frame_vertex(n, glm::vec3(x.classic), float(x.classicHandedness))
-        : f32::cotan_frame_mikktspace(n, glm::vec3(x.mikktspace), float(x.mikktspaceHandedness));
+    const glm::dvec4 t = x.tangents[std::size_t(frame)];
+    const auto f = readsCotangents(frame)
+        ? evaluateCotangents(frame, n, glm::vec3(x.cotangentU), glm::vec3(x.cotangentV))
+        : evaluateTangents(frame, n, glm::vec3(t), float(t.w));
     return glm::dvec3(f32::cotan_apply(f, glm::vec3(m)));
 }
 
@@ -85,9 +85,11 @@ Tessellation tessellate(const Surface& surface, int segments, bool irregular, bo
         }
     if (vertexFrames) {
         const MeshView view{mesh.positions, mesh.normals, mesh.texcoords, mesh.indices};
-        mesh.mikktspace = mikktspaceTangents(view);
-        mesh.classic = vertexTangents(view);
+        for (const FrameInfo& f : frames())
+            if (readsTangents(f.frame))
+                mesh.tangents[std::size_t(f.frame)] = generateTangents(f.frame, view);
         Cotangents cotangents = smoothCotangents(view);
+        mesh.unitCotangents = unitCotangents(cotangents);
         mesh.cotangentsU = std::move(cotangents.u);
         mesh.cotangentsV = std::move(cotangents.v);
     }
@@ -111,7 +113,6 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
 {
     Interpolated x{};
     const std::size_t first = 3 * at.triangle;
-    const bool framed = !mesh.mikktspace.empty();
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = mesh.indices[first + k];
         const double w = at.weights[k];
@@ -120,15 +121,13 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
         x.parameters += mesh.parameters[v] * w;
         x.uv += glm::dvec2(mesh.texcoords[v]) * w;
         x.cotangentU += corner(mesh.cotangentsU, v) * w;
+        x.unitU += corner(mesh.unitCotangents.u, v) * w;
+        x.unitV += corner(mesh.unitCotangents.v, v) * w;
         x.cotangentV += corner(mesh.cotangentsV, v) * w;
-        if (framed) {
-            x.mikktspace += glm::dvec3(mesh.mikktspace[first + k]) * w;
-            x.classic += glm::dvec3(mesh.classic[first + k]) * w;
-        }
-    }
-    if (framed) { // handedness: the negative of glTF's w, see cotan_frame_vertex
-        x.mikktspaceHandedness = -double(mesh.mikktspace[first].w);
-        x.classicHandedness = -double(mesh.classic[first].w);
+        for (std::size_t f = 0; f < mesh.tangents.size(); ++f)
+            if (!mesh.tangents[f].empty()) // the sign is that of the first corner
+                x.tangents[f] += glm::dvec4(glm::dvec3(mesh.tangents[f][first + k]) * w,
+                                            k == 0 ? double(tangentAlongV(mesh.tangents[f][first]).w) : 0);
     }
     const std::uint32_t* v = &mesh.indices[first];
     auto edge = [&](int k) { return Vector3d(glm::dvec3(mesh.positions[v[k]]) - glm::dvec3(mesh.positions[v[0]])); };
@@ -140,7 +139,7 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
 
 glm::dvec3 shade(Frame frame, bool single, const Interpolated& x, const Differences<double>& screen, glm::dvec3 m)
 {
-    if (info(frame).source == FrameSource::vertices)
+    if (readsVertices(frame))
         return single ? shadeFromVerticesFloat(frame, x, m) : shadeFromVertices(frame, x, m);
     const Differences<double>& d = info(frame).source == FrameSource::triangle ? x.edges : screen;
     const glm::dvec3 n = glm::normalize(x.n);

@@ -25,8 +25,10 @@ Differences<double> rasterDifferences(const AffinePatch& patch)
 {
     const glm::dvec3 area = glm::cross(patch.gradU, patch.gradV);
     const double texel = 1.0 / 1024, scale = texel / glm::dot(area, area);
-    return {Vector3d(glm::cross(patch.gradV, area) * scale), Vector3d(glm::cross(area, patch.gradU) * -scale),
-            {texel, 0}, {0, -texel}};
+    return {Vector3d(glm::cross(patch.gradV, area) * scale),
+            Vector3d(glm::cross(area, patch.gradU) * -scale),
+            {texel, 0},
+            {0, -texel}};
 }
 
 Sources makeSources(Random& random, const AffinePatch& patch)
@@ -55,8 +57,8 @@ std::vector<Measurement> measureViews(const AccuracySelection& selection)
 {
     struct Scene {
         const char* name;
-        Differences<double> Sources::* first;
-        Differences<double> Sources::* second;
+        Differences<double> Sources::*first;
+        Differences<double> Sources::*second;
     };
     const Scene scenes[] = {
         {"screen quad", &Sources::edges, &Sources::screen},

@@ -22,7 +22,7 @@ Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int
                                       int(bake.scene.materials.size()) - 1, bake.material));
     Scene scene = bake.scene;
     putNormalMap(scene, bake.map, bake.format, bake.material);
-    deriveVertexFrames(scene, bake.options.frame, bake.regenerate);
+    deriveVertexFrames(scene, bake.options.frame, bake.tangents);
     const ShownScene shown(painter, scene);
     if (!shown.status())
         return shown.status().error();

@@ -9,7 +9,7 @@ View normalView(const Camera& camera, Frame frame, int side)
     View view;
     view.width = view.height = side;
     view.camera = camera;
-    view.frame = int(frame);
+    view.frame = frame;
     view.output = Output::normal;
     return view;
 }

@@ -33,7 +33,7 @@ Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<C
     DrawnSides sides;
     sides.mapped = drawsNormalMaps(model.scene);
     sides.cameras = cameras.empty() ? camerasAround(model.scene, side) : std::move(cameras);
-    deriveVertexFrames(model.scene, model.frame, model.regenerate);
+    deriveVertexFrames(model.scene, model.frame, model.tangents);
     const ShownScene shown(painter, model.scene);
     if (!shown.status())
         return shown.status().error();

@@ -14,7 +14,7 @@ namespace {
 
 Result<Image> drawn(Painter& painter, View view, Frame frame, Output output)
 {
-    view.frame = int(frame);
+    view.frame = frame;
     view.output = output;
     return painter.draw(view);
 }
@@ -67,7 +67,7 @@ std::string toText(const ComparedFrames& c)
 
 Result<FrameError> errorAgainstExact(Painter& painter, const Scene& scene, View view)
 {
-    const auto normals = drawn(painter, view, Frame(view.frame), Output::normal);
+    const auto normals = drawn(painter, view, view.frame, Output::normal);
     if (!normals)
         return normals.error();
     const auto exact = drawn(painter, view, Frame::exact, Output::normal);

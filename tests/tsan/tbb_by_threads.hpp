@@ -1,7 +1,7 @@
-// What we use of oneTBB, by std::thread: for the thread sanitizer only (the preset `tsan`). The library in Debian is not
-// instrumented: the sanitizer does not see how it hands work from thread to thread and reports races where there are none,
-// and to suppress its frames would hide ours, which are called from them. These threads it sees.
-// Differences: always four threads where not told fewer, also on smaller machines; loops inside of loops run in one thread.
+// What we use of oneTBB, by std::thread: for the thread sanitizer only (the preset `tsan`). The library in Debian is
+// not instrumented: the sanitizer does not see how it hands work from thread to thread and reports races where there
+// are none, and to suppress its frames would hide ours, which are called from them. These threads it sees. Differences:
+// always four threads where not told fewer, also on smaller machines; loops inside of loops run in one thread.
 #pragma once
 
 #include <algorithm>
@@ -83,9 +83,11 @@ template<class Value, class Body> void parallel_for(const blocked_range<Value>& 
     if (range.empty())
         return;
     // As many parts as the grain allows, so that the threads alternate.
-    const std::size_t size = range.size(), parts = std::clamp<std::size_t>(size / std::max<std::size_t>(range.grainsize(), 1), 1, 64);
+    const std::size_t size = range.size(),
+                      parts = std::clamp<std::size_t>(size / std::max<std::size_t>(range.grainsize(), 1), 1, 64);
     by_threads::runAll(parts, [&](std::size_t i) {
-        body(blocked_range<Value>(range.begin() + Value(size * i / parts), range.begin() + Value(size * (i + 1) / parts)));
+        body(blocked_range<Value>(range.begin() + Value(size * i / parts),
+                                  range.begin() + Value(size * (i + 1) / parts)));
     });
 }
 
@@ -152,7 +154,8 @@ template<class Item> struct Chain {
     std::function<Item(Item)> stage;
     std::function<void(Item)> sink;
 };
-template<class Item, class F, class G> Chain<Item> operator&(const filter<void, Item, F>& source, const filter<Item, Item, G>& stage)
+template<class Item, class F, class G>
+Chain<Item> operator&(const filter<void, Item, F>& source, const filter<Item, Item, G>& stage)
 {
     return {source.function, stage.function, {}};
 }

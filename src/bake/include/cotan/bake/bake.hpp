@@ -6,9 +6,9 @@
 
 #include "cotan/bake/high_normal_maps.hpp"
 #include "cotan/bake/high_surface.hpp"
-#include "cotan/bake/low_surface.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/scene/view.hpp"
+#include "cotan/surface/low_surface.hpp"
 
 namespace cotan {
 
@@ -54,9 +54,9 @@ struct BakeStatistics {
     std::size_t texels = 0, covered = 0, touched = 0, missed = 0, negative = 0, twice = 0;
     std::size_t rays = 0;
     std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
-    double rayDistance = 0;   // the search distance used
-    double seconds = 0;       // of the rays and frames
-    double padSeconds = 0;    // of filling around charts, where bakeTile did so
+    double rayDistance = 0;                                     // the search distance used
+    double seconds = 0;                                         // of the rays and frames
+    double padSeconds = 0;                                      // of filling around charts, where bakeTile did so
 };
 
 // A baked map before it is stored: per texel a unit texel m (or a world normal; or the value in x),
@@ -78,7 +78,8 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
 // centre to the low surface, from there as bake() does. float32, alpha 1 where both were found.
 // A second way to the same places: by rays from the eye instead of texels of a raster.
 // Errors: those of HighSurface::make, for the low surface.
-Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
+Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
+                              const View& view);
 
 // Fills texels without a value from the nearest one that has one, up to `radius` texels away (0: no
 // limit), ties to the upper, then the left. So every texel belongs to its nearest chart.
@@ -86,14 +87,14 @@ void padCharts(Baked& baked, int radius);
 
 // How a map is stored.
 struct StoredAs {
-    NormalMapFormat format;
+    Convention format;
     PixelType type = PixelType::unorm8;
     bool dither = false; // 8 bit: rounds by a fixed pattern so that gradients do not band
 };
 
-// The format that storeBaked writes where `format` is asked for: object normals have no green to turn and need all three
-// channels.
-NormalMapFormat storedFormat(BakeKind kind, NormalMapFormat format);
+// The format that storeBaked writes where `format` is asked for: object normals have no green to turn and need all
+// three channels.
+Convention storedFormat(BakeKind kind, Convention format);
 
 // The picture of a baked map. Normals by the format; heights and occlusion as grey, heights shifted
 // and scaled to [0,1] unless float. Texels without a value become flat (normals) or zero.

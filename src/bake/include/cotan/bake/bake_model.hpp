@@ -28,22 +28,22 @@ struct HighModel {
 };
 
 struct BakeModelOptions {
-    BakeOptions bake;                // its tile, cage, highMaps and matched are made from what follows
-    std::vector<int> tiles{1001};    // UDIM numbers: 1001 + u + 10 v, u below 10, v upwards. One map each
-    int material = -1;               // of the simple scene; -1: all
-    TangentSource tangents = TangentSource::stored; // for the frames `vertex` and `mikktspace`
-    const Scene* cage = nullptr;     // the triangles of the simple scene in their order, moved out around both sides; rays
-                                     // run from it inwards. Null: none. Read by prepareBake only
-    bool matchByName = false;        // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
-                                     // without a name have that of their mesh
-    bool ownMaps = false;            // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
-                                     // occlusion take no notice
-    Frame highFrame = Frame::mikktspace;       // that those maps were made for
-    std::optional<NormalMapFormat> highFormat; // how they are stored; none: as the materials say, the default one for
-                                               // HighModel::maps
-    int padding = 0;                 // texels around charts that are filled from the nearest chart; 0: all, -1: none
+    BakeOptions bake;             // its tile, cage, highMaps and matched are made from what follows
+    std::vector<int> tiles{1001}; // UDIM numbers: 1001 + u + 10 v, u below 10, v upwards. One map each
+    int material = -1;            // of the simple scene; -1: all
+    TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
+    const Scene* cage = nullptr; // the triangles of the simple scene in their order, moved out around both sides; rays
+                                 // run from it inwards. Null: none. Read by prepareBake only
+    bool matchByName = false;    // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
+                                 // without a name have that of their mesh
+    bool ownMaps = false;        // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
+                                 // occlusion take no notice
+    Frame highFrame = Frame::mikktspace;  // that those maps were made for
+    std::optional<Convention> highFormat; // how they are stored; none: as the materials say, the default one for
+                                          // HighModel::maps
+    int padding = 0; // texels around charts that are filled from the nearest chart; 0: all, -1: none
     StoredAs stored;
-    bool mask = false;               // also gives BakedMap::mask
+    bool mask = false; // also gives BakedMap::mask
 };
 
 // What a bake works on.
@@ -57,22 +57,22 @@ struct BakeSetup {
 
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
 // vertices and the matches.
-// Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins with its name,
-// "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of range;
-// ErrorKind::input: a cage of another number of triangles, a mesh without its match.
+// Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins
+// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of
+// range; ErrorKind::input: a cage of another number of triangles, a mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
 
 struct BakedMap {
-    int tile = 1001;        // UDIM number
+    int tile = 1001; // UDIM number
     Image image;
-    NormalMapFormat format; // of `image` where it holds normals
-    Image mask;             // what became of each texel, as maskOf; empty unless asked for
+    Convention format; // of `image` where it holds normals
+    Image mask;        // what became of each texel, as maskOf; empty unless asked for
     BakeStatistics statistics;
 };
 
-// Bakes one tile, fills around its charts and stores it. `progress` is called from several threads, not always in order.
-// Errors: ErrorKind::input where no triangle lies on the tile, ErrorKind::usage for a number below 1001; both begin with
-// "options.tiles: "; ErrorKind::stopped.
+// Bakes one tile, fills around its charts and stores it. `progress` is called from several threads, not always in
+// order. Errors: ErrorKind::input where no triangle lies on the tile, ErrorKind::usage for a number below 1001; both
+// begin with "options.tiles: "; ErrorKind::stopped.
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
 
 struct BakedModel {

@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
 
 namespace cotan {
 
@@ -28,13 +28,12 @@ public:
     std::size_t mappedCount() const { return mapped_; }
 
 private:
-    struct Part { // one instance, numbered as Hit::instance
+    struct Part {           // one instance, numbered as Hit::instance
         LowSurface surface; // empty where there is no map
         const Image* image = nullptr;
         Sampler sampler;
         f64::cotan_normal_format format{};
     };
-    Frame frame_ = Frame::mikktspace;
     std::deque<Image> images_; // a deque, since the parts point into it
     std::vector<Part> parts_;
     std::size_t mapped_ = 0;

@@ -22,10 +22,10 @@ struct Ray {
 struct Hit {
     bool found = false;
     float distance = 0;
-    glm::vec3 faceNormal{0};     // unit, not turned towards the ray
-    std::uint32_t instance = 0;  // of the scenes, counted on; empty ones left out
-    std::uint32_t triangle = 0;  // of that instance
-    float b1 = 0, b2 = 0;        // barycentric coordinates of its corners 1 and 2
+    glm::vec3 faceNormal{0};    // unit, not turned towards the ray
+    std::uint32_t instance = 0; // of the scenes, counted on; empty ones left out
+    std::uint32_t triangle = 0; // of that instance
+    float b1 = 0, b2 = 0;       // barycentric coordinates of its corners 1 and 2
 };
 
 // Up to kLanes lines, each through a point: what lies on the line near the point, either way?
@@ -90,7 +90,7 @@ public:
     // Names of the instances, in order, for matching.
     const std::vector<std::string>& names() const;
     std::size_t triangleCount() const;
-    glm::vec3 low() const;  // of the box around everything
+    glm::vec3 low() const; // of the box around everything
     glm::vec3 high() const;
 
 private:

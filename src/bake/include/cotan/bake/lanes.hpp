@@ -12,8 +12,8 @@ namespace cotan {
 
 inline constexpr std::size_t kLanes = 16;
 
-template<class T>
-struct alignas(64) Lanes : std::array<T, kLanes> {};
+template<class T> struct alignas(64) Lanes : std::array<T, kLanes> {
+};
 
 struct Lanes3 {
     alignas(64) float x[kLanes]{}, y[kLanes]{}, z[kLanes]{};

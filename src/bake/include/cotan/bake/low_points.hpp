@@ -4,7 +4,7 @@
 #include <span>
 
 #include "cotan/bake/lanes.hpp"
-#include "cotan/bake/low_surface.hpp"
+#include "cotan/surface/low_surface.hpp"
 #include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
@@ -15,17 +15,17 @@ struct LowPoints {
 
     // What the frame is made from.
     struct Ingredients {
-        Lanes<float> b1{}, b2{};              // barycentric coordinates
-        Lanes3 raw;                           // normal, not normalised
-        Lanes3 u, v;                          // of `smooth`: cotangents; u of `vertex` and `mikktspace`: tangent
+        Lanes<float> b1{}, b2{}; // barycentric coordinates
+        Lanes3 raw;              // normal, not normalised
+        Lanes3 u, v;             // of frames from cotangents; u of those from a tangent: the tangent
         Lanes<float> handedness{};
-        Lanes3 dpdx, dpdy;                    // of the others: differences
+        Lanes3 dpdx, dpdy;                   // of the others: differences
         Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
     } from;
 };
 
 // The points at up to kLanes places. The same as pointOf in double, to rounding.
-void pointsOf(const LowSurface& surface, Frame frame, std::span<const UvPlace> places, LowPoints& points);
+void pointsOf(const LowSurface& surface, std::span<const UvPlace> places, LowPoints& points);
 
 // Unit texels of these frames, as encode has them.
 void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels);

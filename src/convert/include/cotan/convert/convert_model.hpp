@@ -18,9 +18,6 @@
 
 namespace cotan {
 
-// Whether readers of a frame want TANGENT in the file: mikktspace and vertex.
-bool readsTangents(Frame frame);
-
 // What became of one normal map.
 struct ConvertedMap {
     std::size_t image = 0; // index into the file's images, before the conversion
@@ -30,19 +27,19 @@ struct ConvertedMap {
     bool kept = false; // stays, byte for byte: the new frame reads it as well as a rounded new one, or nothing shows it
     bool alsoElsewhere = false; // the old one stays in the file too: another slot of a material reads it
     int bits = 0;               // of the new one, 8 or 16 a component; 0 where it is kept
-    ReencodeFigures figures{};    // of a map that is kept only `unconverted`; its count is 0 where nothing shows the map
+    ReencodeFigures figures{};  // of a map that is kept only `unconverted`; its count is 0 where nothing shows the map
     std::size_t bytesBefore = 0, bytesAfter = 0; // of the picture file
 };
 
 struct ConvertModelOptions {
-    FramePair frames{};        // neither may depend on the view
-    int bits = 0;              // of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit
+    FramePair frames{}; // neither may depend on the view
+    int bits = 0; // of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     LoadLimits limits{};       // of reading the pictures
     // The PNG file of a new map, in place of Cotan's own writer; on the thread of the caller. May be empty.
     std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
-    Progress progress{};       // from any thread, also from several at once
+    Progress progress{}; // from any thread, also from several at once
     // Gets each map when it is done, in the order of the report, on the thread of the caller.
     std::function<void(const ConvertedMap&)> mapDone{};
 };
@@ -50,19 +47,19 @@ struct ConvertModelOptions {
 enum class TangentsAfter { given, kept, dropped };
 
 struct ConvertModelReport {
-    std::vector<ConvertedMap> maps; // in the order of the file's images
+    std::vector<ConvertedMap> maps;                  // in the order of the file's images
     TangentsAfter tangents = TangentsAfter::dropped; // given: the new frame reads them; kept: keepTangents
-    std::size_t primitivesGiven = 0; // that have new tangents
+    std::size_t primitivesGiven = 0;                 // that have new tangents
     TangentBytes dropped;
     std::vector<std::string> notes; // what the user should know, one line each
 };
 
 // Makes every normal map of the file for another frame: each texel is decoded with the old frame at its places on the
-// surfaces, and encoded with the new one (see reencode). Then gives the primitives TANGENT where the new frame reads it,
-// or drops it where nothing else does. Maps in other formats than PNG and JPEG stay as they are, and a note says so.
-// Errors: ErrorKind::usage for a frame that depends on the view and other bits; ErrorKind::input for a picture that cannot
-// be read or is over the limits, uv that repeat a map millions of times, and compressed geometry; ErrorKind::output
-// where there is no memory for a PNG; ErrorKind::stopped. On error the document is unchanged.
+// surfaces, and encoded with the new one (see reencode). Then gives the primitives TANGENT where the new frame reads
+// it, or drops it where nothing else does. Maps in other formats than PNG and JPEG stay as they are, and a note says
+// so. Errors: ErrorKind::usage for a frame that depends on the view and other bits; ErrorKind::input for a picture that
+// cannot be read or is over the limits, uv that repeat a map millions of times, and compressed geometry;
+// ErrorKind::output where there is no memory for a PNG; ErrorKind::stopped. On error the document is unchanged.
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options);
 
 } // namespace cotan

@@ -16,8 +16,8 @@ namespace cotan {
 struct PutMapOptions {
     Frame frame = Frame::mikktspace;     // that the map was made for
     std::optional<std::string> material; // name of the one that gets it; none: all, and primitives without one get one
-    bool keepTangents = false;           // for mikktspace and vertex: the file's TANGENT is what the map was made with. Else
-                                         // it is generated. For other frames it goes, as dropTangents has it
+    bool keepTangents = false; // for mikktspace and vertex: the file's TANGENT is what the map was made with. Else
+                               // it is generated. For other frames it goes, as dropTangents has it
 };
 
 // Makes materials read a PNG as their normal map at full strength, by the uv set, the transform and the place in the
@@ -27,8 +27,8 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
                     std::vector<std::string>& notes);
 
 // A model with a new map in it: one named as glTF keeps all else as it was, another, which `scene` is from, becomes
-// glTF. GltfWritten::notes begin with what putNormalMap has to say. Errors: as putNormalMap, openGltfDocument, encodePng
-// and writeGltf.
+// glTF. GltfWritten::notes begin with what putNormalMap has to say. Errors: as putNormalMap, openGltfDocument,
+// encodePng and writeGltf.
 Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
                                       const PutMapOptions& options, const std::filesystem::path& output);
 

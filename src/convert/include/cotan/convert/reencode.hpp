@@ -15,29 +15,28 @@ inline constexpr std::size_t kMostPlaces = 16; // of one texel; of more, evenly 
 
 // What a conversion did to a map, in texels and degrees.
 struct ReencodeFigures {
-    std::size_t covered = 0;    // texels whose centre some triangle covers
-    std::size_t padded = 0;     // others, converted as at the nearest place
-    std::size_t several = 0;    // covered by more than one place
-    std::size_t disagreeing = 0; // ... and off by over kDisagree in one of them, before rounding
+    std::size_t covered = 0;      // texels whose centre some triangle covers
+    std::size_t padded = 0;       // others, converted as at the nearest place
+    std::size_t several = 0;      // covered by more than one place
+    std::size_t disagreeing = 0;  // ... and off by over kDisagree in one of them, before rounding
     std::size_t belowHorizon = 0; // texels with z <= 0
-    Spread moved;               // degrees between old and new decoded texel, covered ones
-    Spread disagreement;        // degrees of the worst place, before rounding, of the disagreeing
-    Spread unconverted;         // mapError of the old map: off by so much if it were read with the new frame
-    Spread error;               // mapError of the new one, after rounding
+    Spread moved;                 // degrees between old and new decoded texel, covered ones
+    Spread disagreement;          // degrees of the worst place, before rounding, of the disagreeing
+    Spread unconverted;           // mapError of the old map: off by so much if it were read with the new frame
+    Spread error;                 // mapError of the new one, after rounding
 };
 
 struct Reencoded : ReencodeFigures {
     Image image; // as large as the old one
 };
 
-// map: with all its data. bits: 8 or 16 a component of the result. threads: 0 for all cores. rows: gets a step for each row; once it is
-// stopped, the result is not to be used.
-// Alpha is kept; texels that stand for nothing (decoded z <= 0 where no triangle is, or a map that no
-// use covers) are kept as they are. Mip levels are not part of an image here: viewers make them from
-// the result. The same result whatever the number of threads. `unconverted` and `error` are measured on the surface:
-// a map may be shown without any triangle covering the centre of a texel.
-Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
-                   int threads = 0, CountedSteps* rows = nullptr);
+// map: with all its data. bits: 8 or 16 a component of the result. threads: 0 for all cores. rows: gets a step for each
+// row; once it is stopped, the result is not to be used. Alpha is kept; texels that stand for nothing (decoded z <= 0
+// where no triangle is, or a map that no use covers) are kept as they are. Mip levels are not part of an image here:
+// viewers make them from the result. The same result whatever the number of threads. `unconverted` and `error` are
+// measured on the surface: a map may be shown without any triangle covering the centre of a texel.
+Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads = 0,
+                   CountedSteps* rows = nullptr);
 
 // How many copies of the image the triangles' boxes cover in all: what the work is proportional to.
 double copiesOf(std::span<const MapUse> uses);

@@ -14,8 +14,8 @@ namespace cotan::cost {
 // One compiled stage. Names differ between drivers; what a driver does not report is empty.
 struct StageCode {
     std::optional<double> instructions;
-    std::optional<double> registers; // per thread (vector registers where there are two kinds)
-    std::optional<double> bytes;     // of code
+    std::optional<double> registers;                 // per thread (vector registers where there are two kinds)
+    std::optional<double> bytes;                     // of code
     std::optional<double> inverseThroughput;         // the driver's estimate, its unit
     std::optional<double> latency;                   // the driver's estimate, its unit
     std::vector<std::pair<std::string, double>> all; // every number, by the driver's name

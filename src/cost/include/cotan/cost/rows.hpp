@@ -26,9 +26,9 @@ struct Row {
     std::string_view name; // as on the command line; "floor" is the first
     Group group;
     Stored stored;
-    int instructionsOf2006 = 0; // as published in the 2006 chapter; 0: not among its four
-    int bytesPerPixel = 0;      // buffer reads of the fragment stage, without the normal map
-    std::string_view what;      // one line
+    int instructionsOf2006 = 0;              // as published in the 2006 chapter; 0: not among its four
+    int bytesPerPixel = 0;                   // buffer reads of the fragment stage, without the normal map
+    std::string_view what;                   // one line
     std::span<const std::uint32_t> fragment; // SPIR-V
 };
 
@@ -40,7 +40,7 @@ const Row* rowFromName(std::string_view name);
 struct VertexStage {
     Stored stored;
     std::string_view name;
-    int bytes; // of the attributes beside position, normal and uv, per vertex
+    int bytes;                               // of the attributes beside position, normal and uv, per vertex
     std::span<const std::uint32_t> vertex;   // SPIR-V
     std::span<const std::uint32_t> consumer; // a fragment stage that uses all it hands on
 };

@@ -17,10 +17,7 @@ struct Operations {
     int maximum = 0; // min and max
     int compare = 0; // and selects
     int bits = 0;    // copying a sign, scaling by a power of two
-    int total() const
-    {
-        return multiply + add + divide + root + inverseRoot + maximum + compare + bits;
-    }
+    int total() const { return multiply + add + divide + root + inverseRoot + maximum + compare + bits; }
     int totalFused() const { return total() - merged; }
 };
 

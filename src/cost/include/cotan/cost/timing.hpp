@@ -33,7 +33,6 @@ const std::vector<int>& triangleLegs();
 
 // Draws a square of 1024 x 1024 pixels with every row, all rows once per repeat, so that a drift of
 // the clock meets all alike. Errors: ErrorKind::unavailable where Vulkan cannot be used.
-Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows,
-                                           const TimingOptions& options);
+Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, const TimingOptions& options);
 
 } // namespace cotan::cost

@@ -20,16 +20,16 @@ public:
     // painter's end. Frames from vertices read what deriveVertexFrames (cotan/surface/vertex_frames.hpp)
     // has put into it; without that the picture shows the interpolated normals.
     // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over kMostTrianglesDrawn
-    // (cotan/scene/bounds.hpp) of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable when
-    // the device has not enough memory.
+    // (cotan/scene/bounds.hpp) of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable
+    // when the device has not enough memory.
     Status load(const Scene& scene);
 
     // The painter has no scene from here on.
     void forget() { loaded_ = false; }
 
     // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be
-    // drawn (the reference renderer: 1 to 16384 pixels a side) or an unknown frame; ErrorKind::unavailable
-    // without the memory; those of Renderer::render and renderReference.
+    // drawn (the reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene
+    // lacks at its vertices; ErrorKind::unavailable without the memory; those of Renderer::render and renderReference.
     Result<Image> draw(const View& view);
 
     // "reference", or the Vulkan device's name.

@@ -8,8 +8,8 @@ namespace cotan {
 
 // SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU remove the unfinished files of all OutputFiles and then end the program
 // as they would have done anyway, so that a shell sees why. A signal that is ignored (nohup) stays so. For programs;
-// a library installs no handlers. A closed pipe and a file over the shell's limit become errors of writing. May be called
-// again.
+// a library installs no handlers. A closed pipe and a file over the shell's limit become errors of writing. May be
+// called again.
 void removePartsOnInterrupt();
 
 // While one lives, such signals wait: for steps that belong together. Any number may live at a time, on any thread.

@@ -19,32 +19,34 @@ struct Image;
 // Which images of a model are decoded. Images without pixels have a name and no size.
 enum class Pixels {
     all,           // those that are used; one that cannot be read is an error
-    whereReadable, // the same, but those in a format that glTF extensions allow and nothing here reads (foreignFormat in
-                   // image_file.hpp) stay without pixels, and a warning names them
+    whereReadable, // the same, but those in a format that glTF extensions allow and nothing here reads (foreignFormat
+                   // in image_file.hpp) stay without pixels, and a warning names them
     none,          // no image
 };
 
 // Limits on what a file may ask for. Over a limit the file is refused before memory is taken.
 struct LoadLimits {
-    std::size_t fileBytes = std::size_t(2) << 30;   // of the model file or one of its buffers
-    std::size_t vertices = 100'000'000;             // of all meshes together
-    std::size_t triangles = 100'000'000;            // instances not multiplied
+    std::size_t fileBytes = std::size_t(2) << 30; // of the model file or one of its buffers
+    std::size_t vertices = 100'000'000;           // of all meshes together
+    std::size_t triangles = 100'000'000;          // instances not multiplied
     std::size_t nodes = 1'000'000;
     // glTF: what the vertices and triangles may take in memory beyond sixteen times the size of the
     // file and its buffers. A few bytes can ask for any amount, by accessors without data and by
     // primitives that share them.
     std::size_t geometryBytes = std::size_t(64) << 20;
-    int imageSide = 16384;                          // pixels
+    int imageSide = 16384;                           // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
-    std::size_t allImageBytes = std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
-    Pixels pixels = Pixels::all;                    // of a glTF model
-    Sandbox sandbox = defaultSandbox();             // where models other than glTF, and third-party formats of pictures, are read
+    std::size_t allImageBytes =
+        std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
+    Pixels pixels = Pixels::all;                                   // of a glTF model
+    Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
     // a process of its own is given room for them. May be empty.
     std::function<void(std::size_t)> expect;
 
     // A glTF model that is not in files. Both may be empty, and are called on the thread of the caller.
-    // The bytes of the model, by the name that it is opened by, and of what its URIs name, decoded: in place of the disk.
+    // The bytes of the model, by the name that it is opened by, and of what its URIs name, decoded: in place of the
+    // disk.
     std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile;
     // A picture from the bytes of its file, in place of Cotan's own readers; name: for messages.
     std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode;

@@ -43,8 +43,7 @@ private:
 };
 
 // Calls `write` with the name beside and commits. Errors: those of `write`, in the user's words, and of OutputFile.
-Status writeBeside(const std::filesystem::path& file,
-                   const std::function<Status(const std::filesystem::path&)>& write);
+Status writeBeside(const std::filesystem::path& file, const std::function<Status(const std::filesystem::path&)>& write);
 
 // All of them or none, up to renaming; the last is put in its place last. Interrupts wait. Errors: ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);

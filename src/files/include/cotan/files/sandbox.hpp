@@ -22,7 +22,8 @@ namespace cotan {
 
 struct Sandbox {
     std::filesystem::path program; // empty: everything is read in this process
-    // MiB of memory; 0: 640 (LoadLimits::imageBytes if more), 16 a processor, more for large files, up to 8 GiB or twice that.
+    // MiB of memory; 0: 640 (LoadLimits::imageBytes if more), 16 a processor, more for large files, up to 8 GiB or
+    // twice that.
     std::size_t megabytes = 0;
     // Seconds of processor; 0: 4, and more likewise, up to an hour. On the wall it may be fifteen times as long.
     double seconds = 0;

@@ -22,8 +22,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/files/limits.hpp"
-#include "cotan/scene/scene.hpp"
 #include "cotan/result.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan {
 
@@ -41,8 +41,7 @@ struct GltfDocument {
 
 // Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
 // are not opened. Errors (ErrorKind::input): those of loadGltf; EXT_meshopt_compression.
-Result<GltfDocument> openGltfDocument(const std::filesystem::path& file,
-                                      const LoadLimits& limits = {});
+Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The file that a document was read from, for messages; empty for one that was made from a scene.
 const std::filesystem::path& gltfPath(const GltfDocument& document);
@@ -63,7 +62,7 @@ struct GltfGeometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
-    std::vector<glm::vec2> texcoords;  // as the normal map reads them: its uv set, transformed
+    std::vector<glm::vec2> texcoords;   // as the normal map reads them: its uv set, transformed
     std::vector<std::uint32_t> indices; // three a triangle; strips and fans are unrolled
     int texcoordSet = 0;                // which uv set that is
 };
@@ -71,8 +70,7 @@ struct GltfGeometry {
 // mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
 // empty geometry.
 // Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
-Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh,
-                                  std::size_t primitive);
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- tangents -------------------------------------------------------------------------------
 
@@ -89,8 +87,7 @@ struct GltfCornerTangents {
 // Returns how many vertices were added.
 // Errors (ErrorKind::input): compressed geometry, no NORMAL; ErrorKind::usage: corners of the wrong
 // number. On error the document is unchanged.
-Result<std::size_t> setGltfTangents(GltfDocument& document,
-                                    std::span<const GltfCornerTangents> tangents);
+Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents);
 
 // Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
 Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
@@ -108,8 +105,8 @@ void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std
                       const std::string& mimeType);
 
 // A new image; returns its index.
-std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes,
-                         const std::string& mimeType, const std::string& name);
+std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, const std::string& mimeType,
+                         const std::string& name);
 
 // A texture that reads `image` and is else like `texture` (sampler, name, extras); returns its
 // index. Extensions that name another source (KHR_texture_basisu, EXT_texture_webp, ...) are left out.
@@ -122,7 +119,7 @@ std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material);
 
 struct GltfWritten {
     std::vector<std::filesystem::path> files; // the model first
-    std::size_t bytesBefore = 0; // model, buffers and image files that it used; embedded or beside
+    std::size_t bytesBefore = 0;              // model, buffers and image files that it used; embedded or beside
     std::size_t bytesAfter = 0;
     std::vector<std::string> notes; // the document's and those of writing
 };
@@ -139,8 +136,8 @@ struct GltfWritten {
 Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesystem::path& file,
                               const LoadLimits& limits = {});
 
-// The same as the bytes of a .glb, nothing written: what is beside the model is put inside. limits.readFile is not asked;
-// the document remembers where it came from.
+// The same as the bytes of a .glb, nothing written: what is beside the model is put inside. limits.readFile is not
+// asked; the document remembers where it came from.
 Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits = {});
 
 } // namespace cotan

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <set>
+#include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "cotan/gltf/views.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
@@ -18,7 +18,11 @@ inline std::size_t countOf(const nlohmann::ordered_json& root, const char* colle
     return found == root.end() ? 0 : found->size();
 }
 
-// Calls visit(mesh, primitive), which returns a Status, for every primitive of the file in order, up to the first error.
+// What messages call a primitive: "meshes[0].primitives[1]".
+std::string primitiveField(std::size_t mesh, std::size_t primitive);
+
+// Calls visit(mesh, primitive), which returns a Status, for every primitive of the file in order, up to the first
+// error.
 template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root, const Visit& visit)
 {
     for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)
@@ -32,8 +36,12 @@ template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root
 // has none.
 std::vector<std::size_t> materialsOf(const nlohmann::ordered_json& root, const nlohmann::ordered_json& primitive);
 
-// What a material says of its normal map (`normalTexture`); null where it has none. Points into root.
-const nlohmann::ordered_json* normalTextureOf(const nlohmann::ordered_json& root, std::size_t material);
+// How a material uses its normal map; no texture where it has none.
+gltf::TextureUse normalMapOf(const nlohmann::ordered_json& root, std::size_t material);
+
+// A texture of the root, and the sampler that it is read with.
+gltf::Texture textureAt(const nlohmann::ordered_json& root, int texture);
+Sampler samplerOf(const nlohmann::ordered_json& root, const gltf::Texture& texture);
 
 // Indices of the textures that slots of an object, or of anything below it, read. glTF's slots all end in "Texture".
 std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);

@@ -19,8 +19,8 @@ std::vector<std::vector<glm::dmat3>> gltfPlacings(const nlohmann::ordered_json& 
 // welding compares.
 void makeUnit(std::vector<glm::vec3>& normals);
 
-// The geometry as a mesh whose uv set 0 is what the normal map reads, with unit normals. Without NORMAL each triangle gets
-// vertices of its own with its flat normal, as glTF asks; zero where it has no area.
+// The geometry as a mesh whose uv set 0 is what the normal map reads, with unit normals. Without NORMAL each triangle
+// gets vertices of its own with its flat normal, as glTF asks; zero where it has no area.
 Mesh gltfMesh(GltfGeometry geometry);
 
 } // namespace cotan

@@ -21,9 +21,9 @@ namespace cotan {
 // A primitive with what its tangents are made from.
 struct GltfPrimitiveGeometry {
     std::size_t mesh = 0, primitive = 0; // indices into `root`
-    std::string name;                    // of the mesh; where it has several primitives with "/" and the primitive's number
-    GltfGeometry geometry;               // with unit normals
-    std::string cannot;                  // why there are no tangents to be had: "no NORMAL"; empty if there are
+    std::string name;      // of the mesh; where it has several primitives with "/" and the primitive's number
+    GltfGeometry geometry; // with unit normals
+    std::string cannot;    // why there are no tangents to be had: "no NORMAL"; empty if there are
 
     MeshView view() const { return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices}; }
 };
@@ -44,15 +44,16 @@ struct PrimitiveTangents {
     std::size_t mesh = 0, primitive = 0;
     std::string name{}; // as in GltfPrimitiveGeometry
     std::size_t triangles = 0;
-    bool stored = false;    // the file had TANGENT
-    bool generated = false; // giveTangents: it has new ones
-    std::string cannot{};   // why there are none to be had; empty if there are
+    bool stored = false;                           // the file had TANGENT
+    bool generated = false;                        // giveTangents: it has new ones
+    std::string cannot{};                          // why there are none to be had; empty if there are
     std::optional<TangentDifference> difference{}; // compareTangents: of the stored ones, where there are any
 };
 
 struct TangentsGiven {
     std::vector<PrimitiveTangents> primitives;
-    std::size_t generated = 0, kept = 0, skipped = 0; // primitives: with new tangents, with their own, with none to be had
+    std::size_t generated = 0, kept = 0,
+                skipped = 0;       // primitives: with new tangents, with their own, with none to be had
     std::size_t verticesAdded = 0; // copies, where corners that shared a vertex differ
 };
 

@@ -13,6 +13,10 @@
 
 namespace cotan {
 
+// Whether a file of these first bytes is a PNG or a JPEG, the formats that glTF asks every reader to know.
+bool isPng(std::span<const std::byte> bytes);
+bool isJpeg(std::span<const std::byte> bytes);
+
 // "WebP", "KTX2", "DDS" or "AVIF" for the first bytes of such a file, which extensions of glTF name as images and
 // nothing here reads for a model; empty for all else.
 std::string foreignFormat(std::span<const std::byte> bytes);
@@ -24,8 +28,7 @@ std::string foreignFormat(std::span<const std::byte> bytes);
 Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The same for bytes in memory (PNG or JPEG, as glTF embeds them). `name` is for messages.
-Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
-                          const LoadLimits& limits = {});
+Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits = {});
 
 // Writes an image; the format follows the file's extension (.png .exr .tif .tga .jpg .hdr).
 // The file appears whole or not at all: it is written beside its place, then renamed. PNG takes

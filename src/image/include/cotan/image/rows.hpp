@@ -16,11 +16,11 @@ class RowReader {
 public:
     virtual ~RowReader() = default;
 
-    std::string name;                     // for messages
-    int width = 0, height = 0;            // pixels
+    std::string name;          // for messages
+    int width = 0, height = 0; // pixels
     PixelType type = PixelType::unorm8;
-    bool alpha = false;                   // the file stores more than red, green and blue, or grey
-    bool whole = false;                   // the picture is in memory already: its format has no other way
+    bool alpha = false; // the file stores more than red, green and blue, or grey
+    bool whole = false; // the picture is in memory already: its format has no other way
 
     // Fills the strip, which has the picture's width and type, with the next rows; no more than
     // remain. Errors: as readImage. After one, only the destructor may follow.

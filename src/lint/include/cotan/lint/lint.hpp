@@ -8,10 +8,10 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/lint/spread.hpp"
-#include "cotan/lint/surface.hpp"
 #include "cotan/maps/green.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/scene/scene.hpp"
+#include "cotan/surface/mapped_surface.hpp"
 
 namespace cotan {
 
@@ -19,21 +19,21 @@ inline constexpr double kStretched = 1.2; // the longer gradient over the shorte
 inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle
 inline constexpr double kTurned = 45;     // degrees between a stored tangent and dP/du
 inline constexpr std::size_t kMostPlacings = 8; // of one mesh
-inline constexpr double kTestTilt = 35;   // degrees: the texel whose step across edges is measured
+inline constexpr double kTestTilt = 35;         // degrees: the texel whose step across edges is measured
 
 // Shares are NaN where there is no area to take them of.
 struct UvQuality {
     double area = 0;
-    double degenerate = 0;  // uv without area: points and lines
+    double degenerate = 0; // uv without area: points and lines
     double mirrored = 0;
-    double overlapping = 0; // on texels that this or another primitive of the same image uses again
+    double overlapping = 0;         // on texels that this or another primitive of the same image uses again
     double overlappingMirrored = 0; // of those: texels that are used in both orientations
-    double stretched = 0;   // over kStretched
-    double sheared = 0;     // over kSheared
-    Spread stretch;         // ratio, at least 1; degenerate triangles left out
-    Spread shear;           // degrees
-    double gradient = 0;    // the longer uv gradient per unit of length, median; 0: there is none
-    double largestUv = 0;   // magnitude
+    double stretched = 0;           // over kStretched
+    double sheared = 0;             // over kSheared
+    Spread stretch;                 // ratio, at least 1; degenerate triangles left out
+    Spread shear;                   // degrees
+    double gradient = 0;            // the longer uv gradient per unit of length, median; 0: there is none
+    double largestUv = 0;           // magnitude
 };
 
 struct EdgeSteps {
@@ -46,7 +46,8 @@ struct StoredTangents {
     bool present = false;
     double reversedW = 0; // share of area where the bitangent points against the uv
     double turned = 0;    // share of area where the tangent is over kTurned from dP/du
-    Spread angle;         // degrees from dP/du in the plane of the normal; empty: nothing was compared, and the shares say nothing
+    Spread
+        angle; // degrees from dP/du in the plane of the normal; empty: nothing was compared, and the shares say nothing
 };
 
 // How another frame reads the map if it was made for MikkTSpace.
@@ -61,9 +62,9 @@ struct PrimitiveLint {
     // 0, of `placings`; of those only the first kMostPlacings.
     std::size_t placing = 0, placings = 1;
     std::string tangentsFor; // an extension of the material that reads tangents and is not looked at
-    int image = -1; // of the normal map; -1: none
-    bool unread = false;   // there is one, in a format that is not read: nothing is known of its pixels
-    std::string notJudged; // why a normal map that there is was not judged; empty if it was
+    int image = -1;          // of the normal map; -1: none
+    bool unread = false;     // there is one, in a format that is not read: nothing is known of its pixels
+    std::string notJudged;   // why a normal map that there is was not judged; empty if it was
     std::size_t triangles = 0;
     bool hasUv = false;
     UvQuality uv;
@@ -100,7 +101,7 @@ struct LintReport {
     std::vector<PrimitiveLint> primitives;
     std::vector<GreenEvidence> maps;
     std::vector<MapFit> fits;
-    double distance = 0;     // the viewing distance used, world units
+    double distance = 0; // the viewing distance used, world units
     Advice advice = Advice::nothing;
     // Stored tangents contradict the uv on more than a tenth of the area, and the maps do not make
     // up for it (a reversed w with reversed green is right again).

@@ -4,22 +4,23 @@
 
 #include <vector>
 
+#include "cotan/convention.hpp"
 #include "cotan/lint/spread.hpp"
-#include "cotan/lint/surface.hpp"
-#include "cotan/portable.hpp"
 #include "cotan/scene/scene.hpp"
+#include "cotan/surface/mapped_surface.hpp"
 
 namespace cotan {
 
 // One surface that reads the map, and how.
 struct MapUse {
     MappedSurface surface;
-    f64::cotan_normal_format format; // as for 8 bits, others follow the image; strength: the material's factor on the slopes; 0: does not count
+    Convention stored;
+    double strength = 1; // the material's factor on the slopes; 0: does not count
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
 };
 
 struct FramePair {
-    Frame from = Frame::mikktspace, to = Frame::cotangent;           // view independent, both
+    Frame from = Frame::mikktspace, to = Frame::cotangent; // view independent, both
     TangentOrigin fromTangents = TangentOrigin::stored, toTangents = TangentOrigin::generated;
 };
 
@@ -39,7 +40,8 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
 // their data, of any sizes. Empty (count 0) where no use shows anything: no triangle with area in space and uv.
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses, const FramePair& frames);
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames);
 
 // Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
 inline constexpr double kAsRounding = 0.3;

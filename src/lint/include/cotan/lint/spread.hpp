@@ -12,7 +12,8 @@ namespace cotan {
 struct Spread {
     std::size_t count = 0; // of the values that count
     double mean = std::numeric_limits<double>::quiet_NaN();
-    double percentile95 = std::numeric_limits<double>::quiet_NaN(); // the smallest value that 95 % of the weight does not exceed
+    double percentile95 =
+        std::numeric_limits<double>::quiet_NaN(); // the smallest value that 95 % of the weight does not exceed
     double maximum = std::numeric_limits<double>::quiet_NaN();
 };
 

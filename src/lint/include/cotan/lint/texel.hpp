@@ -6,9 +6,6 @@
 
 namespace cotan {
 
-// Whether an image has a size and all of its data.
-bool hasPixels(const Image& image);
-
 // The stored components at column x, row y, as a sampler gives them: unorm as [0,1].
 glm::dvec3 storedTexel(const Image& image, int x, int y);
 

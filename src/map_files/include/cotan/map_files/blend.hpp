@@ -9,10 +9,10 @@ namespace cotan::maps {
 struct BlendFileOptions {
     Convention base{}, detail{}, to{};
     BlendMode mode = BlendMode::reoriented;
-    float strength = 1;         // factor on the detail's slopes
-    int tilesX = 1, tilesY = 1; // how often the detail repeats over the base; at least 1
+    float strength = 1;           // factor on the detail's slopes
+    int tilesX = 1, tilesY = 1;   // how often the detail repeats over the base; at least 1
     std::filesystem::path mask{}; // picture whose red multiplies the strength; empty: everywhere
-    std::string bits = "auto";  // as bitsFor
+    std::string bits = "auto";    // as bitsFor
     bool dither = false;
 };
 

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "cotan/bake/low_surface.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/map_files/map_file.hpp"
 #include "cotan/maps/recode.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan::maps {
 
@@ -14,16 +14,16 @@ namespace cotan::maps {
 struct MeshOfMap {
     std::filesystem::path file;
     Frame frame = Frame::smooth; // that reads the map in tangent space
-    TangentSource tangents = TangentSource::stored;
+    TangentOrigin tangents = TangentOrigin::stored;
     int material = -1; // -1: all
 };
 
 struct ConvertFileOptions {
     Convention from{}, to{};
-    std::string bits = "auto";     // as bitsFor
-    float strength = 1;            // factor on the slopes; negative turns bumps into dents; not 0
-    bool normalise = false;        // three channels to three: otherwise lengths are kept
-    bool dither = false;           // half a step of noise before rounding
+    std::string bits = "auto";       // as bitsFor
+    float strength = 1;              // factor on the slopes; negative turns bumps into dents; not 0
+    bool normalise = false;          // three channels to three: otherwise lengths are kept
+    bool dither = false;             // half a step of noise before rounding
     std::optional<MeshOfMap> mesh{}; // between tangent and object space, and only there; strength is 1 then
 };
 

@@ -19,9 +19,9 @@ struct FromHeightFileOptions {
     Kernel kernel = Kernel::central; // not spectral
     Wrap wrap = Wrap::repeat;
     std::optional<Metres> metres{}; // with them `range` counts, without them `strength`
-    double range = 0;             // metres from black to white, or per unit of floats; negative: white is low
-    double strength = 1;          // white is this many hundredths of the picture's width above black
-    std::string bits = "auto";    // as bitsFor
+    double range = 0;               // metres from black to white, or per unit of floats; negative: white is low
+    double strength = 1;            // white is this many hundredths of the picture's width above black
+    std::string bits = "auto";      // as bitsFor
     bool dither = false;
 };
 
@@ -43,7 +43,7 @@ struct ToHeightFileOptions {
     Kernel kernel = Kernel::spectral; // how the slopes were made
     Boundary boundary = Boundary::periodic;
     std::optional<Metres> metres{}; // heights come in metres, otherwise in texels
-    std::string bits = "auto";    // as bitsFor; auto: 16 where the file can hold it
+    std::string bits = "auto";      // as bitsFor; auto: 16 where the file can hold it
 };
 
 struct ToHeightFile {

@@ -13,8 +13,8 @@ enum class BlendMode { reoriented, whiteout, udn, slopes, linear }; // cotan/ble
 struct BlendSettings {
     Convention base{}, detail{}, to{};
     BlendMode mode = BlendMode::reoriented;
-    float strength = 1;       // factor on the detail's slopes
-    int tilesX = 1, tilesY = 1; // how often the detail repeats over the base; at least 1
+    float strength = 1;          // factor on the detail's slopes
+    int tilesX = 1, tilesY = 1;  // how often the detail repeats over the base; at least 1
     const Image* mask = nullptr; // red times this much of the strength; any size; none: everywhere
     PixelType type = PixelType::unorm8;
     bool dither = false;

@@ -25,15 +25,15 @@ struct GreenVerdict {
     Green green = Green::undecidable;
     Swapped swapped = Swapped::undecidable; // red and green exchanged
     Confidence confidence = Confidence::none;
-    std::string reason;        // one sentence: why, or why not
+    std::string reason; // one sentence: why, or why not
     // Correlation of da/dy with db/dx, green taken to point up: +1 for green up, -1 for green down,
     // near 0 when there is nothing to tell. `exchanged`: the same with red and green exchanged.
     double agreement = 0, exchanged = 0;
-    double deviations = 0;     // |agreement| in units of its uncertainty, from patches left out in turn
-    double residualRatio = 1;  // what the other way leaves unexplained over what this way leaves
-    double votes = 0;          // share of the patches, by weight, that agree with the verdict
-    double used = 0;           // share of the texel cells in the patches that say something
-    double sampled = 1;        // share of the picture that the patches hold
+    double deviations = 0;       // |agreement| in units of its uncertainty, from patches left out in turn
+    double residualRatio = 1;    // what the other way leaves unexplained over what this way leaves
+    double votes = 0;            // share of the patches, by weight, that agree with the verdict
+    double used = 0;             // share of the texel cells in the patches that say something
+    double sampled = 1;          // share of the picture that the patches hold
     NormalStatistics statistics; // of the patches
 };
 

@@ -25,7 +25,7 @@ enum class Wrap { repeat, clamp, mirror };
 struct FromHeightSettings {
     Kernel kernel = Kernel::central; // not spectral
     Wrap wrap = Wrap::repeat;
-    double scaleX = 1, scaleY = 1;   // slope per unit of stored height and texel
+    double scaleX = 1, scaleY = 1; // slope per unit of stored height and texel
     Convention to;
     PixelType type = PixelType::unorm16;
     bool dither = false;
@@ -50,9 +50,9 @@ struct ToHeightSettings {
 struct Heights {
     std::vector<float> texels; // in widths of a texel, mean 0, rows from the top
     double lowest = 0, highest = 0;
-    double slope = 0;    // root mean square of the map's slopes
-    double residual = 0; // root mean square of what no height explains: curl, rounding
-    double meanTilt = 0; // degrees; periodic heights cannot follow a tilt of the whole
+    double slope = 0;        // root mean square of the map's slopes
+    double residual = 0;     // root mean square of what no height explains: curl, rounding
+    double meanTilt = 0;     // degrees; periodic heights cannot follow a tilt of the whole
     std::size_t invalid = 0; // texels that are no direction: taken as flat; slopes are held at 128
 };
 

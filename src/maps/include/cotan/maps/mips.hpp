@@ -19,9 +19,9 @@ enum class SpreadModel {
 
 struct MipSettings {
     Convention from{}, to{};
-    bool keepLengths = false;     // three channels: store the mean vector, not its direction
+    bool keepLengths = false; // three channels: store the mean vector, not its direction
     SpreadModel model = SpreadModel::lean;
-    double roughness = 0.3;       // of the material, perceptual: alpha is its square; in [0,1]
+    double roughness = 0.3; // of the material, perceptual: alpha is its square; in [0,1]
     PixelType type = PixelType::unorm8;
 };
 

@@ -21,8 +21,8 @@ enum class Content {
     grey,         // red, green and blue the same: a height map, perhaps
     other,        // lengths that no normal map has: a colour picture
 };
-enum class Centre { exact, biased, unknown };            // the middle code, 128 of 255, or 127.5 as zero
-enum class Transfer { linear, srgb, linearised };        // srgb: stored as if it were a colour
+enum class Centre { exact, biased, unknown };     // the middle code, 128 of 255, or 127.5 as zero
+enum class Transfer { linear, srgb, linearised }; // srgb: stored as if it were a colour
 
 struct NormalStatistics {
     Content content = Content::other;
@@ -31,19 +31,19 @@ struct NormalStatistics {
     Transfer transfer = Transfer::linear;
     bool signedStored = false; // floats that go below zero, or unit vectors as they are
     std::size_t texels = 0;
-    double background = 0;   // share outside the charts: alpha 0, black, white, fields of another colour; the rest
-                             // leaves it out
-    double invalid = 0;      // share: not finite, or length under 0.1
-    double belowHorizon = 0; // share with z < -0.02
-    double outsideDisc = 0;  // share with x^2 + y^2 > 1.02
-    double meanLength = 0;   // of the valid ones, read with the centre found (exact if unknown)
-    double lengthSpread = 0; // root mean square of (length - 1)
-    double shortened = 0;    // share of length under 0.9
-    std::array<double, 3> mean{};      // of x, y, z in picture space, green up
+    double background = 0;        // share outside the charts: alpha 0, black, white, fields of another colour; the rest
+                                  // leaves it out
+    double invalid = 0;           // share: not finite, or length under 0.1
+    double belowHorizon = 0;      // share with z < -0.02
+    double outsideDisc = 0;       // share with x^2 + y^2 > 1.02
+    double meanLength = 0;        // of the valid ones, read with the centre found (exact if unknown)
+    double lengthSpread = 0;      // root mean square of (length - 1)
+    double shortened = 0;         // share of length under 0.9
+    std::array<double, 3> mean{}; // of x, y, z in picture space, green up
     std::array<double, 3> lowest{}, highest{}; // stored components
-    double meanTilt = 0;               // degrees from flat
-    std::array<double, 9> tilt{};      // share in 0..10, 10..20, ... 80..90 degrees and beyond
-    double rmsExact = 0, rmsBiased = 0; // (length - 1) under either centre
+    double meanTilt = 0;                       // degrees from flat
+    std::array<double, 9> tilt{};              // share in 0..10, 10..20, ... 80..90 degrees and beyond
+    double rmsExact = 0, rmsBiased = 0;        // (length - 1) under either centre
 };
 
 // Whether a texel says by itself that it lies between the charts of a map: alpha 0, (nearly) black or white.

@@ -10,7 +10,7 @@
 
 namespace cotan {
 
-// Reads a model: .gltf and .glb through tinygltf, .obj, everything else (.ply .stl .dae .fbx .3ds)
+// Reads a model: .gltf and .glb, .obj, everything else (.ply .stl .dae .fbx .3ds)
 // through Assimp; all but glTF in a process of its own where limits.sandbox says so. What was odd but usable is said
 // in Scene::warnings. Missing normals are generated. Only files inside the model's own folder are opened.
 // Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed,

@@ -16,7 +16,6 @@ namespace cotan {
 // Errors: ErrorKind::usage for a size that is not 1..16384 a side; ErrorKind::input over
 // kMostTrianglesDrawn (cotan/scene/bounds.hpp); ErrorKind::unavailable without the memory, or where more
 // than 1024 translucent layers a pixel meet in a tile of 32 x 32 pixels.
-Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0,
-                              const Progress& progress = {});
+Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0, const Progress& progress = {});
 
 } // namespace cotan

@@ -15,9 +15,9 @@ struct RendererOptions {
     bool validation = false; // ask for the validation layer; its messages land in messages()
 };
 
-struct RenderTimings {       // seconds
-    double upload = 0;       // of the last load()
-    double draw = 0;         // of the last render(): submit to idle
+struct RenderTimings { // seconds
+    double upload = 0; // of the last load()
+    double draw = 0;   // of the last render(): submit to idle
     double readBack = 0;
 };
 
@@ -47,7 +47,7 @@ public:
     Result<Image> render(const View& view);
 
     const std::string& deviceName() const;
-    const std::string& driver() const;             // name and version
+    const std::string& driver() const; // name and version
     const RenderTimings& timings() const;
     const std::vector<std::string>& messages() const; // from the validation layer
 

@@ -35,7 +35,8 @@ private:
 
 class ReaderProcess {
 public:
-    // Starts limits.sandbox.program and sends it the request. Errors: ErrorKind::unavailable where it cannot be started.
+    // Starts limits.sandbox.program and sends it the request. Errors: ErrorKind::unavailable where it cannot be
+    // started.
     static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request);
 
     ~ReaderProcess(); // kills it
@@ -63,7 +64,7 @@ private:
     bool ready(short events);
     bool send(std::span<const std::byte> bytes);
     std::size_t receive(std::span<std::byte> bytes);
-    void listen();        // takes what it says on standard error
+    void listen();           // takes what it says on standard error
     bool ended(int& status); // waits for the process within its time
     void kill();
 

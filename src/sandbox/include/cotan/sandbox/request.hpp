@@ -43,11 +43,11 @@ enum class ReaderKind { model, picture, rows };
 struct ReaderRequest {
     std::uint32_t version = kReaderVersion;
     ReaderKind kind = ReaderKind::model;
-    std::string name;             // the file; of a picture, its name for messages
+    std::string name;               // the file; of a picture, its name for messages
     std::vector<std::byte> bytes{}; // of a picture
     std::uint64_t fileBytes = 0;
-    LoadLimits limits;            // but for those that are functions, or name programs
-    std::int64_t parent = 0;      // the process that asks
+    LoadLimits limits;       // but for those that are functions, or name programs
+    std::int64_t parent = 0; // the process that asks
 };
 
 template<class W, class T> void exchangeLimits(W& w, T& limits)

@@ -1,8 +1,8 @@
 // What the plain structs of a scene are on the wire.
 #pragma once
 
-#include "cotan/scene/scene.hpp"
 #include "cotan/sandbox/wire.hpp"
+#include "cotan/scene/scene.hpp"
 
 namespace cotan {
 
@@ -38,6 +38,15 @@ template<class W, class T> void exchangeTexture(W& w, T& texture)
     w.number(texture.vRow);
 }
 
+template<class W, class T> void exchangeConvention(W& w, T& c)
+{
+    w.choice(c.kind, MapKind::height);
+    w.choice(c.expansion, Expansion::exact16);
+    w.choice(c.channels, Channels::slope);
+    w.flag(c.greenUp);
+    w.choice(c.v, VDirection::up);
+}
+
 template<class W, class T> void exchangeMaterial(W& w, T& m)
 {
     w.text(m.name);
@@ -47,9 +56,7 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     w.number(m.emissive);
     w.number(m.occlusionStrength);
     w.number(m.normalScale);
-    w.number(m.normalFormat.expansion);
-    w.number(m.normalFormat.channels);
-    w.flag(m.normalFormat.greenAlongV);
+    exchangeConvention(w, m.normalFormat);
     exchangeTexture(w, m.baseColorMap);
     exchangeTexture(w, m.metallicRoughnessMap);
     exchangeTexture(w, m.normalMap);

@@ -101,8 +101,9 @@ inline Status checkTrianglesDrawn(const Scene& scene)
     const std::size_t count = trianglesDrawn(scene);
     if (count <= kMostTrianglesDrawn)
         return Done{};
-    return inputError((scene.name.empty() ? "scene" : scene.name) + ": " + std::to_string(scene.instances.size()) + " instances draw " + std::to_string(count)
-                      + " triangles: expected at most " + std::to_string(kMostTrianglesDrawn));
+    return inputError((scene.name.empty() ? "scene" : scene.name) + ": " + std::to_string(scene.instances.size())
+                      + " instances draw " + std::to_string(count) + " triangles: expected at most "
+                      + std::to_string(kMostTrianglesDrawn));
 }
 
 } // namespace cotan

@@ -1,6 +1,8 @@
 // Small questions about Scene and Mesh: normals, cameras, lights, what is drawn.
 #pragma once
 
+#include "cotan/frame.hpp"
+#include "cotan/result.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "cotan/scene/scene.hpp"
 #include "cotan/scene/view.hpp"
@@ -28,5 +30,10 @@ std::vector<Light> defaultLights();
 // Whether anything that is drawn reads a normal map: some instance of a mesh with triangles and the uv set that
 // its material's map asks for. Else normals do not differ between frames, and a comparison of them says nothing.
 bool drawsNormalMaps(const Scene& scene);
+
+// Whether the scene can be drawn with the frame: every mesh that is drawn and has the uv of its normal map also has
+// what the frame reads at its vertices. A renderer would show it without a frame otherwise. Errors: ErrorKind::usage,
+// with the mesh, where deriveVertexFrames (cotan/surface/vertex_frames.hpp) was left out.
+Status checkVertexAttributes(const Scene& scene, Frame frame);
 
 } // namespace cotan

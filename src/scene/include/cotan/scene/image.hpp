@@ -21,11 +21,11 @@ constexpr int bitsPerComponent(PixelType type) { return int(8 * bytesPerComponen
 // Grey files become r = g = b; a missing alpha becomes 1. The values are those of the file:
 // whether they are sRGB or linear is decided by what they are used for.
 struct Image {
-    std::string name;                     // for messages: file name, or what it was made from
-    int width = 0;                        // pixels
-    int height = 0;                       // pixels
+    std::string name; // for messages: file name, or what it was made from
+    int width = 0;    // pixels
+    int height = 0;   // pixels
     PixelType type = PixelType::unorm8;
-    std::vector<std::byte> data;          // width * height * 4 * bytesPerComponent(type)
+    std::vector<std::byte> data; // width * height * 4 * bytesPerComponent(type)
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }
@@ -37,6 +37,12 @@ struct Image {
     float* floats() { return reinterpret_cast<float*>(data.data()); }
     const float* floats() const { return reinterpret_cast<const float*>(data.data()); }
 };
+
+// Whether an image has a size and all of its data.
+inline bool hasPixels(const Image& image)
+{
+    return image.width > 0 && image.height > 0 && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
+}
 
 // An image of that size with every byte zero.
 inline Image makeImage(int width, int height, PixelType type, std::string name = {})

@@ -10,7 +10,7 @@ namespace cotan {
 // Adds the image to the scene and makes the materials read it as their normal map, at full strength,
 // repeated, by the uv set and transform of the map that it takes the place of; where there was none, by
 // uv set 0 as it is. material: index into scene.materials, which the caller has checked; -1: all of them.
-inline void putNormalMap(Scene& scene, Image image, const NormalMapFormat& format, int material = -1)
+inline void putNormalMap(Scene& scene, Image image, const Convention& format, int material = -1)
 {
     const int number = int(scene.images.size());
     scene.images.push_back(std::move(image));

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/convention.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
@@ -31,7 +32,7 @@ struct Sampler {
 // (dot(uRow.xy, uv) + uRow.z, dot(vRow.xy, uv) + vRow.z): KHR_texture_transform, flattened.
 // v = 0 is the top row of the image.
 struct Texture {
-    int image = -1; // index into Scene::images; -1: none
+    int image = -1;   // index into Scene::images; -1: none
     int texcoord = 0; // 0 or 1: which uv set
     Sampler sampler;
     glm::vec3 uRow{1, 0, 0};
@@ -42,32 +43,25 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// How a normal map is stored: see shaders/cotan/normal.h for the meaning of each field.
-struct NormalMapFormat {
-    int expansion = 0;      // COTAN_EXPAND_...
-    int channels = 0;       // COTAN_CHANNELS_...
-    bool greenAlongV = false; // green points along increasing v. glTF: false ("green up", v down)
-};
-
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
     float metallic = 1;
     float roughness = 1;
-    glm::vec3 emissive{0, 0, 0};     // linear, KHR_materials_emissive_strength multiplied in
+    glm::vec3 emissive{0, 0, 0}; // linear, KHR_materials_emissive_strength multiplied in
     float occlusionStrength = 1;
-    float normalScale = 1;           // factor on the slopes
-    NormalMapFormat normalFormat;
-    Texture baseColorMap;            // sRGB, alpha linear
-    Texture metallicRoughnessMap;    // linear: g roughness, b metallic
-    Texture normalMap;               // linear
-    Texture occlusionMap;            // linear: r
-    Texture emissiveMap;             // sRGB
+    float normalScale = 1;        // factor on the slopes
+    Convention normalFormat;      // how normalMap is stored; v runs down, as everywhere in a scene
+    Texture baseColorMap;         // sRGB, alpha linear
+    Texture metallicRoughnessMap; // linear: g roughness, b metallic
+    Texture normalMap;            // linear
+    Texture occlusionMap;         // linear: r
+    Texture emissiveMap;          // sRGB
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;
-    std::string tangentsFor;         // an extension that reads tangents and is not drawn here; empty if none
+    std::string tangentsFor; // an extension that reads tangents and is not drawn here; empty if none
 };
 
 // Triangles with one material. Every attribute array is empty or has vertexCount() entries.
@@ -75,10 +69,10 @@ struct Mesh {
     std::string name;
     int material = 0; // index into Scene::materials, always valid
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;   // always present after loading; unit, or zero where unknown
-    std::vector<glm::vec4> tangents;  // as stored in the file: xyz, w = +-1; empty if none
+    std::vector<glm::vec3> normals;  // always present after loading; unit, or zero where unknown
+    std::vector<glm::vec4> tangents; // as stored in the file: xyz, w = +-1; empty if none
     std::array<std::vector<glm::vec2>, 2> texcoords;
-    std::vector<glm::vec4> colors;    // linear, multiply the base colour
+    std::vector<glm::vec4> colors;      // linear, multiply the base colour
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; empty if not made
     std::vector<glm::vec3> cotangentsV;
     std::vector<std::uint32_t> indices; // three a triangle, each < vertexCount()
@@ -89,20 +83,20 @@ struct Mesh {
 
 struct Instance {
     std::string name;
-    int mesh = 0;               // index into Scene::meshes
-    glm::mat4 toWorld{1};       // affine; any scale, mirroring included
+    int mesh = 0;         // index into Scene::meshes
+    glm::mat4 toWorld{1}; // affine; any scale, mirroring included
 };
 
 enum class LightKind { directional, point, spot };
 
 struct Light {
     LightKind kind = LightKind::directional;
-    glm::vec3 color{1, 1, 1};       // linear, times intensity
-    float intensity = 3;            // directional: lux / pi-free radiometric; point, spot: candela
-    glm::vec3 position{0, 0, 0};    // world
-    glm::vec3 direction{0, -1, 0};  // world, unit, the way the light travels
-    float range = 0;                // metres; 0: infinite
-    float innerCone = 0;            // radians from the axis
+    glm::vec3 color{1, 1, 1};      // linear, times intensity
+    float intensity = 3;           // directional: lux / pi-free radiometric; point, spot: candela
+    glm::vec3 position{0, 0, 0};   // world
+    glm::vec3 direction{0, -1, 0}; // world, unit, the way the light travels
+    float range = 0;               // metres; 0: infinite
+    float innerCone = 0;           // radians from the axis
     float outerCone = 0.785398f;
 };
 

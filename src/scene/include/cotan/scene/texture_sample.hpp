@@ -16,20 +16,20 @@ namespace cotan {
 // Coordinates further out have no fraction left in float, and as numbers of texels would overflow.
 inline constexpr float kFarthestUv = 1e8f;
 
+// Calls use(components, most) with the four numbers at column x, row y, inside the image, and the number that means 1.
+template<class Use> auto atTexel(const Image& image, int x, int y, const Use& use)
+{
+    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    if (image.type == PixelType::unorm8)
+        return use(image.bytes8() + at, 255);
+    return image.type == PixelType::unorm16 ? use(image.words() + at, 65535) : use(image.floats() + at, 1);
+}
+
 // The components at column x, row y, inside the image, as a sampler gives them: unorm as [0,1].
 inline glm::vec4 storedComponents(const Image& image, int x, int y)
 {
-    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    if (image.type == PixelType::unorm8) {
-        const std::uint8_t* c = image.bytes8() + at;
-        return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / 255);
-    }
-    if (image.type == PixelType::unorm16) {
-        const std::uint16_t* c = image.words() + at;
-        return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / 65535);
-    }
-    const float* c = image.floats() + at;
-    return {c[0], c[1], c[2], c[3]};
+    return atTexel(image, x, y,
+                   [](const auto* c, int most) { return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(most)); });
 }
 
 // The column or row that texel i of an endless axis is, of `size` that the image has.

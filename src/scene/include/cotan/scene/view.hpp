@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cotan/frame.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan {
@@ -37,19 +38,19 @@ struct View {
     int width = 1280;
     int height = 720;
     Camera camera;
-    int frame = 0;               // cotan::Frame as an integer
+    Frame frame = Frame::cotangent;
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     Lighting lighting = Lighting::world;
-    std::vector<Light> lights;   // the first directional one casts shadows
+    std::vector<Light> lights; // the first directional one casts shadows
     bool shadows = true;
-    bool normalMaps = true;      // false: n as interpolated
-    bool environment = true;     // ambient and reflections from cotan_environment
-    bool background = true;      // shaded: the environment behind the scene; false: transparent black
-    bool linearOutput = false;   // shaded: float32, linear, not tone mapped
+    bool normalMaps = true;    // false: n as interpolated
+    bool environment = true;   // ambient and reflections from cotan_environment
+    bool background = true;    // shaded: the environment behind the scene; false: transparent black
+    bool linearOutput = false; // shaded: float32, linear, not tone mapped
     float exposure = 1;
-    int samples = 4;             // shaded only: 1 or 4 a pixel
-    bool pointSampled = false;   // nearest texel of the finest level, for comparing renderers
+    int samples = 4;           // shaded only: 1 or 4 a pixel
+    bool pointSampled = false; // nearest texel of the finest level, for comparing renderers
     Derivatives derivatives = Derivatives::fine;
     // Which way the rows of the raster run while it is drawn. The picture comes out upright in
     // both cases; what changes is the sign of the y derivatives.

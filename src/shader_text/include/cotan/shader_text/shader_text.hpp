@@ -14,37 +14,48 @@ namespace cotan::shader_text {
 
 enum class Language { glsl, essl, hlsl, wgsl, msl, cpp };
 inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl,
-                                          Language::wgsl, Language::msl, Language::cpp};
+                                          Language::wgsl, Language::msl,  Language::cpp};
 std::string_view name(Language language);
 std::optional<Language> languageFromName(std::string_view name);
 
 // How the perturbed normal is computed.
 enum class Form {
-    fused, // frame and texel in one step (fused.h): cotangent, gradient, orthonormal
+    fused, // frame and texel in one step (fused.h), of the frames that have it
     total, // the frame as three covectors, then applied (frame.h)
+};
+
+// For which stage the fused text of `triangle` is: its pixels', or the one that makes U and V before.
+enum class Stage {
+    all,
+    fragment,
+    vertex,  // at the provoking vertex
+    mesh,    // for each primitive
+    compute, // both in one
 };
 
 struct Choice {
     Language language = Language::glsl;
     Frame frame = Frame::cotangent;
-    Convention convention;     // expansion, channels and green are used
-    std::optional<Form> form;  // nothing: fused where there is one, else total
-    int uvSets = 1;            // 1..4; more than one: gradients are added, total form
+    Convention convention;          // expansion, channels and green are used
+    std::optional<Form> form;       // nothing: fused where there is one that reads no vertices, else total
+    int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
+    Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
-    bool gradients = false;    // add all of gradient.h
-    bool blends = false;       // add all of blend.h
-    bool lights = false;       // add all of light.h
+    bool gradients = false;         // add all of gradient.h
+    bool blends = false;            // add all of blend.h
+    bool lights = false;            // add all of light.h
 };
 
 struct ShaderText {
     std::string text;
     Form form = Form::total;
-    std::string entry;                  // taking differences; every language has it
+    std::string entry;                  // what a caller calls; every language has it
     std::vector<std::string> functions; // in the order of the text
 };
 
-// Whether a frame has a fused form.
+// Whether a frame has a fused form, and the names of those that have one, in alphabetical order.
 bool hasFusedForm(Frame frame);
+std::string fusedFrameNames(std::string_view beforeLast = ", ");
 
 // Errors (usage): a form that the frame does not have, uvSets out of range or for a frame from
 // vertices. The same choice gives the same bytes.

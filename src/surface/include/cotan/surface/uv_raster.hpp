@@ -25,11 +25,19 @@ struct UvPlace {
                          // of the triangle inside its edge
 };
 
+// What the raster works with. It stays with the result, so that a result that is used again takes no new memory.
+template<class Texel> struct UvScratch {
+    std::vector<std::pair<Texel, UvPlace>> found; // in the order in which they were found
+    std::vector<std::uint8_t> taken;              // texels that have their place
+    std::vector<std::uint32_t> next;              // where in the result the next of a group goes
+};
+
 // The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
 // in the order of the triangles. Triangles that share an edge never both cover a centre on it.
 struct UvRow {
     std::vector<std::uint32_t> first; // width + 1
     std::vector<UvPlace> places;
+    UvScratch<int> scratch; // no part of the result
 };
 
 // Which triangles a texel is asked about.
@@ -46,7 +54,8 @@ enum class UvReach {
 struct UvFirsts {
     std::vector<glm::ivec2> texels; // beside places
     std::vector<UvPlace> places;
-    std::vector<glm::ivec2> again;  // texels whose centre another triangle covers too; one that many cover comes again
+    std::vector<glm::ivec2> again; // texels whose centre another triangle covers too; one that many cover comes again
+    UvScratch<glm::ivec2> scratch; // no part of the result
 };
 
 // The texels of an image under a layout of uv. Keeps, per block of rows, a list of the triangles that
@@ -74,11 +83,10 @@ private:
     struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
         std::uint32_t triangle;
         glm::dvec2 corner[3];
-        bool mirrored; // corners 1 and 2 are exchanged
+        bool mirrored;          // corners 1 and 2 are exchanged
         glm::ivec2 first, last; // columns and rows that it may touch
     };
     struct Weights;
-    using Found = std::vector<std::pair<int, UvPlace>>;
 
     static bool covers(const Shown& t, glm::dvec2 p);
     // The texels of the line py that a triangle may reach, and where it begins and ends on it.

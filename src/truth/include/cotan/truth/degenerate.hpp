@@ -18,8 +18,8 @@ struct PixelInput {
 struct DegenerateCase {
     const char* name;
     std::function<void(Random&, PixelInput&)> spoil; // turns a good pixel into this case
-    bool plainNormal = false; // the right answer is the plain normal, to rounding
-    double leanDegrees = 10;  // of n from the face
+    bool plainNormal = false;                        // the right answer is the plain normal, to rounding
+    double leanDegrees = 10;                         // of n from the face
     bool mirrored = false;
 };
 

@@ -14,7 +14,9 @@ struct Jet {
     Jet() = default;
     Jet(double constant) : f(constant) {} // implicit: constants are written as numbers
     Jet(double f_, double s_, double t_, double ss_, double st_, double tt_)
-        : f(f_), s(s_), t(t_), ss(ss_), st(st_), tt(tt_) {}
+        : f(f_), s(s_), t(t_), ss(ss_), st(st_), tt(tt_)
+    {
+    }
 };
 
 inline Jet operator+(const Jet& a, const Jet& b)
@@ -27,15 +29,18 @@ inline Jet operator-(const Jet& a, const Jet& b)
 }
 inline Jet operator*(const Jet& a, const Jet& b)
 {
-    return {a.f * b.f, a.s * b.f + a.f * b.s, a.t * b.f + a.f * b.t, a.ss * b.f + 2 * a.s * b.s + a.f * b.ss,
-            a.st * b.f + a.s * b.t + a.t * b.s + a.f * b.st, a.tt * b.f + 2 * a.t * b.t + a.f * b.tt};
+    return {a.f * b.f,
+            a.s * b.f + a.f * b.s,
+            a.t * b.f + a.f * b.t,
+            a.ss * b.f + 2 * a.s * b.s + a.f * b.ss,
+            a.st * b.f + a.s * b.t + a.t * b.s + a.f * b.st,
+            a.tt * b.f + 2 * a.t * b.t + a.f * b.tt};
 }
 
 // g(a) where g, g' and g'' at a.f are given: the chain rule.
 inline Jet chain(const Jet& a, double g, double g1, double g2)
 {
-    return {g, g1 * a.s, g1 * a.t, g2 * a.s * a.s + g1 * a.ss, g2 * a.s * a.t + g1 * a.st,
-            g2 * a.t * a.t + g1 * a.tt};
+    return {g, g1 * a.s, g1 * a.t, g2 * a.s * a.s + g1 * a.ss, g2 * a.s * a.t + g1 * a.st, g2 * a.t * a.t + g1 * a.tt};
 }
 inline Jet sin(const Jet& a) { return chain(a, std::sin(a.f), std::cos(a.f), -std::sin(a.f)); }
 inline Jet cos(const Jet& a) { return chain(a, std::cos(a.f), -std::sin(a.f), -std::cos(a.f)); }

@@ -20,10 +20,10 @@ struct Measurement {
     std::string truth;      // "S" scale invariant, "E" metric, or what was compared with
     std::string arithmetic; // "double", "float", "half", "vulkan", ...
     std::size_t samples = 0;
-    double mean = 0;        // of the valid results, as the next two; 0 where none is valid
+    double mean = 0; // of the valid results, as the next two; 0 where none is valid
     double percentile95 = 0;
     double maximum = 0;
-    double invalid = 0;     // share in [0,1] of results that were not finite
+    double invalid = 0; // share in [0,1] of results that were not finite
 };
 
 // Gathers angles one by one. Values that are not finite count as invalid.
@@ -59,7 +59,8 @@ const std::vector<AccuracyTable>& accuracyTables();
 
 // Measures tables side by side on some threads (0: all cores); the rows are in the order of the tables.
 // Errors: ErrorKind::stopped, between two tables.
-Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables, const AccuracySelection& selection,
-                                               int threads = 0, const Progress& progress = {});
+Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyTable*>& tables,
+                                               const AccuracySelection& selection, int threads = 0,
+                                               const Progress& progress = {});
 
 } // namespace cotan

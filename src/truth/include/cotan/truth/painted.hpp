@@ -14,9 +14,9 @@ namespace cotan {
 struct PaintedScene {
     Scene scene;
     Surface surface;
-    double mapSide = 1;      // uv units that the map spans: map coordinate = (uv - origin) / mapSide
+    double mapSide = 1; // uv units that the map spans: map coordinate = (uv - origin) / mapSide
     glm::dvec2 mapOrigin{0};
-    double unitsPerUv = 1;   // see Surface::unitsPerUv
+    double unitsPerUv = 1; // see Surface::unitsPerUv
     std::vector<Camera> cameras;
 };
 

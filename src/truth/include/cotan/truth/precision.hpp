@@ -10,7 +10,7 @@ namespace cotan {
 struct PrecisionTrial {
     glm::dvec3 positions[3], eye, normal, texel;
     glm::dvec2 texcoords[3];
-    glm::dvec2 barycentrics[3];   // of the pixel, its right and its upper neighbour
+    glm::dvec2 barycentrics[3]; // of the pixel, its right and its upper neighbour
     Differences<double> exact;
 };
 
@@ -25,10 +25,10 @@ PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting);
 
 // Where the positions that are differentiated come from.
 enum class PositionSource {
-    world,               // interpolated world positions
-    eyeOffsetPerVertex,  // position minus eye, subtracted in float at the vertices ([2013]'s -V)
-    eyeOffsetPerPixel,   // interpolated world position, minus eye in float at the pixel
-    cameraRelative,      // position minus eye, subtracted exactly before it is rounded to float
+    world,              // interpolated world positions
+    eyeOffsetPerVertex, // position minus eye, subtracted in float at the vertices ([2013]'s -V)
+    eyeOffsetPerPixel,  // interpolated world position, minus eye in float at the pixel
+    cameraRelative,     // position minus eye, subtracted exactly before it is rounded to float
 };
 
 // The differences that hardware measures: float barycentrics, two fused adds from corner 0.

@@ -16,10 +16,7 @@ struct AffinePatch {
     glm::dvec3 normal{0, 0, 1}; // unit
     glm::dvec3 gradU{1, 0, 0};  // of u, in the plane
     glm::dvec3 gradV{0, 1, 0};
-    glm::dvec2 uvAt(glm::dvec3 p) const
-    {
-        return {glm::dot(gradU, p - origin), glm::dot(gradV, p - origin)};
-    }
+    glm::dvec2 uvAt(glm::dvec3 p) const { return {glm::dot(gradU, p - origin), glm::dot(gradV, p - origin)}; }
 };
 
 // A pinhole or a parallel camera that measures the screen in pixels.
@@ -28,9 +25,9 @@ struct PixelCamera {
     glm::dvec3 right{1, 0, 0}; // orthonormal, right-handed: right x up = -forward
     glm::dvec3 up{0, 1, 0};
     glm::dvec3 forward{0, 0, -1};
-    double focal = 1000;       // pixels; orthographic: pixels per world unit
+    double focal = 1000; // pixels; orthographic: pixels per world unit
     bool orthographic = false;
-    bool rowsDown = false;     // the screen's y axis points down the picture
+    bool rowsDown = false; // the screen's y axis points down the picture
 
     static PixelCamera lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double focal,
                               bool orthographic = false);
@@ -43,9 +40,8 @@ struct PixelCamera {
 // What the screen derivatives are at a point of the patch: one-pixel (or `step`-pixel) forward
 // differences of position and uv. With `normalizedView`, positions are replaced by directions
 // from the eye of unit length: the mistake of feeding a normalised view vector.
-Differences<double> screenDifferences(const PixelCamera& camera, const AffinePatch& patch,
-                                      glm::dvec3 point, double step = 1,
-                                      bool normalizedView = false);
+Differences<double> screenDifferences(const PixelCamera& camera, const AffinePatch& patch, glm::dvec3 point,
+                                      double step = 1, bool normalizedView = false);
 
 // The same rounded to float.
 Differences<float> toFloat(const Differences<double>& d);

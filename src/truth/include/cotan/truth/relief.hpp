@@ -12,8 +12,8 @@ struct ReliefSample {
 
 // Waves along u, v and their diagonal.
 struct Waves {
-    double slope = 0.8; // the steepest slope is about 1.1 times this
-    double perUnit = 24;  // waves per uv unit
+    double slope = 0.8;  // the steepest slope is about 1.1 times this
+    double perUnit = 24; // waves per uv unit
 
     ReliefSample at(double u, double v) const;
 };

@@ -24,7 +24,7 @@ std::vector<SignCase> signCases();
 // A random plane seen that way.
 struct SignTrial {
     AffinePatch patch;
-    glm::dvec3 n;          // leaning a little from the plane's normal, perhaps turned round
+    glm::dvec3 n; // leaning a little from the plane's normal, perhaps turned round
     Differences<double> d;
 };
 SignTrial makeSignTrial(Random& random, const SignCase& c);

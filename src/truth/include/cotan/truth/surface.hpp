@@ -28,8 +28,8 @@ struct SurfacePoint {
 // A surface over the unit square of parameters (s,t); uv are linear in them.
 struct Surface {
     std::string name;
-    glm::dmat2 uvOfParameters;  // uv = M (s,t)
-    bool inward = false;        // ps x pt points inwards
+    glm::dmat2 uvOfParameters; // uv = M (s,t)
+    bool inward = false;       // ps x pt points inwards
     std::function<JetVector(Jet, Jet)> position;
 
     glm::dvec2 uv(glm::dvec2 parameters) const { return uvOfParameters * parameters; }

@@ -7,6 +7,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "cotan/tangents.hpp"
 #include "cotan/truth/quad.hpp"
 #include "cotan/truth/random.hpp"
 #include "cotan/truth/surface.hpp"
@@ -16,11 +17,13 @@ namespace cotan {
 struct Tessellation {
     std::vector<glm::vec3> positions, normals; // on the surface, rounded to float
     std::vector<glm::vec2> texcoords;
-    std::vector<glm::dvec2> parameters;        // (s,t) of each vertex
-    std::vector<std::uint32_t> indices;        // counter-clockwise seen from outside
+    std::vector<glm::dvec2> parameters; // (s,t) of each vertex
+    std::vector<std::uint32_t> indices; // counter-clockwise seen from outside
     // From the generators of cotan/tangents.hpp. Tangents per corner, cotangents per vertex.
-    std::vector<glm::vec4> mikktspace, classic;
+    std::array<std::vector<glm::vec4>, kFrameCount>
+        tangents; // of the frames that read them, a corner each, as glTF has them
     std::vector<glm::vec3> cotangentsU, cotangentsV;
+    Cotangents unitCotangents; // the same for the fused form of `smooth`: the longer of the two is 1 long
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };
@@ -41,19 +44,17 @@ TrianglePoint randomPoint(Random& random, const Tessellation& mesh);
 
 // What a pixel at that point has, from attributes of the vertices.
 struct Interpolated {
-    glm::dvec3 position, n;           // n not normalised
+    glm::dvec3 position, n; // n not normalised
     glm::dvec2 parameters, uv;
-    glm::dvec3 mikktspace, classic;   // tangents
-    double mikktspaceHandedness = 1, classicHandedness = 1;
-    glm::dvec3 cotangentU, cotangentV;
-    Differences<double> edges;        // of the triangle
-    AffinePatch plane;                // the triangle's, with its gradients of uv; normal to n's side
+    std::array<glm::dvec4, kFrameCount> tangents{}; // of the frames that read them, as tangentAlongV
+    glm::dvec3 cotangentU, cotangentV, unitU, unitV;
+    Differences<double> edges; // of the triangle
+    AffinePatch plane;         // the triangle's, with its gradients of uv; normal to n's side
 };
 Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at);
 
 // The perturbed normal of any frame, in double or, with all attributes rounded, in float. `screen`
 // is used by frames from differences, the triangle's edges by `exact`, attributes by the others.
-glm::dvec3 shade(Frame frame, bool single, const Interpolated& x, const Differences<double>& screen,
-                 glm::dvec3 texel);
+glm::dvec3 shade(Frame frame, bool single, const Interpolated& x, const Differences<double>& screen, glm::dvec3 texel);
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 
 #include "cotan/bake/bake.hpp"
 #include "cotan/draw/painter.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "cotan/verify/compared_views.hpp"
 
 namespace cotan {
@@ -18,9 +19,9 @@ struct BakeToVerify {
     const HighSurface& high;
     const BakeOptions& options; // that the map was baked with; its frame draws
     const Image& map;
-    NormalMapFormat format;  // of the map
-    int material = -1;       // index of the scene's material that reads the map; -1: all do
-    bool regenerate = false; // the tangents that the scene has are not used, but made again
+    Convention format;                              // of the map
+    int material = -1;                              // index of the scene's material that reads the map; -1: all do
+    TangentOrigin tangents = TangentOrigin::stored; // that are drawn with
 };
 
 // Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map,

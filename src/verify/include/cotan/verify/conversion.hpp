@@ -7,6 +7,7 @@
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
+#include "cotan/surface/vertex_frames.hpp"
 #include "cotan/verify/compared_views.hpp"
 
 namespace cotan {
@@ -18,7 +19,7 @@ inline constexpr int kConversionSide = 768; // pixels
 struct ModelInFrame {
     Scene scene;
     Frame frame = Frame::cotangent;
-    bool regenerate = false; // the tangents that the scene has are not used, but made again
+    TangentOrigin tangents = TangentOrigin::stored; // that are drawn with
 };
 
 // The normals of one model, one picture a camera: square, float32, alpha 1 where there is surface.

@@ -1,0 +1,82 @@
+// What the passes share: where the mesh and its adjacency lie in memory, and a corner of a triangle.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "cotan/frame.h"
+#include "cotan/triangle.h"
+#include "cotan/pack.h"
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
+
+layout(push_constant, std430) uniform Derive {
+    Floats positions; // three a vertex, new in every picture
+    Floats normals;   // three a vertex, unit, new in every picture
+    Floats texcoords;
+    Words indices;
+    Words vertexBegin; // the four arrays of cotan::Adjacency, made at load
+    Words vertices;
+    Words cornerBegin;
+    Words corners;
+    Words frames;    // out: two words a vertex, SNORM16x4
+    Words triangles; // out: three words a triangle, six halfs
+    uint count;      // of groups or triangles
+    uint firstMirrored;
+}
+derive;
+
+vec3 vectorAt(Floats list, uint v) { return vec3(list.at[3u * v], list.at[3u * v + 1u], list.at[3u * v + 2u]); }
+vec3 positionOf(uint v) { return vectorAt(derive.positions, v); }
+vec3 normalOf(uint v) { return vectorAt(derive.normals, v); }
+vec2 texcoordOf(uint v) { return vec2(derive.texcoords.at[2u * v], derive.texcoords.at[2u * v + 1u]); }
+
+// A dispatch may be wider than one row of work groups can be.
+uint invocation()
+{
+    return gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x;
+}
+
+// The edges from a corner to the next and to the previous one.
+struct Corner {
+    vec3 dp1, dp2;
+    vec2 duv1, duv2;
+};
+
+Corner cornerAt(uint c)
+{
+    uint k = c % 3u, first = c - k;
+    uint v0 = derive.indices.at[c];
+    uint v1 = derive.indices.at[first + (k == 2u ? 0u : k + 1u)];
+    uint v2 = derive.indices.at[first + (k == 0u ? 2u : k - 1u)];
+    vec3 p = positionOf(v0);
+    vec2 uv = texcoordOf(v0);
+    return Corner(positionOf(v1) - p, positionOf(v2) - p, texcoordOf(v1) - uv, texcoordOf(v2) - uv);
+}
+
+// The angle between two edges seen along the unit normal n; right where one of them vanishes. GLSL's own
+// arc cosine may be coarse; this is Abramowitz and Stegun 4.4.46, as the C++ has it.
+float angleSeen(Corner c, vec3 n)
+{
+    vec3 a = c.dp1 - n * dot(n, c.dp1), b = c.dp2 - n * dot(n, c.dp2);
+    a *= cotan_power_of_two_scale(cotan_max_abs(a));
+    b *= cotan_power_of_two_scale(cotan_max_abs(b));
+    float lengths2 = dot(a, a) * dot(b, b);
+    float x = lengths2 > 0.0 ? dot(a, b) * inversesqrt(lengths2) : 0.0;
+    float y = min(abs(x), 1.0), y2 = y * y;
+    float low = 1.5707963050 + y * (-0.2145988016 + y * (0.0889789874 - y * 0.0501743046));
+    float high = 0.0308918810 + y * (-0.0170881256 + y * (0.0066700901 - y * 0.0012624911));
+    float angle = sqrt(1.0 - y) * (low + y2 * y2 * high);
+    return x < 0.0 ? 3.14159265 - angle : angle;
+}
+
+// Writes four numbers in [-1, 1] to all vertices of a group.
+void writeToGroup(uint group, vec4 q)
+{
+    for (uint i = derive.vertexBegin.at[group]; i < derive.vertexBegin.at[group + 1u]; ++i) {
+        uint v = derive.vertices.at[i];
+        derive.frames.at[2u * v] = packSnorm2x16(q.xy);
+        derive.frames.at[2u * v + 1u] = packSnorm2x16(q.zw);
+    }
+}

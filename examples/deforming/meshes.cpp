@@ -1,0 +1,98 @@
+#include "meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <glm/common.hpp>
+
+#include <cotan/model/load.hpp>
+
+namespace {
+
+Mesh centred(Mesh mesh)
+{
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const glm::vec3 p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    const float scale = 2 / std::max({size.x, size.y, size.z});
+    for (glm::vec3& p : mesh.positions)
+        p = (p - 0.5f * (low + high)) * scale;
+    return mesh;
+}
+
+Mesh seam()
+{
+    Mesh mesh = tube(48, 32);
+    for (glm::vec2& uv : mesh.texcoords)
+        uv.x = std::abs(uv.x - float(std::numbers::pi * kTubeRadius));
+    return mesh;
+}
+
+Mesh strange()
+{
+    Mesh mesh = tube(24, 16);
+    const auto add = [&](glm::vec3 p, glm::vec2 uv) {
+        mesh.positions.push_back(p);
+        mesh.normals.push_back({0, 0, 1});
+        mesh.texcoords.push_back(uv);
+        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::uint32_t a = add({1, 0, 0}, {0, 0}), b = add({2, 0, 0}, {1, 0}), c = add({3, 0, 0}, {0, 1}),
+                        d = add({1, 1, 0}, {2, 0}), e = add({nan, 0, 0}, {0, 2}), f = add({2, 1, 0}, {nan, 0}),
+                        equal = add({1, 0, 0}, {1, 1});
+    // On a line in space, on a line in uv, the same vertex twice and three times, the same place twice, not finite.
+    for (const std::uint32_t i : {a, b, c, a, b, d, a, b, b, a, a, a, a, equal, d, a, b, e, a, b, f})
+        mesh.indices.push_back(i);
+    add({0, 1, 0}, {0, 0});                                      // used by none
+    mesh.indices.insert(mesh.indices.end(), {0, 1, 0, 5, 5, 5}); // sound vertices, too
+    return mesh;
+}
+
+Mesh fromFile(const std::string& file)
+{
+    const auto scene = cotan::loadScene(file);
+    if (!scene)
+        throw std::runtime_error(scene.error().message);
+    for (const cotan::Mesh& mesh : scene->meshes)
+        if (!mesh.texcoords[0].empty())
+            return centred({mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices});
+    throw std::runtime_error(file + ": expected a mesh with texture coordinates; found none");
+}
+
+} // namespace
+
+Mesh tube(std::uint32_t around, std::uint32_t along)
+{
+    Mesh mesh;
+    for (std::uint32_t j = 0; j <= along; ++j)
+        for (std::uint32_t i = 0; i <= around; ++i) {
+            const double turn = 2 * std::numbers::pi * (i % around) / around, v = kTubeHeight * j / along;
+            const glm::dvec3 out(std::sin(turn), 0, std::cos(turn));
+            mesh.positions.emplace_back(out * kTubeRadius + glm::dvec3(0, kTubeHeight / 2 - v, 0));
+            mesh.normals.emplace_back(out);
+            mesh.texcoords.emplace_back(2 * std::numbers::pi * kTubeRadius * i / around, v);
+        }
+    for (std::uint32_t j = 0; j < along; ++j)
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const std::uint32_t p = j * (around + 1) + i, q = p + 1, s = p + around + 1, r = s + 1;
+            mesh.indices.insert(mesh.indices.end(), {p, s, r, p, r, q});
+        }
+    return mesh;
+}
+
+Mesh named(const std::string& name)
+{
+    return splitAtMirrors(name == "teapot"        ? centred(teapot())
+                              : name == "tube"    ? tube(48, 64)
+                              : name == "seam"    ? seam()
+                              : name == "strange" ? strange()
+                              : name == "large"   ? tube(500, 1000)
+                                                  : fromFile(name));
+}

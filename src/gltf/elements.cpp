@@ -1,0 +1,246 @@
+#include "elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "problem.hpp"
+
+namespace cotan::gltf {
+
+namespace {
+
+std::uint32_t indexAt(const std::byte* at, int componentType)
+{
+    std::uint32_t value = 0;
+    std::memcpy(&value, at, componentSize(componentType)); // little-endian, as the file
+    return value;
+}
+
+// Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
+// strides at most 252, so nothing here overflows 64 bits.
+Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t stride, std::size_t size, std::size_t count,
+          const std::string& field)
+{
+    if (stride < size)
+        failGltf("{}: expected a stride of at least {} bytes, found {}", field, size, stride);
+    if (count > 0 && offset + stride * (count - 1) + size > from.bytes.size())
+        failGltf("{}: {} elements end at byte {} of bufferViews[{}], which has {}", field, count,
+                 offset + stride * (count - 1) + size, view, from.bytes.size());
+    return {from.bytes.data() + std::min(offset, from.bytes.size()), stride, count};
+}
+
+void checkFiniteRun(const Run& run, std::size_t components, const std::string& field)
+{
+    if (!run.first)
+        return;
+    for (std::size_t i = 0; i < run.count; ++i) {
+        for (std::size_t c = 0; c < components; ++c) {
+            float x = 0;
+            std::memcpy(&x, run.at(i) + c * sizeof x, sizeof x);
+            if (!std::isfinite(x))
+                failGltf("{}: expected finite numbers, found {} in element {}", field, x, i);
+        }
+    }
+}
+
+// ---- conversion -----------------------------------------------------------------------------
+
+template<class Out, class Stored> Out convert(Stored value, bool normalized)
+{
+    if constexpr (std::is_same_v<Stored, float> || !std::is_same_v<Out, float>)
+        return static_cast<Out>(value);
+    else if (!normalized)
+        return static_cast<float>(value);
+    else
+        return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f);
+}
+
+// An element of a run, and where its numbers go.
+struct Move {
+    std::size_t from = 0;
+    std::size_t to = 0; // in elements of the array
+};
+
+// Converts `count` elements; move(i): the i-th of them. room: numbers that an element of `out` has.
+template<class Stored, class Out, class MoveOf>
+void convertRun(const Run& run, std::size_t components, bool normalized, std::size_t count, const MoveOf& move,
+                Out* out, std::size_t room)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        const Move m = move(i);
+        const std::byte* const from = run.at(m.from);
+        for (std::size_t c = 0; c < components; ++c) {
+            Stored stored;
+            std::memcpy(&stored, from + c * sizeof stored, sizeof stored);
+            out[m.to * room + c] = convert<Out>(stored, normalized);
+        }
+    }
+}
+
+template<class Out, class MoveOf>
+void convertAny(const Run& run, const Accessor& a, std::size_t count, const MoveOf& move, Out* out, std::size_t room)
+{
+    const auto as = [&](auto stored) {
+        convertRun<decltype(stored), Out>(run, componentCount(a.type), a.normalized, count, move, out, room);
+    };
+    switch (a.componentType) {
+    case kByte: return as(std::int8_t());
+    case kUnsignedByte: return as(std::uint8_t());
+    case kShort: return as(std::int16_t());
+    case kUnsignedShort: return as(std::uint16_t());
+    case kUnsignedInt: return as(std::uint32_t());
+    default: return as(float());
+    }
+}
+
+// Which sparse values go where, of those that are chosen. The indices rise: checkSparse.
+std::vector<Move> sparseMoves(const Elements& elements, const Choice& choice)
+{
+    const std::size_t count = elements.sparseIndices.count;
+    std::vector<Move> moves;
+    if (choice.all) {
+        for (std::size_t i = 0; i < count && elements.sparseIndex(i) < choice.count; ++i)
+            moves.push_back({i, elements.sparseIndex(i)});
+        return moves;
+    }
+    for (std::size_t i = 0, at = 0; i < choice.chosen.size() && at < count; ++i) {
+        std::size_t end = count;
+        while (at < end) { // the first that is not below
+            const std::size_t middle = at + (end - at) / 2;
+            if (elements.sparseIndex(middle) < choice.chosen[i])
+                at = middle + 1;
+            else
+                end = middle;
+        }
+        if (at < count && elements.sparseIndex(at) == choice.chosen[i])
+            moves.push_back({at, i});
+    }
+    return moves;
+}
+
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out)
+{
+    const Accessor& a = elements.accessor;
+    const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
+    if (elements.dense.first)
+        convertAny(elements.dense, a, choice.size(), dense, out, room);
+    if (!a.sparse)
+        return;
+    const std::vector<Move> moves = sparseMoves(elements, choice);
+    convertAny(
+        elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
+}
+
+} // namespace
+
+std::uint32_t Elements::sparseIndex(std::size_t i) const
+{
+    return indexAt(sparseIndices.at(i), accessor.sparse->indicesType);
+}
+
+Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std::string& field)
+{
+    Elements elements{a, {nullptr, 0, a.count}, {}, {}};
+    const std::size_t size = elementSize(a);
+    if (a.view >= 0) {
+        const ViewBytes view = viewBytes(std::size_t(a.view));
+        elements.dense = runIn(view, a.view, a.offset, view.stride > 0 ? view.stride : size, size, a.count, field);
+    }
+    if (!a.sparse)
+        return elements;
+    if (a.sparse->count > a.count)
+        failGltf("{}.sparse.count: expected at most {}, the accessor's count, found {}", field, a.count,
+                 a.sparse->count);
+    const std::size_t indexSize = componentSize(a.sparse->indicesType);
+    elements.sparseIndices =
+        runIn(viewBytes(std::size_t(a.sparse->indicesView)), a.sparse->indicesView, a.sparse->indicesOffset, indexSize,
+              indexSize, a.sparse->count, field + ".sparse.indices");
+    elements.sparseValues = runIn(viewBytes(std::size_t(a.sparse->valuesView)), a.sparse->valuesView,
+                                  a.sparse->valuesOffset, size, size, a.sparse->count, field + ".sparse.values");
+    return elements;
+}
+
+void checkSparse(const Elements& elements, const std::string& field)
+{
+    std::uint32_t before = 0;
+    for (std::size_t i = 0; i < elements.sparseIndices.count; ++i) {
+        const std::uint32_t at = elements.sparseIndex(i);
+        if (at >= elements.accessor.count)
+            failGltf("{}.sparse.indices[{}]: expected an index below {}, found {}", field, i, elements.accessor.count,
+                     at);
+        if (i > 0 && at <= before)
+            failGltf("{}.sparse.indices[{}]: expected an index above {}, the one before, found {}", field, i, before,
+                     at);
+        before = at;
+    }
+}
+
+void checkFinite(const Elements& elements, const std::string& field)
+{
+    if (elements.accessor.componentType != kFloat)
+        return;
+    const std::size_t components = componentCount(elements.accessor.type);
+    checkFiniteRun(elements.dense, components, field);
+    checkFiniteRun(elements.sparseValues, components, field);
+}
+
+const char* nameOfComponent(int componentType)
+{
+    switch (componentType) {
+    case kByte: return "signed bytes";
+    case kUnsignedByte: return "bytes";
+    case kShort: return "signed shorts";
+    case kUnsignedShort: return "shorts";
+    case kUnsignedInt: return "unsigned integers";
+    default: return "floats";
+    }
+}
+
+void expectElements(const Accessor& a, ElementType type, std::size_t count, const Role& role)
+{
+    if (a.type != type)
+        failGltf("{}: expected accessors[{}] of type {}, found {}", role.field, role.accessor, nameOf(type),
+                 nameOf(a.type));
+    if (a.count != count)
+        failGltf("{}: expected accessors[{}] with {} elements, found {}", role.field, role.accessor, count, a.count);
+}
+
+void expectIndices(const Accessor& a, const Role& role)
+{
+    expectElements(a, ElementType::scalar, a.count, role);
+    if (a.componentType != kUnsignedByte && a.componentType != kUnsignedShort && a.componentType != kUnsignedInt)
+        failGltf("{}: expected unsigned integers in accessors[{}], found {}", role.field, role.accessor,
+                 nameOfComponent(a.componentType));
+}
+
+void readFloats(const Elements& elements, const Choice& choice, std::size_t room, float* out)
+{
+    readNumbers(elements, choice, room, out);
+}
+
+void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out)
+{
+    readNumbers(elements, choice, room, out);
+}
+
+template<class Vector> std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role)
+{
+    constexpr ElementType types[] = {ElementType::vec2, ElementType::vec3, ElementType::vec4};
+    expectElements(elements.accessor, types[Vector::length() - 2], choice.count, role);
+    if (elements.accessor.componentType == kUnsignedInt)
+        failGltf("{}: expected floats, bytes or shorts in accessors[{}], found {}", role.field, role.accessor,
+                 nameOfComponent(elements.accessor.componentType));
+    std::vector<Vector> out(choice.size(), Vector(0));
+    if (!out.empty())
+        readFloats(elements, choice, std::size_t(Vector::length()), &out[0].x);
+    return out;
+}
+
+template std::vector<glm::vec2> readVectors(const Elements&, const Choice&, const Role&);
+template std::vector<glm::vec3> readVectors(const Elements&, const Choice&, const Role&);
+template std::vector<glm::vec4> readVectors(const Elements&, const Choice&, const Role&);
+
+} // namespace cotan::gltf

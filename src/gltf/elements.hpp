@@ -1,0 +1,88 @@
+// The elements of accessors: where they lie, and their numbers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codes.hpp"
+#include "cotan/gltf/views.hpp"
+
+namespace cotan::gltf {
+
+// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those
+// after unpacking.
+struct ViewBytes {
+    std::span<const std::byte> bytes;
+    std::size_t stride = 0; // as in BufferView
+};
+using ViewBytesOf = std::function<ViewBytes(std::size_t view)>;
+
+// A run of equally spaced elements.
+struct Run {
+    const std::byte* first = nullptr; // null: all zero
+    std::size_t stride = 0;
+    std::size_t count = 0;
+
+    const std::byte* at(std::size_t i) const { return first + i * stride; }
+};
+
+// An accessor with its bytes: the elements without sparse values, and the indices and values of those.
+struct Elements {
+    Accessor accessor;
+    Run dense;
+    Run sparseIndices, sparseValues; // equally many; the indices rise once checkSparse has looked at them
+
+    std::uint32_t sparseIndex(std::size_t i) const;
+};
+
+// Throws GltfProblem where something lies outside its view. field: for the message.
+Elements findElements(const Accessor& accessor, const ViewBytesOf& viewBytes, const std::string& field);
+
+// Throws GltfProblem where the indices of sparse values do not rise or are not below the count.
+void checkSparse(const Elements& elements, const std::string& field);
+
+// Throws GltfProblem where a float is not finite.
+void checkFinite(const Elements& elements, const std::string& field);
+
+// ---- reading --------------------------------------------------------------------------------
+
+// Which elements are read.
+struct Choice {
+    std::size_t count = 0;                   // how many the accessor must have
+    bool all = true;                         // they are all read
+    std::span<const std::uint32_t> chosen{}; // otherwise these, rising
+
+    Choice(std::size_t of) : count(of) {}
+    Choice(std::size_t of, std::span<const std::uint32_t> some) : count(of), all(false), chosen(some) {}
+    std::size_t size() const { return all ? count : chosen.size(); }
+};
+
+// An accessor that serves as something: what messages call it.
+struct Role {
+    int accessor = -1;
+    std::string field; // "meshes[0].primitives[1].NORMAL"
+};
+
+const char* nameOf(ElementType type);
+const char* nameOfComponent(int componentType);
+
+// Throws GltfProblem for another type or number of elements.
+void expectElements(const Accessor& accessor, ElementType type, std::size_t count, const Role& role);
+
+// Throws GltfProblem for scalars that cannot be indices.
+void expectIndices(const Accessor& accessor, const Role& role);
+
+// The numbers of the chosen elements, sparse values put in: integers that are normalised become [0,1]
+// or [-1,1], others their value. out: zeros; an element has room for `room` numbers there.
+void readFloats(const Elements& elements, const Choice& choice, std::size_t room, float* out);
+void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out);
+
+// The same as vectors. Throws GltfProblem where the elements are none, and for unsigned integers.
+template<class Vector>
+std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role);
+
+} // namespace cotan::gltf

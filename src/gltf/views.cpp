@@ -1,0 +1,203 @@
+#include "cotan/gltf/views.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "codes.hpp"
+#include "elements.hpp"
+
+namespace cotan::gltf {
+
+namespace {
+
+int indexOf(const Json& object, std::string_view name) { return valueOr(object, name, -1); }
+
+std::string textOf(const Json& object, std::string_view name) { return valueOr(object, name, std::string()); }
+
+template<class T> std::vector<T> listOf(const Json& object, std::string_view name)
+{
+    return valueOr(object, name, std::vector<T>());
+}
+
+glm::dvec3 vectorOr(const Json& object, std::string_view name, const glm::dvec3& otherwise)
+{
+    const Json* const v = member(object, name);
+    return v ? glm::dvec3((*v)[0].get<double>(), (*v)[1].get<double>(), (*v)[2].get<double>()) : otherwise;
+}
+
+Attributes attributesOf(const Json& object)
+{
+    Attributes attributes;
+    for (const auto& [name, accessor] : object.items())
+        attributes.emplace(name, accessor.get<int>());
+    return attributes;
+}
+
+constexpr std::array kElementTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+
+ElementType elementTypeOf(std::string_view name)
+{
+    return ElementType(std::find(kElementTypes.begin(), kElementTypes.end(), name) - kElementTypes.begin());
+}
+
+Sparse readSparse(const Json& sparse)
+{
+    const Json &indices = sparse["indices"], &values = sparse["values"];
+    return {.count = sparse["count"].get<std::size_t>(),
+            .indicesView = indexOf(indices, "bufferView"),
+            .valuesView = indexOf(values, "bufferView"),
+            .indicesOffset = valueOr(indices, "byteOffset", std::size_t(0)),
+            .valuesOffset = valueOr(values, "byteOffset", std::size_t(0)),
+            .indicesType = indices["componentType"].get<int>()};
+}
+
+// A quaternion as glTF stores it; the identity where it has no length.
+glm::dquat rotationOf(const glm::dvec4& xyzw)
+{
+    const double length = glm::length(xyzw);
+    if (!(length > 0))
+        return glm::dquat(1, 0, 0, 0);
+    return glm::dquat(xyzw.w / length, xyzw.x / length, xyzw.y / length, xyzw.z / length);
+}
+
+} // namespace
+
+const Json* member(const Json& object, std::string_view name)
+{
+    const auto found = object.find(name);
+    return found == object.end() ? nullptr : &*found;
+}
+
+const Json* extension(const Json& object, std::string_view name)
+{
+    const Json* const extensions = member(object, "extensions");
+    const Json* const found = extensions ? member(*extensions, name) : nullptr;
+    return found && found->is_object() ? found : nullptr;
+}
+
+// ---- numbers in buffers ---------------------------------------------------------------------
+
+std::size_t componentSize(int componentType)
+{
+    switch (componentType) {
+    case kByte:
+    case kUnsignedByte: return 1;
+    case kShort:
+    case kUnsignedShort: return 2;
+    default: return 4;
+    }
+}
+
+std::size_t componentCount(ElementType type)
+{
+    constexpr std::array<std::size_t, 7> counts{1, 2, 3, 4, 4, 9, 16};
+    return counts[std::size_t(type)];
+}
+
+const char* nameOf(ElementType type) { return kElementTypes[std::size_t(type)]; }
+
+std::size_t elementSize(const Accessor& accessor)
+{
+    const std::size_t size = componentSize(accessor.componentType);
+    if (accessor.type == ElementType::mat2 && size == 1)
+        return 8;
+    if (accessor.type == ElementType::mat3 && size < 4)
+        return size == 1 ? 12 : 24;
+    return size * componentCount(accessor.type);
+}
+
+BufferView readBufferView(const Json& view)
+{
+    return {.buffer = view["buffer"].get<std::size_t>(),
+            .offset = valueOr(view, "byteOffset", std::size_t(0)),
+            .length = view["byteLength"].get<std::size_t>(),
+            .stride = valueOr(view, "byteStride", std::size_t(0))};
+}
+
+Accessor readAccessor(const Json& accessor)
+{
+    Accessor read{.view = indexOf(accessor, "bufferView"),
+                  .offset = valueOr(accessor, "byteOffset", std::size_t(0)),
+                  .componentType = accessor["componentType"].get<int>(),
+                  .count = accessor["count"].get<std::size_t>(),
+                  .type = elementTypeOf(accessor["type"].get_ref<const std::string&>()),
+                  .normalized = valueOr(accessor, "normalized", false),
+                  .sparse = {}};
+    if (const Json* const sparse = member(accessor, "sparse"))
+        read.sparse = readSparse(*sparse);
+    return read;
+}
+
+// ---- meshes and nodes -----------------------------------------------------------------------
+
+int accessorOf(const Attributes& attributes, std::string_view name)
+{
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? -1 : found->second;
+}
+
+Primitive readPrimitive(const Json& primitive)
+{
+    Primitive read;
+    read.attributes = attributesOf(primitive["attributes"]);
+    if (const Json* const targets = member(primitive, "targets"))
+        for (const Json& target : *targets)
+            read.targets.push_back(attributesOf(target));
+    read.indices = indexOf(primitive, "indices");
+    read.material = indexOf(primitive, "material");
+    read.mode = valueOr(primitive, "mode", kTriangles);
+    return read;
+}
+
+Mesh readMesh(const Json& mesh)
+{
+    Mesh read{textOf(mesh, "name"), {}, listOf<double>(mesh, "weights")};
+    for (const Json& primitive : mesh["primitives"])
+        read.primitives.push_back(readPrimitive(primitive));
+    return read;
+}
+
+Node readNode(const Json& node)
+{
+    Node read;
+    read.name = textOf(node, "name");
+    read.mesh = indexOf(node, "mesh");
+    read.skin = indexOf(node, "skin");
+    read.camera = indexOf(node, "camera");
+    read.children = listOf<int>(node, "children");
+    read.weights = listOf<double>(node, "weights");
+    if (const Json* const matrix = member(node, "matrix")) {
+        glm::dmat4& m = read.matrix.emplace();
+        for (int i = 0; i < 16; ++i)
+            m[i / 4][i % 4] = (*matrix)[std::size_t(i)].get<double>();
+    }
+    read.translation = vectorOr(node, "translation", read.translation);
+    read.scale = vectorOr(node, "scale", read.scale);
+    if (const Json* const q = member(node, "rotation"))
+        for (int i = 0; i < 4; ++i)
+            read.rotation[i] = (*q)[std::size_t(i)].get<double>();
+    if (const Json* const light = extension(node, "KHR_lights_punctual"))
+        read.light = indexOf(*light, "light");
+    if (const Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
+        read.instances = attributesOf((*instancing)["attributes"]);
+    return read;
+}
+
+Skin readSkin(const Json& skin) { return {indexOf(skin, "inverseBindMatrices"), listOf<int>(skin, "joints")}; }
+
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale)
+{
+    const glm::dmat3 r = glm::mat3_cast(rotationOf(rotation));
+    return {glm::dvec4(r[0] * scale.x, 0), glm::dvec4(r[1] * scale.y, 0), glm::dvec4(r[2] * scale.z, 0),
+            glm::dvec4(translation, 1)};
+}
+
+glm::dmat4 localMatrix(const Node& node)
+{
+    return node.matrix.value_or(composed(node.translation, node.rotation, node.scale));
+}
+
+} // namespace cotan::gltf

@@ -1,0 +1,137 @@
+// What a frame of the table cotan/frames.inc needs in other places, by name: whoever adds a row reads here what is
+// missing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/tangents.hpp"
+
+namespace cotan {
+namespace {
+
+std::string read(const std::string& file)
+{
+    std::ifstream in(std::string(COTAN_SOURCE_DIR "/") + file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    EXPECT_FALSE(text.str().empty()) << file;
+    return text.str();
+}
+
+// The frame's row in the table of docs/conventions.md, and what the frame's properties make of it.
+std::string rowOfDocs(const FrameInfo& f)
+{
+    const char* from = f.source == FrameSource::differences ? "differences"
+        : f.source == FrameSource::triangle                 ? "the whole triangle"
+        : f.source == FrameSource::cotangents               ? "cotangents at the vertices"
+                                                            : "tangents at the vertices";
+    const auto yes = [](bool is) { return is ? " yes |" : " no |"; };
+    return "| `" + std::string(f.name) + "` | " + from + " |" + yes(f.total) + yes(f.fused) + yes(!f.dependsOnView);
+}
+
+struct Place {
+    std::string file, text; // what of which file
+};
+
+std::vector<Place> placesOf(const FrameInfo& f)
+{
+    const std::string word(f.word), name(f.name);
+    const std::string text = f.frame == Frame::triangle ? "shaders/cotan/triangle.h" : "shaders/cotan/frame.h";
+    std::vector<Place> places = {
+        {text, " cotan_frame_" + word + "("},
+        {"shaders/cost/rows.h", (f.frame == Frame::triangle ? "cotan_frame_of_" : "cotan_frame_") + word + "("},
+        {"src/cost/rows.cpp", "{\"" + name + "\","},
+        {"docs/cost.md", "| " + name + " "},
+        {"docs/conventions.md", rowOfDocs(f)},
+        {"docs/accuracy.csv", "," + name + ","},
+        {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
+        {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
+    if (f.fused)
+        for (const char* file : {"shaders/cotan/fused.h", "tests/portable_main.glsl", "tests/portable_main.hlsl"})
+            places.push_back({file, "cotan_perturb_" + word + "("});
+    return places;
+}
+
+// One line for each place that does not know the frame.
+std::vector<std::string> missing(const FrameInfo& f)
+{
+    std::vector<std::string> lines;
+    for (const Place& place : placesOf(f))
+        if (read(place.file).find(place.text) == std::string::npos)
+            lines.push_back(std::string(f.name) + ": expected '" + place.text + "' in " + place.file + "; found none");
+    return lines;
+}
+
+TEST(FrameTable, everyPlaceThatNamesFramesKnowsEachOfThem)
+{
+    for (const FrameInfo& f : frames())
+        for (const std::string& line : missing(f))
+            ADD_FAILURE() << line;
+}
+
+TEST(FrameTable, ofAFrameThatIsNowhereEveryPlaceIsMissing)
+{
+    const FrameInfo unknown{Frame::cotangent, "no-such", "no_such", FrameSource::differences, true, false, true, ""};
+    EXPECT_EQ(missing(unknown).size(), placesOf(unknown).size());
+}
+
+TEST(FrameTable, aFusedFormIsStatedWhereThereIsOne)
+{
+    const std::string text = read("shaders/cotan/fused.h");
+    for (const FrameInfo& f : frames())
+        EXPECT_EQ(text.find("cotan_perturb_" + std::string(f.word) + "(") != std::string::npos, f.fused) << f.name;
+}
+
+TEST(FrameTable, theDocumentHasNoFrameThatIsNot)
+{
+    std::istringstream text(read("docs/conventions.md"));
+    std::size_t rows = 0;
+    bool inside = false;
+    for (std::string line; std::getline(text, line);) {
+        inside = line.starts_with("## ") ? line == "## Frames by name" : inside;
+        rows += inside && line.starts_with("| `");
+    }
+    EXPECT_EQ(rows, frames().size());
+}
+
+TEST(FrameTable, theShaderTextOfEachIsItsFunctionInEveryLanguage)
+{
+    for (const FrameInfo& f : frames())
+        for (const shader_text::Language language : shader_text::kLanguages)
+            for (const shader_text::Form form : {shader_text::Form::total, shader_text::Form::fused}) {
+                shader_text::Choice choice;
+                choice.language = language;
+                choice.frame = f.frame;
+                choice.form = form;
+                const auto made = makeShaderText(choice);
+                const bool fused = form == shader_text::Form::fused;
+                ASSERT_EQ(bool(made), !fused || f.fused) << f.name;
+                if (made) {
+                    const std::string function = (fused ? "cotan_perturb_" : "cotan_frame_") + std::string(f.word);
+                    EXPECT_EQ(std::ranges::count(made->functions, function), 1) << f.name << ", " << name(language);
+                }
+            }
+}
+
+// A triangle in xy whose u runs along x: whoever makes the tangents, they do.
+TEST(FrameTable, whatReadsTangentsHasAGeneratorOfThem)
+{
+    const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, normals(3, {0, 0, 1});
+    const std::vector<glm::vec2> uv = {{0, 1}, {1, 1}, {0, 0}};
+    const std::vector<std::uint32_t> indices = {0, 1, 2};
+    for (const FrameInfo& f : frames()) {
+        const auto tangents = generateTangents(f.frame, {positions, normals, uv, indices});
+        ASSERT_EQ(tangents.size(), readsTangents(f.frame) ? 3u : 0u) << f.name;
+        for (const glm::vec4& t : tangents)
+            EXPECT_EQ(t, glm::vec4(1, 0, 0, 1)) << f.name; // v runs down: cross(n, t) points up the picture
+    }
+}
+
+} // namespace
+} // namespace cotan
