@@ -271,8 +271,11 @@ TEST(ShaderText, everySetCompilesAsAFragmentShader)
                 text += "float4 main(float3 n : A, float3 p : B, float2 uv : C) : SV_Target { return float4(" + value
                     + ", 1.0); }\n";
             else
-                text = (l == Language::glsl ? "#version 330\n" : "#version 300 es\nprecision highp float;\n") + text
-                    + "in vec3 n; in vec3 p; in vec2 uv; out vec4 o;\nvoid main() { o = vec4(" + value + ", 1.0); }\n";
+                text = (l != Language::glsl                  ? "#version 300 es\nprecision highp float;\n"
+                            : frame.frame == Frame::triangle ? "#version 420\n" // has packHalf2x16
+                                                             : "#version 330\n")
+                    + text + "in vec3 n; in vec3 p; in vec2 uv; out vec4 o;\nvoid main() { o = vec4(" + value
+                    + ", 1.0); }\n";
             writeText(folder / "a.frag", text);
             const bool compiled =
                 shell(COTAN_GLSLANG_PATH " " + std::string(hlsl ? "-D -V -e main -o '" + f + "/spv' " : "") + "'" + f

@@ -33,7 +33,8 @@ std::size_t groupsAtTheTip(std::uint32_t n, bool whole)
 
 TEST(MikktspaceTangents, allTrianglesThatHangTogetherAtAVertexAreOneGroupHoweverMany)
 {
-    for (const std::uint32_t n : {7u, 16u, 17u, 18u, 19u, 41u, 200u}) { // few and many are paired differently
+    for (const std::uint32_t n :
+         {7u, 8u, 9u, 10u, 16u, 17u, 18u, 19u, 41u, 200u}) { // up to 8, up to 16 and more are paired differently
         EXPECT_EQ(groupsAtTheTip(n, true), 1u) << n;
         EXPECT_EQ(groupsAtTheTip(n, false), 2u) << n;
     }

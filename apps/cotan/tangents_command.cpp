@@ -171,7 +171,9 @@ Status run(const TangentsCommandOptions& o)
 void declare(Arguments& a, TangentsCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required();
-    a.option("--frame", o.frame, "mikktspace, vertex (classic averages), or smooth (statistics only)");
+    a.option("--frame", o.frame,
+             "mikktspace (every shared edge joined, as in three.js 0.187), vertex (classic averages), or smooth "
+             "(statistics only)");
     a.flag("--replace", o.replace,
            "generate tangents also where the file has them; without this only where they are missing");
 }

@@ -39,7 +39,9 @@ struct MeshView {
 // none, and where tangents cancel out, we depart from the source, which gives (1,0,0) or zero:
 // the tangent is some unit vector perpendicular to the normal, w = +1.
 // Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
-// mikktspace.h with its default angular threshold of 180 degrees.
+// mikktspace.h with its default angular threshold of 180 degrees, mended as in three.js 0.187: every shared
+// edge joins its triangles, where mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast)
+// and so takes some for borders; corners at that vertex of few meshes differ.
 // threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
 std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 

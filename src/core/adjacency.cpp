@@ -73,7 +73,7 @@ Adjacency makeNormalAdjacency(const MeshView& mesh)
         return {};
     const std::size_t count = mesh.positions.size();
     const std::vector<glm::vec2> none(count, glm::vec2(0));
-    const std::vector<std::uint32_t> first = tangents::weld({mesh.positions, mesh.normals, none, mesh.indices});
+    const LargeArray<std::uint32_t> first = tangents::weld({mesh.positions, mesh.normals, none, mesh.indices});
     std::vector<std::size_t> slotOf(mesh.indices.size(), kNoSlot);
     std::vector<std::uint32_t> corners(2 * count); // by slot
     for (std::uint32_t c = 0; c < slotOf.size(); ++c) {

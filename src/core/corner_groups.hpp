@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/tangents.hpp"
+#include "large_array.hpp"
 
 namespace cotan::tangents {
 
@@ -51,8 +52,8 @@ struct CotangentSums {
 };
 
 struct CornerGroups {
-    std::vector<std::uint32_t> first; // per vertex the first that equals it
-    std::vector<Side> sides;          // per corner
+    LargeArray<std::uint32_t> first; // per vertex the first that equals it
+    std::vector<Side> sides;         // per corner
     CotangentSums sums;
     std::vector<std::size_t> slots; // per vertex the slot that it takes its cotangents from
 };

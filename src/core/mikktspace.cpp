@@ -2,137 +2,26 @@
 // and an orientation for every triangle; neighbours across shared edges; groups of triangles of
 // one orientation that hang together around a vertex; an angle-weighted average per group.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <memory>
+#include <functional>
+#include <numeric>
 #include <utility>
 
-#include "mikktspace_triangles.hpp"
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "mikktspace_corners.hpp"
 
 namespace cotan {
 
 namespace {
 
 using namespace mikktspace;
-using tangents::kNone;
 using tangents::normalizeOrZero;
 using tangents::projectedUnit;
-
-// The corners at each welded vertex, in order; those of degenerate triangles are left out.
-struct CornersAt {
-    std::vector<std::uint32_t> start; // per vertex, and one more at the end
-    std::unique_ptr<std::uint32_t[]> corners;
-
-    std::span<const std::uint32_t> operator[](std::size_t vertex) const
-    {
-        return {corners.get() + start[vertex], start[vertex + 1] - start[vertex]};
-    }
-};
-
-CornersAt cornersByVertex(const Triangles& t, std::size_t threads)
-{
-    const std::size_t vertices = t.mesh.positions.size();
-    // Each thread reads all corners and writes those of its own vertices. each(vertex, corner), from the last.
-    const auto forCorners = [&](const auto& each) {
-        runTasks(threads, threads, [&](std::size_t part) {
-            const std::size_t begin = partBegin(vertices, part, threads),
-                              size = partBegin(vertices, part + 1, threads) - begin;
-            for (auto c = static_cast<std::uint32_t>(t.corners()); c-- > 0;)
-                if (const std::size_t v = t.vertices[c]; v - begin < size && !t.has(c / 3, kDegenerate))
-                    each(v, c);
-        });
-    };
-    CornersAt at{std::vector<std::uint32_t>(vertices + 1), nullptr};
-    forCorners([&](std::size_t v, std::uint32_t) { ++at.start[v]; });
-    std::uint32_t end = 0;
-    for (std::uint32_t& start : at.start) // to where each vertex's corners end
-        start = end += start;
-    at.corners = std::make_unique_for_overwrite<std::uint32_t[]>(end);
-    forCorners([&](std::size_t v, std::uint32_t c) { at.corners[--at.start[v]] = c; });
-    return at;
-}
-
-// Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
-// and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
-// As indices into the list of corners. Of the edges between the same two vertices the k-th that runs one
-// way meets the k-th that runs the other way.
-struct Ring {
-    std::vector<std::uint32_t> left, right;
-
-    void make(const Triangles& t, std::span<const std::uint32_t> corners)
-    {
-        count = static_cast<std::uint32_t>(corners.size());
-        if (left.size() < count)
-            for (auto* list : {&leaving, &coming, &left, &right})
-                list->resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            leaving[i] = t.vertices[nextCorner(corners[i])];
-            coming[i] = t.vertices[previousCorner(corners[i])];
-            left[i] = right[i] = kNone;
-        }
-        if (count <= kFew)
-            pairFew();
-        else
-            pairMany();
-    }
-
-private:
-    static constexpr std::uint32_t kFew = 16;
-    std::uint32_t count = 0;                    // of corners; the lists are as long as the longest needed so far
-    std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
-    std::vector<std::uint32_t> byLeaving, byComing;
-
-    void join(std::uint32_t i, std::uint32_t j)
-    {
-        left[i] = j;
-        right[j] = i;
-    }
-
-    void pairFew()
-    {
-        for (std::uint32_t i = 0; i < count; ++i)
-            for (std::uint32_t j = 0; j < count; ++j)
-                if (coming[j] == leaving[i] && right[j] == kNone) {
-                    join(i, j);
-                    break;
-                }
-    }
-
-    // The same in time n log n.
-    void pairMany()
-    {
-        const auto sorted = [this](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
-            order.resize(count);
-            for (std::uint32_t i = 0; i < order.size(); ++i)
-                order[i] = i;
-            std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return std::pair(others[a], a) < std::pair(others[b], b);
-            });
-        };
-        sorted(leaving, byLeaving);
-        sorted(coming, byComing);
-        for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
-            const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
-            if (a == b)
-                join(byLeaving[i], byComing[j]);
-            i += a <= b;
-            j += b <= a;
-        }
-    }
-};
-
-// The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in
-// order, to the left first.
-template<class Take>
-void walk(std::uint32_t seed, std::span<const std::uint32_t> left, std::span<const std::uint32_t> right,
-          const Take& take)
-{
-    std::uint32_t i = seed;
-    while (i != kNone && take(i))
-        i = left[i];
-    i = right[seed];
-    while (i != kNone && take(i))
-        i = right[i];
-}
 
 // ---- averages -------------------------------------------------------------------------------
 
@@ -144,17 +33,19 @@ constexpr std::size_t kLargeGroup = 256;
 glm::vec3 projected(glm::vec3 v, glm::vec3 n) { return v - n * glm::dot(n, v); }
 
 // The whole group's weighted sum, and whether no two directions in it can be opposite: all within
-// 90 degrees of the first. That is the usual case, and then every member has this sum.
+// 90 degrees of the first, less a little for rounding. That is the usual case, and then every member has this sum.
 bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> contributions,
                   glm::vec3 n, glm::vec3& sum)
 {
+    constexpr float kCosine = 0.001f, kMostWeight = 3.15f;
     const glm::vec3 firstU(contributions[group[0]]), firstV = projected(t.alongV[group[0] / 3], n);
+    const float leastU = kCosine * kMostWeight * std::sqrt(glm::dot(firstU, firstU));
     bool inOneHalf = true;
     sum = glm::vec3(0);
     for (const std::uint32_t c : group) {
         const glm::vec3 u(contributions[c]);
-        inOneHalf &= glm::dot(firstU, u) > 0;
-        inOneHalf &= glm::dot(firstV, projected(t.alongV[c / 3], n)) > 0;
+        inOneHalf &= glm::dot(firstU, u) > leastU;
+        inOneHalf &= glm::dot(firstV, t.alongV[c / 3]) > kCosine; // along n there is nothing of the first
         sum += u;
     }
     return inOneHalf;
@@ -216,94 +107,177 @@ void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Memb
 
 // ---- groups ---------------------------------------------------------------------------------
 
+// The set of the places in a list where `value` stands, as bits.
+template<std::size_t kSize> std::uint32_t placesOf(std::uint32_t value, const std::array<std::uint32_t, kSize>& list)
+{
+    std::uint32_t places = 0;
+#ifdef __SSE2__ // compilers do not find that
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(value));
+    const auto equal = [&](std::size_t i) {
+        return _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(&list[i])), wanted);
+    };
+    for (std::size_t i = 0; i < kSize; i += 8) {
+        const __m128i words = _mm_packs_epi32(equal(i), equal(i + 4));
+        places |= static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128()))) << i;
+    }
+#else
+    for (std::size_t i = 0; i < kSize; ++i)
+        places |= list[i] == value ? 1u << i : 0u;
+#endif
+    return places;
+}
+
+// The groups at a vertex with at most kMost corners: sets of corners are the bits of a word, and neighbours are
+// found by comparing all with all.
+template<std::size_t kMost>
+void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Members& members, std::span<glm::vec4> out)
+{
+    constexpr std::uint32_t kNobody = 31; // no corner has that bit
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    std::array<std::uint32_t, kMost> leaving, coming, left, right; // as in Ring
+    std::uint32_t preserving = 0;
+    coming.fill(kNone);
+    right.fill(kNobody);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t f = corners[i] / 3, k = corners[i] - 3 * f;
+        leaving[i] = t.vertices[k == 2 ? 3 * f : corners[i] + 1];
+        coming[i] = t.vertices[k == 0 ? 3 * f + 2 : corners[i] - 1];
+        preserving |= std::uint32_t(t.flags[f] & kPreserving) << i;
+    }
+    for (std::uint32_t i = 0, rest = ~0u; i < count; ++i) { // rest: nobody's right neighbour
+        left[i] = kNobody;
+        if (const std::uint32_t those = placesOf(leaving[i], coming) & rest; those != 0) {
+            left[i] = std::uint32_t(std::countr_zero(those));
+            right[left[i]] = i;
+            rest &= ~(1u << left[i]);
+        }
+    }
+    std::uint32_t free = (1u << count) - 1; // in no group yet
+    while (free != 0) {
+        const auto seed = std::uint32_t(std::countr_zero(free));
+        const std::uint32_t alike = (preserving >> seed & 1) != 0 ? preserving : ~preserving;
+        std::array<std::uint32_t, kMost> group;
+        std::size_t size = 0;
+        walk(seed, left, right, [&](std::uint32_t i) {
+            if ((free & alike & 1u << i) == 0)
+                return false;
+            free &= ~(1u << i);
+            group[size++] = corners[i];
+            return true;
+        });
+        averageGroup(t, std::span(group).first(size), members, out);
+    }
+}
+
+// The same for any number of corners.
+struct ManyCorners {
+    Ring ring;
+    std::vector<std::uint32_t> group;
+    std::vector<std::uint8_t> taken;
+
+    void average(const Triangles& t, std::span<const std::uint32_t> corners, Members& members, std::span<glm::vec4> out)
+    {
+        ring.make(t, corners);
+        taken.assign(corners.size(), 0);
+        for (std::uint32_t seed = 0; seed < corners.size(); ++seed) {
+            if (taken[seed] != 0)
+                continue;
+            const bool preserving = t.has(corners[seed] / 3, kPreserving);
+            group.clear();
+            walk(seed, ring.left, ring.right, [&](std::uint32_t i) {
+                if (i == kNone || taken[i] != 0 || t.has(corners[i] / 3, kPreserving) != preserving)
+                    return false;
+                taken[i] = 1;
+                group.push_back(corners[i]);
+                return true;
+            });
+            averageGroup(t, group, members, out);
+        }
+    }
+};
+
 // Where every triangle has a direction, the groups of a vertex are nobody else's business.
 void averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, std::span<glm::vec4> out)
 {
     runParts(t.mesh.positions.size(), threads, [&](std::size_t begin, std::size_t end) {
-        Ring ring;
         Members members;
-        std::vector<std::uint32_t> group;
-        std::vector<std::uint8_t> taken;
-        for (std::size_t v = begin; v < end; ++v) {
-            const std::span<const std::uint32_t> corners = at[v];
-            if (corners.empty()) // welded to another
-                continue;
-            ring.make(t, corners);
-            taken.assign(corners.size(), 0);
-            for (std::uint32_t seed = 0; seed < corners.size(); ++seed) {
-                if (taken[seed] != 0)
-                    continue;
-                const bool preserving = t.has(corners[seed] / 3, kPreserving);
-                group.clear();
-                walk(seed, ring.left, ring.right, [&](std::uint32_t i) {
-                    if (taken[i] != 0 || t.has(corners[i] / 3, kPreserving) != preserving)
-                        return false;
-                    taken[i] = 1;
-                    group.push_back(corners[i]);
-                    return true;
-                });
-                averageGroup(t, group, members, out);
+        ManyCorners many;
+        std::vector<std::uint32_t> all;
+        std::array<std::uint32_t, 16> few;
+        std::uint32_t count = 0;
+        for (std::size_t v = begin; v < end; ++v)
+            if (at.list(v, few, count) != kNone) {
+                at.list(v, all);
+                many.average(t, all, members, out);
+            } else if (count > 8) {
+                averageFew<16>(t, std::span(few).first(count), members, out);
+            } else if (count > 0) { // not welded to another
+                averageFew<8>(t, std::span(few).first(count), members, out);
             }
-        }
     });
 }
 
-// left and right by corner: Ring for all vertices.
-std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> allRings(const Triangles& t, const CornersAt& at)
+// left and right by corner: Ring for all vertices. left takes the place of at.next.
+struct Neighbours {
+    LargeArray<std::uint32_t> left, right;
+};
+
+Neighbours allRings(const Triangles& t, CornersAt& at)
 {
-    std::vector<std::uint32_t> left(t.corners(), kNone), right(t.corners(), kNone);
+    Neighbours all{{}, makeLargeArray<std::uint32_t>(t.corners())};
     Ring ring;
+    std::vector<std::uint32_t> corners;
     for (std::size_t v = 0; v < t.mesh.positions.size(); ++v) {
-        const std::span<const std::uint32_t> corners = at[v];
+        at.list(v, corners);
         ring.make(t, corners);
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            left[corners[i]] = ring.left[i] == kNone ? kNone : corners[ring.left[i]];
-            right[corners[i]] = ring.right[i] == kNone ? kNone : corners[ring.right[i]];
+            at.next[corners[i]] = ring.left[i] == kNone ? kNone : corners[ring.left[i]];
+            all.right[corners[i]] = ring.right[i] == kNone ? kNone : corners[ring.right[i]];
         }
     }
-    return {std::move(left), std::move(right)};
+    all.left = std::move(at.next);
+    return all;
 }
 
+std::uint8_t takenFlag(std::size_t corner) { return static_cast<std::uint8_t>(kTaken << corner % 3); }
+
 // Marks the corner as taken and says so, if its triangle may join a group of that orientation.
-bool join(Triangles& t, std::vector<std::uint8_t>& taken, std::size_t corner, bool preserving)
+bool join(Triangles& t, std::size_t corner, bool preserving)
 {
-    if (taken[corner] != 0)
-        return false;
     std::uint8_t& flags = t.flags[corner / 3];
-    const std::uint8_t* const those = taken.data() + corner / 3 * 3;
+    if ((flags & takenFlag(corner)) != 0)
+        return false;
     // The first group to reach a triangle without a direction decides its orientation.
-    if ((flags & kJoinsAny) != 0 && (those[0] | those[1] | those[2]) == 0)
+    if ((flags & kJoinsAny) != 0 && flags < kTaken)
         flags = static_cast<std::uint8_t>((flags & ~kPreserving) | (preserving ? kPreserving : 0));
     if (((flags & kPreserving) != 0) != preserving)
         return false;
-    taken[corner] = 1;
+    flags |= takenFlag(corner);
     return true;
 }
 
 // Which group a triangle without a direction joins depends on the order of the corners: one after the
 // other. What no group reaches gets any tangent.
-void averageInOrder(Triangles& t, const CornersAt& at, std::span<glm::vec4> out)
+void averageInOrder(Triangles& t, CornersAt& at, std::span<glm::vec4> out)
 {
     const auto [left, right] = allRings(t, at);
-    std::vector<std::uint8_t> taken(t.corners());
-    std::vector<std::uint32_t> group, groups, starts{0};
+    Members members;
+    std::vector<std::uint32_t> group;
     for (std::uint32_t c = 0; c < t.corners(); ++c) {
-        if (taken[c] != 0 || t.has(c / 3, kJoinsAny))
+        if (t.has(c / 3, takenFlag(c) | kJoinsAny))
             continue;
         const bool preserving = t.has(c / 3, kPreserving);
+        group.clear();
         walk(c, left, right, [&](std::uint32_t i) {
-            const bool joined = join(t, taken, i, preserving);
+            const bool joined = i != kNone && join(t, i, preserving);
             if (joined)
-                groups.push_back(i);
+                group.push_back(i);
             return joined;
         });
-        starts.push_back(static_cast<std::uint32_t>(groups.size()));
+        averageGroup(t, group, members, out);
     }
-    Members members;
-    for (std::size_t g = 0; g + 1 < starts.size(); ++g)
-        averageGroup(t, std::span(groups).subspan(starts[g], starts[g + 1] - starts[g]), members, out);
     for (std::size_t c = 0; c < out.size(); ++c)
-        if (taken[c] == 0)
+        if (!t.has(c / 3, takenFlag(c)))
             out[c] = {tangents::anyPerpendicular(t.normal(c)), 1};
 }
 
@@ -312,8 +286,17 @@ void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm:
 {
     for (std::size_t c = 0; c < out.size(); ++c)
         if (t.has(c / 3, kDegenerate))
-            if (const auto sound = at[t.vertices[c]]; !sound.empty())
-                out[c] = out[sound.front()];
+            if (const std::uint32_t sound = at.first[t.vertices[c]]; sound != kNone)
+                out[c] = out[sound];
+}
+
+std::vector<glm::vec4> zeros(std::size_t size)
+{
+    std::vector<glm::vec4> out;
+    out.reserve(size);
+    wishLargePages(out.data(), size * sizeof(glm::vec4));
+    out.resize(size);
+    return out;
 }
 
 // Starting a thread takes as long as some thousands of triangles.
@@ -326,10 +309,21 @@ std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
     if (!tangents::usable(mesh))
         return {};
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
-    std::vector<glm::vec4> out(mesh.indices.size());
-    Triangles t = makeTriangles(mesh, used, out);
-    const CornersAt at = cornersByVertex(t, used);
-    if (std::any_of(t.flags.get(), t.flags.get() + t.count, [](auto f) { return (f & kJoinsAny) != 0; })) {
+    std::vector<glm::vec4> out;
+    CornersAt at;
+    LargeArray<std::uint32_t> firstVertex;
+    runTasks(2, used, [&](std::size_t i) { // fresh memory takes more than half as long as the welding
+        if (i == 0) {
+            firstVertex = tangents::weld(mesh, std::max<std::size_t>(used - 1, 1));
+        } else {
+            out = zeros(mesh.indices.size());
+            at = noCorners(mesh);
+        }
+    });
+    Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);
+    addCorners(t, used, at);
+    const int flags = std::reduce(t.flags.get(), t.flags.get() + t.count, std::uint8_t(0), std::bit_or<std::uint8_t>());
+    if ((flags & kJoinsAny) != 0) {
         averageInOrder(t, at, out);
         inheritAtDegenerate(t, at, out);
     } else {

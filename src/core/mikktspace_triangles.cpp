@@ -79,7 +79,17 @@ struct Batch {
         axes[2][lane] = v.z;
     }
 
-    void deriveDirections()
+    [[gnu::always_inline]] inline void derive()
+    {
+        std::fill_n(sound, kLanes, 1);
+        deriveDirections();
+        deriveContributions<0>();
+        deriveContributions<1>();
+        deriveContributions<2>();
+    }
+
+private:
+    [[gnu::always_inline]] inline void deriveDirections()
     {
         for (std::size_t l = 0; l < kLanes; ++l) {
             const Directions d =
@@ -93,7 +103,7 @@ struct Batch {
         }
     }
 
-    void deriveContributions(std::size_t k)
+    template<std::size_t k> [[gnu::always_inline]] inline void deriveContributions()
     {
         const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
         for (std::size_t l = 0; l < kLanes; ++l) {
@@ -104,6 +114,19 @@ struct Batch {
         }
     }
 };
+
+#if defined(__x86_64__) && defined(__GNUC__)
+// Eight lanes at a time where the processor can. Without fused multiplication: the values stay the same.
+[[gnu::target("avx2")]] void deriveEight(Batch& batch) { batch.derive(); }
+
+void derive(Batch& batch)
+{
+    static const bool eight = __builtin_cpu_supports("avx2") != 0;
+    eight ? deriveEight(batch) : batch.derive();
+}
+#else
+void derive(Batch& batch) { batch.derive(); }
+#endif
 
 void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& batch)
 {
@@ -135,24 +158,26 @@ void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles
 
 } // namespace
 
-Triangles makeTriangles(const MeshView& mesh, std::size_t threads, std::span<glm::vec4> contributions)
+Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
+                        std::span<glm::vec4> contributions)
 {
     const std::size_t count = mesh.indices.size() / 3;
-    const std::vector<std::uint32_t> firstVertex = tangents::weld(mesh, threads);
-    Triangles t{mesh, count, std::make_unique_for_overwrite<std::uint32_t[]>(3 * count),
-                std::make_unique_for_overwrite<std::uint8_t[]>(count),
-                std::make_unique_for_overwrite<glm::vec3[]>(count)};
+    std::uint32_t moved = 0; // without a branch, so that compilers compare several at once
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        moved |= firstVertex[v] ^ v;
+    Triangles t{
+        mesh, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), makeLargeArray<glm::vec3>(count)};
+    if (moved != 0)
+        t.vertices = (t.welded = makeLargeArray<std::uint32_t>(3 * count)).get();
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = 3 * begin; c < 3 * end; ++c)
-            t.vertices[c] = firstVertex[mesh.indices[c]];
+        if (t.welded)
+            for (std::size_t c = 3 * begin; c < 3 * end; ++c)
+                t.welded[c] = firstVertex[mesh.indices[c]];
         const auto batch = std::make_unique<Batch>();
         for (std::size_t first = begin; first < end; first += kLanes) {
             const std::size_t lanes = std::min(kLanes, end - first);
             gather(t, first, lanes, *batch);
-            std::fill_n(batch->sound, kLanes, 1);
-            batch->deriveDirections();
-            for (std::size_t k = 0; k < 3; ++k)
-                batch->deriveContributions(k);
+            derive(*batch);
             scatter(*batch, first, lanes, t, contributions);
         }
     });

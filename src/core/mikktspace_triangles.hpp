@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
+#include "large_array.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan::mikktspace {
@@ -13,14 +13,16 @@ enum Flag : std::uint8_t {
     kPreserving = 1, // positive signed area in uv (v upwards or downwards, as given)
     kJoinsAny = 2,   // no usable direction: joins the first group that reaches it
     kDegenerate = 4, // two equal positions: takes part in nothing
+    kTaken = 8,      // its first corner is in a group; 16: its second, 32: its third
 };
 
 struct Triangles {
     const MeshView& mesh;
     std::size_t count = 0;
-    std::unique_ptr<std::uint32_t[]> vertices; // welded, three a triangle
-    std::unique_ptr<std::uint8_t[]> flags;     // of Flag, one a triangle
-    std::unique_ptr<glm::vec3[]> alongV;       // per triangle: unit dP/dv, or zero
+    const std::uint32_t* vertices = nullptr; // three a triangle, welded: the mesh's where none are equal
+    LargeArray<std::uint32_t> welded;
+    LargeArray<std::uint8_t> flags; // of Flag, one a triangle
+    LargeArray<glm::vec3> alongV;   // per triangle: unit dP/dv, or zero
 
     std::size_t corners() const { return 3 * count; }
     bool has(std::size_t triangle, int flag) const { return (flags[triangle] & flag) != 0; }
@@ -33,9 +35,10 @@ constexpr std::size_t nextCorner(std::size_t corner) { return corner % 3 == 2 ? 
 
 constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-// Welds and derives. contributions gets for every corner dP/du in the plane of its normal, unit, times the
-// angle with which the triangle counts there.
-Triangles makeTriangles(const MeshView& mesh, std::size_t threads, std::span<glm::vec4> contributions);
+// firstVertex: of every vertex the first one that equals it. contributions gets for every corner dP/du in the
+// plane of its normal, unit, times the angle with which the triangle counts there.
+Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
+                        std::span<glm::vec4> contributions);
 
 // Unit dP/du of a triangle, or zero.
 glm::vec3 alongU(const Triangles& t, std::size_t triangle);

@@ -29,7 +29,7 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
 {
     if (!tangents::usable(mesh))
         return {};
-    const std::vector<std::uint32_t> first = tangents::weld(mesh);
+    const LargeArray<std::uint32_t> first = tangents::weld(mesh);
     const std::vector<Side> sides = tangents::cornerSides(mesh);
     std::vector<glm::vec3> sums(2 * mesh.positions.size(), glm::vec3(0));
     for (std::size_t c = 0; c < sides.size(); ++c)

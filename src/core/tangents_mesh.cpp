@@ -14,7 +14,7 @@ bool usable(const MeshView& mesh)
     return std::all_of(mesh.indices.begin(), mesh.indices.end(), [count](std::uint32_t i) { return i < count; });
 }
 
-std::vector<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
 {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];

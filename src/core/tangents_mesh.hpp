@@ -7,17 +7,19 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "cotan/tangents.hpp"
+#include "large_array.hpp"
 #include "parallel.hpp"
 
 namespace cotan::tangents {
 
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-inline constexpr std::uint64_t kEmpty = std::numeric_limits<std::uint64_t>::max();
 
 // Whether the arrays fit together and every index is in range.
 bool usable(const MeshView& mesh);
@@ -35,44 +37,62 @@ template<class Key> std::uint32_t hashOf(const Key& key)
     return static_cast<std::uint32_t>(hash);
 }
 
+// Has the memory there fetched meanwhile.
+inline void fetch([[maybe_unused]] const void* memory)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(memory);
+#endif
+}
+
 // For every i < count the smallest j that has the same key. `key(i)` returns an array of
 // std::uint32_t of even length. Linear: hash tables with open addressing, one a thread; equal keys
 // have equal hashes and so meet in one table.
 template<class KeyOf>
-std::vector<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1)
+LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1)
 {
-    std::vector<std::uint32_t> hashes(count);
+    const LargeArray<std::uint32_t> hashes = makeLargeArray<std::uint32_t>(count);
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             hashes[i] = hashOf(key(static_cast<std::uint32_t>(i)));
     });
-    std::vector<std::uint32_t> first(count);
+    const auto partOf = [&](std::uint32_t i) { return std::size_t(std::uint64_t(hashes[i]) * threads >> 32); };
+    std::vector<std::size_t> begins(threads + 1, 0); // of the parts' tables
     runTasks(threads, threads, [&](std::size_t part) {
-        const auto mine = [&](std::uint32_t i) { return std::uint64_t(hashes[i]) * threads >> 32 == part; };
-        std::size_t size = 0;
+        std::size_t keys = 0;
         for (std::uint32_t i = 0; i < count; ++i)
-            size += mine(i);
-        // Hash and index side by side: most that differ are told apart without another look into memory.
-        std::vector<std::uint64_t> table(std::bit_ceil(size * 3 / 2 + 1), kEmpty);
-        const std::size_t mask = table.size() - 1;
+            keys += partOf(i) == part;
+        begins[part + 1] = keys + keys / 2 + 1;
+    });
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    const LargeArray<std::uint32_t> tables = makeLargeArray<std::uint32_t>(begins.back());
+    LargeArray<std::uint32_t> first = makeLargeArray<std::uint32_t>(count);
+    runTasks(threads, threads, [&](std::size_t part) {
+        const std::span<std::uint32_t> table(&tables[begins[part]], begins[part + 1] - begins[part]);
+        std::fill(table.begin(), table.end(), kNone);
+        const auto home = [&](std::uint32_t i) { // spreads the part's hashes over its table
+            return std::size_t(std::uint64_t(std::uint32_t(hashes[i] * threads)) * table.size() >> 32);
+        };
+        constexpr std::uint32_t kAhead = 16; // most slots are not in a cache
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (!mine(i))
+            if (i + kAhead < count)
+                fetch(&table[home(i + kAhead)]);
+            if (partOf(i) != part)
                 continue;
-            const std::uint32_t hash = hashes[i];
-            const auto indexAt = [&](std::size_t s) { return static_cast<std::uint32_t>(table[s]); };
-            std::size_t slot = hash & mask;
-            while (table[slot] != kEmpty && (table[slot] >> 32 != hash || key(indexAt(slot)) != key(i)))
-                slot = (slot + 1) & mask;
-            if (table[slot] == kEmpty)
-                table[slot] = std::uint64_t(hash) << 32 | i;
-            first[i] = indexAt(slot);
+            std::size_t slot = home(i);
+            // Most keys that differ are told apart by their hashes.
+            while (table[slot] != kNone && (hashes[table[slot]] != hashes[i] || key(table[slot]) != key(i)))
+                slot = slot + 1 < table.size() ? slot + 1 : 0;
+            if (table[slot] == kNone)
+                table[slot] = i;
+            first[i] = table[slot];
         }
     });
     return first;
 }
 
 // For every vertex the first vertex that equals it in position, normal and texcoord.
-std::vector<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1);
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1);
 
 // A unit vector perpendicular to n; n may be zero or not finite.
 glm::vec3 anyPerpendicular(glm::vec3 n);

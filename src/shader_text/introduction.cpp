@@ -205,12 +205,14 @@ std::string credits(const Choice& choice)
 std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
+    const bool halfs = choice.frame == Frame::triangle && form == Form::fused; // packHalf2x16
     return fill("// Normal mapping, frame `{}` ({}), for {}.\n"
                 "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}\n",
-                name(choice.frame), form == Form::fused ? "fused" : "total form", title(choice.language),
+                name(choice.frame), form == Form::fused ? "fused" : "total form",
+                halfs && choice.language == Language::glsl ? "GLSL 4.20 and later" : title(choice.language),
                 channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
                 needs(choice), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh

@@ -1,0 +1,68 @@
+// Arrays that are written before they are read, so large that fetching their memory is a good part of the work.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#if __has_include(<sys/mman.h>)
+#include <sys/mman.h>
+#endif
+
+namespace cotan {
+
+inline constexpr std::size_t kLargePage = 2u << 20;   // bytes
+inline constexpr std::size_t kLarge = 4 * kLargePage; // most of what is smaller malloc has at hand
+
+// Wishes for large pages there: the first touch of fresh memory takes a fraction of the time then.
+inline void wishLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
+{
+#ifdef MADV_HUGEPAGE
+    constexpr std::size_t kPage = 4096;
+    const std::size_t skipped = (kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage) % kPage;
+    if (bytes >= kLarge)
+        ::madvise(static_cast<char*>(memory) + skipped, bytes - skipped, MADV_HUGEPAGE);
+#endif
+}
+
+struct FreeLargeArray {
+    std::size_t mapped = 0; // bytes from the system itself; 0: from malloc
+
+    void operator()(void* memory) const
+    {
+#ifdef MADV_HUGEPAGE
+        if (mapped > 0) {
+            ::munmap(memory, mapped);
+            return;
+        }
+#endif
+        std::free(memory);
+    }
+};
+
+template<class T> using LargeArray = std::unique_ptr<T[], FreeLargeArray>;
+
+// Not initialised. From the system itself: malloc keeps what other threads free.
+template<class T> LargeArray<T> makeLargeArray(std::size_t size)
+{
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+    const std::size_t bytes = size * sizeof(T);
+#ifdef MADV_HUGEPAGE
+    if (bytes >= kLarge) {
+        void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (memory == MAP_FAILED)
+            throw std::bad_alloc();
+        wishLargePages(memory, bytes);
+        return LargeArray<T>(static_cast<T*>(memory), {bytes});
+    }
+#endif
+    void* const memory = std::malloc(bytes);
+    if (memory == nullptr && bytes > 0)
+        throw std::bad_alloc();
+    return LargeArray<T>(static_cast<T*>(memory), {});
+}
+
+} // namespace cotan

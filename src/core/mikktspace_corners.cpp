@@ -1,0 +1,66 @@
+#include "mikktspace_corners.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cotan::mikktspace {
+
+CornersAt noCorners(const MeshView& mesh)
+{
+    CornersAt at{makeLargeArray<std::uint32_t>(mesh.positions.size()),
+                 makeLargeArray<std::uint32_t>(mesh.indices.size())};
+    std::fill_n(at.first.get(), mesh.positions.size(), kNone);
+    return at;
+}
+
+void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
+{
+    const std::size_t vertices = t.mesh.positions.size();
+    // Each thread reads all corners and writes those of its own vertices, from the last.
+    runTasks(threads, threads, [&](std::size_t part) {
+        const std::size_t begin = partBegin(vertices, part, threads);
+        const std::size_t size = partBegin(vertices, part + 1, threads) - begin;
+        for (std::size_t f = t.count; f-- > 0;)
+            if (!t.has(f, kDegenerate))
+                for (std::size_t c = 3 * f + 3; c-- > 3 * f;)
+                    if (const std::size_t v = t.vertices[c]; v - begin < size)
+                        at.next[c] = std::exchange(at.first[v], static_cast<std::uint32_t>(c));
+    });
+}
+
+void Ring::make(const Triangles& t, std::span<const std::uint32_t> corners)
+{
+    count = static_cast<std::uint32_t>(corners.size());
+    if (left.size() < count)
+        for (auto* list : {&leaving, &coming, &left, &right})
+            list->resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        leaving[i] = t.vertices[nextCorner(corners[i])];
+        coming[i] = t.vertices[previousCorner(corners[i])];
+        left[i] = right[i] = kNone;
+    }
+    pair();
+}
+
+// In time n log n.
+void Ring::pair()
+{
+    const auto sorted = [this](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
+        order.resize(count);
+        for (std::uint32_t i = 0; i < order.size(); ++i)
+            order[i] = i;
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return std::pair(others[a], a) < std::pair(others[b], b); });
+    };
+    sorted(leaving, byLeaving);
+    sorted(coming, byComing);
+    for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
+        const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
+        if (a == b)
+            join(byLeaving[i], byComing[j]);
+        i += a <= b;
+        j += b <= a;
+    }
+}
+
+} // namespace cotan::mikktspace

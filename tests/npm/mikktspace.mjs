@@ -1,0 +1,27 @@
+// MikkTSpace of three.js and of npm's mikktspace: node mikktspace.mjs NODE_MODULES MESHES OUT
+// MESHES: for each mesh the number of corners as uint32, then by corner positions, normals and texcoords as float32.
+// OUT: for each mesh the tangents of three.js, then those of mikktspace, four float32 a corner; zeros where it gives up.
+import fs from 'node:fs';
+import path from 'node:path';
+import { createRequire } from 'node:module';
+import { pathToFileURL } from 'node:url';
+
+const [modules, file, out] = process.argv.slice(2);
+const base = path.resolve(modules);
+const mikktspace = createRequire(path.join(base, 'x.js'))(path.join(base, 'mikktspace'));
+const three = await import(pathToFileURL(path.join(base, 'three/examples/jsm/libs/mikktspace.module.js')));
+
+const bytes = fs.readFileSync(file);
+const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
+const written = [];
+for (let at = 0; at < buffer.byteLength;) {
+  const corners = new Uint32Array(buffer, at, 1)[0];
+  at += 4;
+  const floats = (n) => { const a = new Float32Array(buffer.slice(at, at + 4 * n)); at += 4 * n; return a; };
+  const mesh = [floats(3 * corners), floats(3 * corners), floats(2 * corners)];
+  written.push(Buffer.from(three.generateTangents(...mesh).buffer));
+  let reference = new Float32Array(4 * corners);
+  try { reference = mikktspace.generateTangents(...mesh); } catch { /* zeros */ }
+  written.push(Buffer.from(reference.slice().buffer));
+}
+fs.writeFileSync(out, Buffer.concat(written));
