@@ -8,8 +8,7 @@
 //   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives
 //
 // Call:
-//   cotan_shader::cotan_vec3 n = cotan_shader::cotan_perturb_normal_from_edges(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2
-//   - uv0, texel);
+//   cotan_shader::cotan_vec3 n = cotan_shader::cotan_perturb_normal_from_edges(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, texel);
 // It returns the perturbed normal, unit, in the space of the arguments.
 //
 // Limits:
@@ -28,13 +27,11 @@
 namespace cotan_shader {
 
 using cotan_real = float; // or double
+using cotan_uint = std::uint32_t;
 
-struct cotan_vec2 {
-    cotan_real x, y;
-};
-struct cotan_vec3 {
-    cotan_real x, y, z;
-};
+struct cotan_vec2 { cotan_real x, y; };
+struct cotan_vec3 { cotan_real x, y, z; };
+struct cotan_vec4 { cotan_real x, y, z, w; };
 
 inline cotan_vec3 operator+(cotan_vec3 a, cotan_vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline cotan_vec3 operator-(cotan_vec3 a, cotan_vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -42,6 +39,8 @@ inline cotan_vec3 operator*(cotan_vec3 a, cotan_vec3 b) { return {a.x * b.x, a.y
 inline cotan_vec3 operator*(cotan_vec3 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k}; }
 inline cotan_vec3 operator/(cotan_vec3 a, cotan_real k) { return {a.x / k, a.y / k, a.z / k}; }
 inline cotan_vec2 operator*(cotan_vec2 a, cotan_real k) { return {a.x * k, a.y * k}; }
+inline cotan_vec2 operator-(cotan_vec2 a, cotan_vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline cotan_vec4 operator*(cotan_vec4 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k, a.w * k}; }
 inline cotan_real dot(cotan_vec2 a, cotan_vec2 b) { return a.x * b.x + a.y * b.y; }
 inline cotan_real dot(cotan_vec3 a, cotan_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline cotan_vec3 cross(cotan_vec3 a, cotan_vec3 b)
@@ -74,7 +73,8 @@ inline double cotan_inverse_power_of_two(double m)
     return m;
 }
 
-struct cotan_frame {
+struct cotan_frame
+{
     cotan_vec3 t; // cotangent: covector along grad u
     cotan_vec3 b; // cobitangent: covector along grad v
     cotan_vec3 n; // normal
@@ -82,16 +82,20 @@ struct cotan_frame {
 
 // The four differences, made safe: either all finite and scaled by powers of two so that the
 // largest position component and the largest uv component lie in [1,2), or all zero.
-struct cotan_differences {
+struct cotan_differences
+{
     cotan_vec3 dpdx;
     cotan_vec3 dpdy;
     cotan_vec2 duvdx;
     cotan_vec2 duvdy;
-    cotan_real p_scale;  // what dpdx and dpdy were multiplied by
+    cotan_real p_scale; // what dpdx and dpdy were multiplied by
     cotan_real uv_scale; // what duvdx and duvdy were multiplied by
 };
 
-inline cotan_real cotan_inversesqrt(cotan_real x) { return cotan_real(1) / sqrt(x); }
+inline cotan_real cotan_inversesqrt(cotan_real x)
+{
+    return cotan_real(1) / sqrt(x);
+}
 
 // A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
 // clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
@@ -121,27 +125,35 @@ inline cotan_vec3 cotan_decode(cotan_vec3 texel)
     return cotan_vec3{m.x, -m.y, m.z};
 }
 
-inline cotan_real cotan_sum_abs(cotan_vec3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+inline cotan_real cotan_sum_abs(cotan_vec3 a)
+{
+    return abs(a.x) + abs(a.y) + abs(a.z);
+}
 
-inline cotan_real cotan_max_abs(cotan_vec3 a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+inline cotan_real cotan_max_abs(cotan_vec3 a)
+{
+    return max(abs(a.x), max(abs(a.y), abs(a.z)));
+}
 
 // Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
 // if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
 // duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
 // unchanged by it, bit for bit.
-inline cotan_differences cotan_scale_differences(cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+inline cotan_differences cotan_scale_differences(cotan_vec3 dpdx, cotan_vec3 dpdy,
+    cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
     // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= cotan_real(1e37);
-    bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= cotan_real(1e37);
+    bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x)
+        + abs(duvdy.y) <= cotan_real(1e37);
     cotan_differences d;
     d.dpdx = p_usable ? dpdx : cotan_vec3{cotan_real(0.0), cotan_real(0.0), cotan_real(0.0)};
     d.dpdy = p_usable ? dpdy : cotan_vec3{cotan_real(0.0), cotan_real(0.0), cotan_real(0.0)};
     d.duvdx = uv_usable ? duvdx : cotan_vec2{cotan_real(0.0), cotan_real(0.0)};
     d.duvdy = uv_usable ? duvdy : cotan_vec2{cotan_real(0.0), cotan_real(0.0)};
     d.p_scale = cotan_power_of_two_scale(max(cotan_max_abs(d.dpdx), cotan_max_abs(d.dpdy)));
-    d.uv_scale =
-        cotan_power_of_two_scale(max(max(abs(d.duvdx.x), abs(d.duvdx.y)), max(abs(d.duvdy.x), abs(d.duvdy.y))));
+    d.uv_scale = cotan_power_of_two_scale(max(max(abs(d.duvdx.x), abs(d.duvdx.y)),
+        max(abs(d.duvdy.x), abs(d.duvdy.y))));
     d.dpdx = d.dpdx * d.p_scale;
     d.dpdy = d.dpdy * d.p_scale;
     d.duvdx = d.duvdx * d.uv_scale;
@@ -193,7 +205,8 @@ inline cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
 // Degenerate input: a triangle without area, constant uv, non-finite input give t = b = 0.
 // Source: [2006] equation of the tangent frame, without the pixel; the projection is ours.
-inline cotan_frame cotan_frame_exact(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
+inline cotan_frame cotan_frame_exact(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy,
+    cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
     cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
     cotan_frame f;
@@ -223,8 +236,8 @@ inline cotan_frame cotan_frame_exact(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 d
 // dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.
 // duvdx, duvdy: uv1 - uv0 and uv2 - uv0.
 // texel: the normal map as sampled.
-inline cotan_vec3 cotan_perturb_normal_from_edges(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx,
-                                                  cotan_vec2 duvdy, cotan_vec3 texel)
+inline cotan_vec3 cotan_perturb_normal_from_edges(cotan_vec3 normal, cotan_vec3 dpdx,
+    cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)
 {
     cotan_vec3 m = cotan_decode(texel);
     cotan_frame frame = cotan_frame_exact(normal, dpdx, dpdy, duvdx, duvdy);
