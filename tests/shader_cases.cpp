@@ -186,12 +186,12 @@ void addLines(std::vector<Case>& all)
         "triangle",
         cotan_apply(
             cotan_frame_of_triangle(n,
-                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                     .u,
-                                 cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                         cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                     .v),
+                                    cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                            cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                        .u,
+                                    cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
+                                                            cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
+                                        .v),
             m)));
     all.push_back(COTAN_LINE_CASE(
         "triangle, fused",
