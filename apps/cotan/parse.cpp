@@ -1,15 +1,9 @@
 #include "parse.hpp"
 
-#include <array>
 #include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <glm/geometric.hpp>
-
-#include "cotan/scene/geometry.hpp"
 
 namespace cotan::app {
 
@@ -20,32 +14,6 @@ template<class Number> bool parseWhole(std::string_view text, Number& value)
 {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size();
-}
-
-Result<Camera> lookingFromTo(const std::string& text)
-{
-    std::array<float, 6> v{};
-    std::size_t start = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        const std::size_t comma = text.find(',', start);
-        const bool last = i + 1 == v.size();
-        if ((comma == std::string::npos) != last
-            || !parseWhole(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
-            || !std::isfinite(v[i]))
-            return usageError(fmt::format(
-                "--camera: expected fit, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '{}'", text));
-        start = comma + 1;
-    }
-    Camera camera;
-    camera.eye = {v[0], v[1], v[2]};
-    camera.target = {v[3], v[4], v[5]};
-    const glm::vec3 forward = camera.target - camera.eye;
-    if (glm::length(forward) == 0)
-        return usageError("--camera: the eye and the target are the same point");
-    const bool vertical = glm::length(glm::cross(forward, camera.up)) < 1e-4f * glm::length(forward);
-    if (vertical)
-        camera.up = {0, 0, -1};
-    return camera;
 }
 
 } // namespace
@@ -66,20 +34,6 @@ Result<Frame> parseFrame(const std::string& text)
     if (const auto frame = frameFromName(text))
         return *frame;
     return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
-}
-
-Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height)
-{
-    if (text == "fit")
-        return fitCamera(bounds(scene), width, height);
-    int number = 0;
-    if (parseWhole(std::string_view(text), number)) {
-        if (number < 0 || std::size_t(number) >= scene.cameras.size())
-            return usageError(fmt::format("--camera: expected a camera of the model, it has {}; found {}",
-                                          scene.cameras.size(), number));
-        return scene.cameras[std::size_t(number)];
-    }
-    return lookingFromTo(text);
 }
 
 std::string frameNames()

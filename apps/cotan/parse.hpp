@@ -18,9 +18,6 @@ Result<std::pair<int, int>> parseSize(const std::string& text);
 // A frame's name; the error lists all of them.
 Result<Frame> parseFrame(const std::string& text);
 
-// "fit", the number of a camera of the file, or "ex,ey,ez,tx,ty,tz" in world units.
-Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height);
-
 // All frame names, separated by commas.
 std::string frameNames();
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/draw/camera_words.hpp"
 #include "cotan/report/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
@@ -22,9 +23,9 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     view.height = size->second;
     const bool ownCamera = options.camera.empty() && options.model.empty() && !scene.cameras.empty();
     const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "fit";
-    auto parsed = parseCamera(camera, scene, view.width, view.height);
+    auto parsed = cameraFromWords(camera, scene, view.width, view.height);
     if (!parsed)
-        return parsed.error();
+        return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
     view.lights = scene.lights.empty() ? defaultLights() : scene.lights;
     view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;

@@ -1,0 +1,17 @@
+// A camera as people write it.
+#pragma once
+
+#include <string>
+
+#include "cotan/result.hpp"
+#include "cotan/scene/scene.hpp"
+
+namespace cotan {
+
+// "fit": the whole scene from the front, a little from above; "0", "1", ...: a camera of the scene; or
+// "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, y up (-z where it looks straight up or down).
+// width, height: of the picture, pixels.
+// Errors: ErrorKind::usage, with what was expected and found.
+Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height);
+
+} // namespace cotan
