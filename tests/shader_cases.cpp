@@ -125,13 +125,23 @@ Case uvSetsCase(bool drawn = false)
 
 // Functions that are called by a line of portable text; the line is also C++, read with f64's names.
 // n, m, m2 are unit.
-#define COTAN_LINE_CASE(label, ...)                                                                                    \
+#define COTAN_LINE_CASE(label, ...) COTAN_EXPANDED_LINE_CASE(label, __VA_ARGS__)
+#define COTAN_EXPANDED_LINE_CASE(label, ...)                                                                           \
     lineCase(label, #__VA_ARGS__,                                                                                      \
              [](glm::dvec3 n, glm::dvec3 m, glm::dvec3 m2, glm::dvec3 dpdx, glm::dvec3 dpdy) -> glm::dvec3 {           \
                  using namespace f64;                                                                                  \
                  (void)n, (void)m, (void)m2, (void)dpdx, (void)dpdy;                                                   \
                  return __VA_ARGS__;                                                                                   \
              })
+
+// A triangle with uv of its own, and the same moved by a matrix that shears and mirrors.
+#define COTAN_EDGES                                                                                                    \
+    dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n
+#define COTAN_TRANSFORMED                                                                                              \
+    cotan_triangle_transformed(cotan_triangle_of_edges(COTAN_EDGES),                                                   \
+                               cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),                          \
+                               cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),                        \
+                               cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
 
 template<class Expected> Case lineCase(const std::string& label, const std::string& line, Expected expected)
 {
@@ -182,56 +192,18 @@ void addLines(std::vector<Case>& all)
                             n, cotan_gradient_of_slope(cotan_frame_smooth(n, dpdx, dpdy), cotan_slope_of_texel(m)))));
     all.push_back(COTAN_LINE_CASE(
         "encode", cotan_encode(cotan_frame_smooth(n, dpdx, dpdy), cotan_apply(cotan_frame_smooth(n, dpdx, dpdy), m))));
-    all.push_back(COTAN_LINE_CASE(
-        "triangle",
-        cotan_apply(
-            cotan_frame_of_triangle(n,
-                                    cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                            cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                        .u,
-                                    cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                            cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                        .v),
-            m)));
-    all.push_back(COTAN_LINE_CASE(
-        "triangle, fused",
-        cotan_perturb_triangle(n,
-                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                   .u,
-                               cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                             cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                   .v,
-                               m)));
-    all.push_back(
-        COTAN_LINE_CASE("triangle, scaled",
-                        cotan_perturb_triangle_scaled(
-                            n,
-                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                .u,
-                            cotan_triangle_of_sound_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                          cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n)
-                                .v,
-                            m)));
-    all.push_back(COTAN_LINE_CASE(
-        "triangle, transformed",
-        cotan_perturb_triangle(n,
-                               cotan_triangle_transformed(
-                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
-                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
-                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
-                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
-                                   .u,
-                               cotan_triangle_transformed(
-                                   cotan_triangle_of_edges(dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)),
-                                                           cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n),
-                                   cotan_vec3(cotan_real(2.0), cotan_real(0.5), cotan_real(0.0)),
-                                   cotan_vec3(cotan_real(0.0), cotan_real(-1.0), cotan_real(0.25)),
-                                   cotan_vec3(cotan_real(0.125), cotan_real(0.0), cotan_real(1.0)), cotan_real(-1.0))
-                                   .v,
-                               m)));
+    all.push_back(COTAN_LINE_CASE("triangle",
+                                  cotan_apply(cotan_frame_of_triangle(n, cotan_triangle_of_edges(COTAN_EDGES).u,
+                                                                      cotan_triangle_of_edges(COTAN_EDGES).v),
+                                              m)));
+    all.push_back(COTAN_LINE_CASE("triangle, fused",
+                                  cotan_perturb_triangle(n, cotan_triangle_of_sound_edges(COTAN_EDGES).u,
+                                                         cotan_triangle_of_sound_edges(COTAN_EDGES).v, m)));
+    all.push_back(COTAN_LINE_CASE("triangle, scaled",
+                                  cotan_perturb_triangle_scaled(n, cotan_triangle_of_sound_edges(COTAN_EDGES).u,
+                                                                cotan_triangle_of_sound_edges(COTAN_EDGES).v, m)));
+    all.push_back(COTAN_LINE_CASE("triangle, transformed",
+                                  cotan_perturb_triangle(n, COTAN_TRANSFORMED.u, COTAN_TRANSFORMED.v, m)));
     all.push_back(
         COTAN_LINE_CASE("smooth, fused", cotan_perturb_smooth(n, m2 * cotan_real(0.5), cotan_vec3(m.z, m.x, m.y), m)));
     // Times 1, which the compiler cannot know: Mesa 22.3 folds the packing of constants into wrong words.

@@ -1,29 +1,18 @@
 #include "parse.hpp"
 
-#include <charconv>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cotan/parse_number.hpp"
+
 namespace cotan::app {
-
-namespace {
-
-// Reads a number that fills the whole text.
-template<class Number> bool parseWhole(std::string_view text, Number& value)
-{
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-}
-
-} // namespace
 
 Result<std::pair<int, int>> parseSize(const std::string& text)
 {
     const std::size_t x = text.find('x');
     int width = 0, height = 0;
-    if (x == std::string::npos || !parseWhole(std::string_view(text).substr(0, x), width)
-        || !parseWhole(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
+    if (x == std::string::npos || !parseNumber(std::string_view(text).substr(0, x), width)
+        || !parseNumber(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
         || height > 16384)
         return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
     return std::pair(width, height);

@@ -97,7 +97,7 @@ COTAN_FUNCTION cotan_covectors cotan_covectors_of_basis(cotan_vec3 n, cotan_vec4
     return c;
 }
 
-// x in [-1, 1] as a whole number from 0 to 2 * half, `half` being zero. Rounded to the nearest.
+// x in [-1, 1] as a whole number from 0 to 2 * zero; `zero` stands for 0. Rounded to the nearest.
 COTAN_FUNCTION cotan_uint cotan_quantize(cotan_real x, cotan_real zero)
 {
     x = min(max(x, cotan_real(-1.0)), cotan_real(1.0));

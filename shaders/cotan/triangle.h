@@ -22,6 +22,23 @@ struct cotan_triangle {
     cotan_vec3 v;
 };
 
+// u and v scaled by one factor, so that the longer has length 1, and by `sign`: +1, -1, or 0 for U = V = 0.
+// u, v: finite. Both zero, or shorter than 1e-6 of the clamp range of cotan_power_of_two_scale, gives 0.
+COTAN_FUNCTION cotan_triangle cotan_triangle_unit(cotan_vec3 u, cotan_vec3 v, cotan_real sign)
+{
+    cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(u), cotan_max_abs(v)));
+    u = u * rescale;
+    v = v * rescale;
+    cotan_real longest2 = max(dot(u, u), dot(v, v));
+    bool usable = longest2 > cotan_real(1e-12);
+    cotan_real scale = cotan_inversesqrt(usable ? longest2 : cotan_real(1.0));
+    scale = usable ? scale * sign : cotan_real(0.0);
+    cotan_triangle result;
+    result.u = u * scale;
+    result.v = v * scale;
+    return result;
+}
+
 // U and V from edges.
 //   dp1, dp2      p1 - p0 and p2 - p0, in the space of the frame
 //   duv1, duv2    uv1 - uv0 and uv2 - uv0
@@ -37,19 +54,9 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_of_edges(
     cotan_differences d = cotan_scale_differences(dp1, dp2, duv1, duv2);
     cotan_vec3 u = d.dpdx * d.duvdy.x - d.dpdy * d.duvdx.x;
     cotan_vec3 v = d.dpdx * d.duvdy.y - d.dpdy * d.duvdx.y;
-    cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(u), cotan_max_abs(v)));
-    u = u * rescale;
-    v = v * rescale;
-    cotan_real longest2 = max(dot(u, u), dot(v, v));
     cotan_vec3 face = cross(d.dpdx, d.dpdy);
-    bool usable = longest2 > cotan_real(1e-12) && dot(face, face) > cotan_real(0.0);
-    cotan_real scale = cotan_inversesqrt(usable ? longest2 : cotan_real(1.0));
-    scale = usable ? scale * cotan_sign(dot(face, cotan_normalize_or(normals, face)))
-                   : cotan_real(0.0);
-    cotan_triangle result;
-    result.u = u * scale;
-    result.v = v * scale;
-    return result;
+    cotan_real side = cotan_sign(dot(face, cotan_normalize_or(normals, face)));
+    return cotan_triangle_unit(u, v, dot(face, face) > cotan_real(0.0) ? side : cotan_real(0.0));
 }
 
 // The same for sound input, for stages that run for every vertex of every picture. Equal to the function
@@ -99,19 +106,7 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_transformed(
         cotan_vec3(dot(row0, object.v), dot(row1, object.v), dot(row2, object.v));
     bool finite = cotan_sum_abs(u) + cotan_sum_abs(v) <= COTAN_HUGE;
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
-    u = finite ? u : zero;
-    v = finite ? v : zero;
-    cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(u), cotan_max_abs(v)));
-    u = u * rescale;
-    v = v * rescale;
-    cotan_real longest2 = max(dot(u, u), dot(v, v));
-    cotan_real scale = longest2 > cotan_real(1e-12)
-        ? cotan_inversesqrt(max(longest2, cotan_real(1e-12))) * side
-        : cotan_real(0.0);
-    cotan_triangle result;
-    result.u = u * scale;
-    result.v = v * scale;
-    return result;
+    return cotan_triangle_unit(finite ? u : zero, finite ? v : zero, side);
 }
 
 // `triangle`: the frame of U and V at a pixel. The same directions as `cotangent`; the scale is that of

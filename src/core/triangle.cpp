@@ -49,13 +49,9 @@ Cotangents unitCotangents(const Cotangents& cotangents)
 {
     Cotangents out = cotangents;
     for (std::size_t i = 0; i < out.u.size() && i < out.v.size(); ++i) {
-        const float largest = std::max(f32::cotan_max_abs(out.u[i]), f32::cotan_max_abs(out.v[i]));
-        const float scale = f32::cotan_power_of_two_scale(largest);
-        const glm::vec3 u = out.u[i] * scale, v = out.v[i] * scale;
-        const float longest2 = std::max(glm::dot(u, u), glm::dot(v, v));
-        const float unit = longest2 > 1e-12f ? 1 / std::sqrt(longest2) : 0.0f;
-        out.u[i] = u * unit;
-        out.v[i] = v * unit;
+        const f32::cotan_triangle unit = f32::cotan_triangle_unit(out.u[i], out.v[i], 1.0f);
+        out.u[i] = unit.u;
+        out.v[i] = unit.v;
     }
     return out;
 }

@@ -1,24 +1,17 @@
 #include "cotan/draw/camera_words.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include <glm/geometric.hpp>
 
+#include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan {
 
 namespace {
-
-// Reads a number that fills the whole text.
-template<class Number> bool parseWhole(std::string_view text, Number& value)
-{
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-}
 
 Result<Camera> lookingFromTo(const std::string& text)
 {
@@ -28,7 +21,7 @@ Result<Camera> lookingFromTo(const std::string& text)
         const std::size_t comma = text.find(',', start);
         const bool last = i + 1 == v.size();
         if ((comma == std::string::npos) != last
-            || !parseWhole(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
+            || !parseNumber(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
             || !std::isfinite(v[i]))
             return usageError("expected fit, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '" + text
                               + "'");
@@ -53,7 +46,7 @@ Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int 
     if (text == "fit")
         return fitCamera(bounds(scene), width, height);
     int number = 0;
-    if (!parseWhole(std::string_view(text), number))
+    if (!parseNumber(std::string_view(text), number))
         return lookingFromTo(text);
     if (number < 0 || std::size_t(number) >= scene.cameras.size())
         return usageError("expected a camera of the model, it has " + std::to_string(scene.cameras.size()) + "; found "

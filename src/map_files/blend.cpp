@@ -23,11 +23,9 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
     const auto mask = o.mask.empty() ? Result<Image>(Image{}) : readImage(o.mask, files.limits);
     if (!mask)
         return mask.error();
-    const auto bits = bitsFor(o.bits, in.type, out);
+    const auto bits = bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
-    if (Status fits = checkSigned(o.to, *bits, out); !fits)
-        return fits.error();
     const BlendSettings settings{.base = o.base,
                                  .detail = o.detail,
                                  .to = o.to,

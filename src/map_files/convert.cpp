@@ -76,11 +76,9 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     if (!reader)
         return reader.error();
     RowReader& in = **reader;
-    const auto bits = bitsFor(o.bits, in.type, out);
+    const auto bits = bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
-    if (Status fits = checkSigned(o.to, *bits, out); !fits)
-        return fits.error();
     const RecodeSettings settings{.from = o.from,
                                   .to = o.to,
                                   .type = bits->type,

@@ -65,11 +65,9 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
     if (!reader)
         return reader.error();
     RowReader& in = **reader;
-    const auto bits = bitsFor(o.bits, in.type, out);
+    const auto bits = bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
-    if (Status fits = checkSigned(o.to, *bits, out); !fits)
-        return fits.error();
     // What repeats needs its last row first.
     const auto lastRow = o.wrap == Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{});
     if (!lastRow)

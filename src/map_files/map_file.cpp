@@ -53,6 +53,16 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
     return Done{};
 }
 
+Result<Bits> bitsFor(const std::string& wanted, PixelType input, const Convention& to,
+                     const std::filesystem::path& file)
+{
+    const auto bits = bitsFor(wanted, input, file);
+    if (!bits)
+        return bits;
+    const Status fits = checkSigned(to, *bits, file);
+    return fits ? bits : fits.error();
+}
+
 Result<Image> readMap(const std::filesystem::path& file, const Convention& convention, const LoadLimits& limits)
 {
     auto image = readImage(file, limits);

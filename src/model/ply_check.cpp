@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "cotan/parse_number.hpp"
+
 namespace cotan {
 
 namespace {
@@ -98,8 +100,7 @@ Problem checkElement(Header& header, std::string_view name, std::string_view wor
     if (Problem problem = checkElementName(header, name))
         return problem;
     std::uint64_t count = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (error != std::errc{} || end != word.data() + word.size())
+    if (!parseNumber(word, count))
         return "expected a count at the end";
     if (count > fileBytes || count > limits.vertices)
         return fmt::format("it counts {} elements, more than the file can hold or the limit allows", count);

@@ -24,9 +24,8 @@ std::string fromVertices(Frame frame, Form form)
             + (form == Form::fused
                    ? "// At the vertices the normal has length 1, and so has the longer of the two covectors.\n"
                    : "")
-        : std::string()
-            + "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
-              "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
+        : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
+          "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
     const std::string head = fill("// The perturbed normal, unit.\n"
                                   "// normal: interpolated.\n{}"
                                   "// texel: the normal map as sampled.\n"
@@ -65,31 +64,6 @@ const char* const kTrianglePixel =
     "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
     "    return cotan_perturb_triangle(normal, u, v, m);\n}\n";
 
-// Both in one stage, where the corners are at hand and nothing has to be packed.
-const char* const kTriangleAtOnce =
-    "// The perturbed normal, unit, where one stage has it all (compute, ray tracing).\n"
-    "// normal: interpolated at the shaded point.\n"
-    "// dpdx, dpdy: the triangle's edges p1 - p0 and p2 - p0, in normal's space.\n"
-    "// duvdx, duvdy: uv1 - uv0 and uv2 - uv0.\n"
-    "// texel: the normal map as sampled.\n"
-    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_from_edges(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
-    "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{\n"
-    "    cotan_vec3 m = cotan_decode(texel);\n"
-    "    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
-    "    return cotan_perturb_triangle(normal, vectors.u, vectors.v, m);\n}\n";
-
-std::string ofTriangle(Stage stage)
-{
-    switch (stage) {
-    case Stage::fragment: return kTrianglePixel;
-    case Stage::vertex:
-    case Stage::mesh: return kTriangleMaker;
-    case Stage::compute: return kTriangleAtOnce;
-    case Stage::all: break;
-    }
-    return std::string(kTriangleMaker) + "\n" + kTrianglePixel + "\n" + kTriangleAtOnce;
-}
-
 std::string fromDifferences(Frame frame, Form form)
 {
     const bool edges = info(frame).source == FrameSource::triangle;
@@ -106,12 +80,28 @@ std::string fromDifferences(Frame frame, Form form)
                                   "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
                                   "    cotan_vec3 m = cotan_decode(texel);\n",
                                   what, entryOf(frame));
+    if (form == Form::fused && edges)
+        return head
+            + "    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
+              "    return cotan_perturb_triangle(normal, vectors.u, vectors.v, m);\n}\n";
     if (form == Form::fused)
         return fill("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
                     functionWord(frame));
     return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
                 "    return cotan_apply(frame, m);\n}}\n",
                 head, functionWord(frame), normalFor(frame));
+}
+
+std::string ofTriangle(Stage stage)
+{
+    switch (stage) {
+    case Stage::fragment: return kTrianglePixel;
+    case Stage::vertex:
+    case Stage::mesh: return kTriangleMaker;
+    case Stage::compute: return fromDifferences(Frame::triangle, Form::fused);
+    case Stage::all: break;
+    }
+    return std::string(kTriangleMaker) + "\n" + kTrianglePixel + "\n" + fromDifferences(Frame::triangle, Form::fused);
 }
 
 // What follows for every uv set, {0} being its number.

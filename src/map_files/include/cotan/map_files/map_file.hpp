@@ -32,6 +32,9 @@ struct Bits {
 // The type to write: "auto", "8", "16", "half" or "float", checked against what the file's format holds. auto: the
 // input's, as far as the format holds it. Errors (ErrorKind::usage): "options.bits: ...".
 Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::filesystem::path& file);
+// The same for a map in convention `to`, with checkSigned.
+Result<Bits> bitsFor(const std::string& wanted, PixelType input, const Convention& to,
+                     const std::filesystem::path& file);
 
 // "8 bit", "16 bit", "half" or "float".
 std::string bitsName(PixelType type);
