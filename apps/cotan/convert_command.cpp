@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ struct ConvertCommandOptions : CommonOptions {
     std::string from = "mikktspace", to;
     std::string tangents = "stored";
     bool keepTangents = false;
+    std::string provoking; // empty: vertices stay
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
     std::filesystem::path verify;
@@ -43,14 +45,32 @@ Result<Frame> frameFor(const char* option, const std::string& text)
     return *frame;
 }
 
-Result<FramePair> checkUsage(const ConvertCommandOptions& o)
+// Without --to-frame the maps stay, and nothing may be asked of their conversion.
+Status checkVerticesOnly(const ConvertCommandOptions& o)
+{
+    if (o.provoking.empty())
+        return usageError("convert: expected --to-frame FRAME or --provoking first or last; found neither");
+    const ConvertCommandOptions unset;
+    for (const auto& [option, given] : {std::pair{"--from-frame", o.from != unset.from},
+                                        {"--tangents", o.tangents != unset.tangents},
+                                        {"--keep-tangents", o.keepTangents},
+                                        {"--bits", o.bits != unset.bits},
+                                        {"--verify", !o.verify.empty()}})
+        if (given)
+            return usageError(fmt::format("{}: is about converting maps; expected --to-frame FRAME with it", option));
+    return Done{};
+}
+
+// The frames of the maps; none where the maps stay.
+Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
 {
     if (o.to.empty())
-        return usageError("convert: expected --to-frame FRAME; found none");
+        if (Status alone = checkVerticesOnly(o); !alone)
+            return alone.error();
     const auto from = frameFor("--from-frame", o.from);
     if (!from)
         return from.error();
-    const auto to = frameFor("--to-frame", o.to);
+    const auto to = frameFor("--to-frame", o.to.empty() ? o.from : o.to);
     if (!to)
         return to.error();
     if (o.output.empty())
@@ -67,8 +87,11 @@ Result<FramePair> checkUsage(const ConvertCommandOptions& o)
     std::error_code ignored;
     if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
-    return FramePair{*from, *to, o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
-                     TangentOrigin::generated};
+    if (o.to.empty())
+        return std::optional<FramePair>();
+    return std::optional(FramePair{*from, *to,
+                                   o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
+                                   TangentOrigin::generated});
 }
 
 // Converts, and says what became of each map when it is done.
@@ -109,6 +132,34 @@ Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, 
     return Done{};
 }
 
+// Converts the maps, and puts into the report what became of them.
+Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, Json& report,
+                   std::vector<std::string>& notes)
+{
+    const auto done = convert(o, frames, document);
+    if (!done)
+        return done.error();
+    for (const ConvertedMap& map : done->maps)
+        report["maps"].push_back(toJson(map));
+    if (const std::string line = tangentsLine(*done, o.to); !line.empty())
+        say(o, line);
+    report["tangents"] = tangentsJson(*done);
+    notes = done->notes;
+    return Done{};
+}
+
+// Numbers vertices anew, and says how many more there are.
+Status provoke(const ConvertCommandOptions& o, GltfDocument& document, Json& report)
+{
+    const auto done =
+        setGltfProvoking(document, o.provoking == "first" ? ProvokingVertex::first : ProvokingVertex::last);
+    if (!done)
+        return done.error();
+    report["provoking"] = provokingJson(*done, o.provoking);
+    say(o, provokingLine(*done, o.provoking));
+    return Done{};
+}
+
 Status run(const ConvertCommandOptions& o)
 {
     const auto frames = checkUsage(o);
@@ -123,33 +174,31 @@ Status run(const ConvertCommandOptions& o)
     if (!opened)
         return opened.error();
     GltfDocument& document = opened->document;
-    const auto done = convert(o, *frames, document);
-    if (!done)
-        return done.error();
-    Json report = {{"command", "convert"},
-                   {"model", o.model},
-                   {"from", o.from},
-                   {"to", o.to},
-                   {"tangents_read", o.tangents},
-                   {"output", o.output.string()},
-                   {"maps", Json::array()}};
-    for (const ConvertedMap& map : done->maps)
-        report["maps"].push_back(toJson(map));
-    if (const std::string line = tangentsLine(*done, o.to); !line.empty())
-        say(o, line);
-    report["tangents"] = tangentsJson(*done);
+    Json report = {{"command", "convert"}, {"model", o.model}};
+    if (*frames)
+        report.update({{"from", o.from}, {"to", o.to}, {"tangents_read", o.tangents}});
+    report["output"] = o.output.string();
+    report["maps"] = Json::array();
+    std::vector<std::string> notes;
+    if (*frames)
+        if (Status converted = convertMaps(o, **frames, document, report, notes); !converted)
+            return converted;
+    if (!o.provoking.empty())
+        if (Status provoked = provoke(o, document, report); !provoked)
+            return provoked;
     if (!o.verify.empty()) // before anything is written
         if (Status made = makeFolder(o.verify); !made)
             return made;
     if (Status written = writeModel(o, document, report); !written)
         return written;
-    for (const std::string& note : done->notes)
+    for (const std::string& note : notes)
         warn(o, note);
-    report["notes"] = done->notes;
+    report["notes"] = notes;
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
         auto verified = verifyConversion(
-            {o.model, o.output, frames->from, frames->to, frames->fromTangents, o.verify, o.device, o.memory}, o);
+            {o.model, o.output, (*frames)->from, (*frames)->to, (*frames)->fromTangents, o.verify, o.device, o.memory},
+            o);
         if (!verified)
             return verified.error();
         report["verify"] = std::move(*verified);
@@ -175,6 +224,13 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
+    a.option("--provoking", o.provoking,
+             "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "
+             "WebGL), for the frame triangle: vertex k then provokes triangle k. Copies vertices; without --to-frame "
+             "nothing else changes")
+        .from({"first", "last"})
+        .in("CORNER")
+        .withoutDefault();
     addMemoryOption(a, o.memory);
     a.option("--verify", o.verify,
              "draw both models from five sides, compare normals, and write the pictures into this folder")
@@ -189,10 +245,11 @@ void addConvertCommand(Arguments& tool)
     addCommand<ConvertCommandOptions>(
         tool,
         {"convert",
-         "make a glTF model's normal maps for another frame, and drop the tangents",
+         "make a glTF model's normal maps for another frame, and drop the tangents; or its vertices for the frame triangle",
          "the converted model, .glb or .gltf",
          {"cotan convert model.glb --to-frame smooth -o out.glb",
-          "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check"}},
+          "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",
+          "cotan convert model.glb --provoking first -o out.glb"}},
         declare, run);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,6 +68,22 @@ std::size_t addAccessor(GltfDocument& document, Json accessor);
 
 // Refuses geometry that cannot be read without a decoder. field: meshes[i].primitives[j].
 void refuseCompressed(const Json& primitive, const std::string& field);
+
+// ---- edit_vertices.cpp ------------------------------------------------------------------------
+
+// Accessors that were made for new vertices: by the index of the old one that of the new one.
+using Renewed = std::map<std::size_t, std::size_t>;
+
+// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit.
+// sources: per new vertex the old one. renewed: those that primitives share are made once.
+void renewVertices(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> sources, Renewed& renewed);
+
+// Notes the extensions of a primitive whose vertices were copied that might hold something for each vertex.
+void noteCopied(GltfDocument& document, const Json& primitive, const std::string& field);
+
+// Makes the primitive a list of triangles; all indices are below vertexCount.
+void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> indices,
+                  std::size_t vertexCount);
 
 // ---- edit_repack.cpp --------------------------------------------------------------------------
 

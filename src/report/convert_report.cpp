@@ -108,4 +108,53 @@ Json tangentsJson(const ConvertModelReport& report)
             {"bytes", d.bytes}};
 }
 
+namespace {
+
+GltfProvoked sumOf(const std::vector<GltfProvoked>& primitives)
+{
+    GltfProvoked sum;
+    for (const GltfProvoked& p : primitives) {
+        sum.triangles += p.triangles;
+        sum.verticesBefore += p.verticesBefore;
+        sum.verticesAfter += p.verticesAfter;
+    }
+    return sum;
+}
+
+double growthOf(const GltfProvoked& p)
+{
+    return double(p.verticesAfter) / double(std::max<std::size_t>(p.verticesBefore, 1));
+}
+
+Json rowOf(const GltfProvoked& p)
+{
+    return {{"triangles", p.triangles},
+            {"vertices_before", p.verticesBefore},
+            {"vertices_after", p.verticesAfter},
+            {"growth", growthOf(p)}};
+}
+
+} // namespace
+
+std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
+{
+    const GltfProvoked sum = sumOf(primitives);
+    return fmt::format("{} of {}: {} vertices, before {}: {:.2f} times as many; vertex k provokes triangle k as its {}",
+                       counted(sum.triangles, "triangle"), counted(primitives.size(), "primitive"), sum.verticesAfter,
+                       sum.verticesBefore, growthOf(sum), provoking);
+}
+
+Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
+{
+    Json json = {{"vertex", provoking}};
+    json.update(rowOf(sumOf(primitives)));
+    json["primitives"] = Json::array();
+    for (const GltfProvoked& p : primitives) {
+        Json row = {{"mesh", p.mesh}, {"primitive", p.primitive}};
+        row.update(rowOf(p));
+        json["primitives"].push_back(std::move(row));
+    }
+    return json;
+}
+
 } // namespace cotan

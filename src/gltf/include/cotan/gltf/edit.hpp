@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/provoking.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
 
@@ -91,6 +92,25 @@ Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const Gltf
 
 // Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
 Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
+
+// ---- provoking vertices ---------------------------------------------------------------------
+
+// What became of one primitive. Vertices: before, those that its triangles used.
+struct GltfProvoked {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;
+    std::size_t triangles = 0, verticesBefore = 0, verticesAfter = 0;
+};
+
+// Numbers every primitive anew, so that its vertex k < triangles provokes its triangle k (see provokingMesh). Its
+// indices then say which vertices those of triangle k are, so that a vertex shader that reads them, and the
+// positions, uv and normals, makes U and V of the frame `triangle`. Vertices are copied with all attributes and
+// morph targets, to the bit. Triangles stay in their order; strips, fans and primitives without indices become
+// lists. Vertices that no triangle uses are left out, and primitives that shared vertices get their own. Points and
+// lines stay as they are. Returns what has triangles; primitives that draw the same arrays go on sharing them, and
+// only the first is returned.
+// Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression). On error the document is unchanged.
+Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking);
 
 // ---- images ---------------------------------------------------------------------------------
 

@@ -17,4 +17,8 @@ Json toJson(const ConvertedMap& map);
 std::string tangentsLine(const ConvertModelReport& report, const std::string& to);
 Json tangentsJson(const ConvertModelReport& report);
 
+// How many vertices the triangles used before and use now; provoking: "first" or "last".
+std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
+Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
+
 } // namespace cotan
