@@ -1,0 +1,362 @@
+// A vertex of its own for every triangle of a glTF model: what is drawn stays the same to the bit.
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "cotan/provoking.hpp"
+#include "gltf_edit_maker.hpp"
+
+namespace cotan::test {
+namespace {
+
+// The bytes of each element of an accessor, sparse values put in; zeros where it has no view.
+std::vector<std::string> bytesOf(const ReadBack& model, int accessor)
+{
+    const json& a = model.root["accessors"][accessor];
+    static const std::map<std::string, std::size_t> widths = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+    static const std::map<int, std::size_t> sizes = {{kByte, 1},   {kUByte, 1}, {kShort, 2},
+                                                     {kUShort, 2}, {kUInt, 4},  {kFloat, 4}};
+    const std::size_t size = widths.at(a["type"]) * sizes.at(a["componentType"]);
+    std::vector<std::string> out(a["count"], std::string(size, '\0'));
+    if (a.contains("bufferView"))
+        out = elements(model, accessor, size);
+    if (!a.contains("sparse"))
+        return out;
+    const json& sparse = a["sparse"];
+    const auto at = [&](const char* part, std::size_t i, std::size_t step) {
+        const json& view = model.root["bufferViews"][sparse[part]["bufferView"].get<int>()];
+        return model.buffer.substr(
+            view.value("byteOffset", 0u) + sparse[part].value("byteOffset", 0u) + i * step, step);
+    };
+    for (std::size_t i = 0; i < sparse["count"]; ++i) {
+        const std::string index = at("indices", i, sizes.at(sparse["indices"]["componentType"]));
+        std::uint32_t place = 0;
+        std::memcpy(&place, index.data(), index.size());
+        out.at(place) = at("values", i, size);
+    }
+    return out;
+}
+
+// The corners of a primitive's triangles, by a second implementation of strips and fans.
+std::vector<std::uint32_t> cornersOf(const ReadBack& model, const json& primitive)
+{
+    std::vector<std::uint32_t> order;
+    if (primitive.contains("indices")) {
+        for (const std::string& bytes : bytesOf(model, primitive["indices"])) {
+            order.push_back(0);
+            std::memcpy(&order.back(), bytes.data(), bytes.size());
+        }
+    } else {
+        const std::size_t count = model.root["accessors"][primitive["attributes"]["POSITION"].get<int>()]["count"];
+        for (std::uint32_t i = 0; i < count; ++i)
+            order.push_back(i);
+    }
+    const int mode = primitive.value("mode", 4);
+    if (mode == 5)
+        return trianglesOfStrip(order);
+    if (mode == 6)
+        return trianglesOfFan(order);
+    order.resize(order.size() / 3 * 3);
+    return order;
+}
+
+// Per triangle what its three corners hold of an accessor, the provoking one (of `after`) turned to the front or not.
+using Corners = std::vector<std::array<std::string, 3>>;
+
+Corners heldBy(const ReadBack& model, const json& primitive, int accessor)
+{
+    const std::vector<std::string> held = bytesOf(model, accessor);
+    const std::vector<std::uint32_t> corners = cornersOf(model, primitive);
+    Corners out;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+        out.push_back({held.at(corners[i]), held.at(corners[i + 1]), held.at(corners[i + 2])});
+    return out;
+}
+
+// The same turn for all attributes: found by what all of them hold together.
+void add(Corners& all, const Corners& more)
+{
+    all.resize(more.size());
+    for (std::size_t f = 0; f < more.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            all[f][k] += more[f][k];
+}
+
+Corners everything(const ReadBack& model, const json& primitive)
+{
+    Corners all;
+    for (const auto& item : primitive["attributes"].items())
+        add(all, heldBy(model, primitive, item.value()));
+    for (const json& target : primitive.value("targets", json::array()))
+        for (const auto& item : target.items())
+            add(all, heldBy(model, primitive, item.value()));
+    return all;
+}
+
+void expectSameDrawn(const ReadBack& before, const ReadBack& after, const json& old, const json& made, bool last)
+{
+    const Corners expected = everything(before, old), found = everything(after, made);
+    ASSERT_EQ(found.size(), expected.size());
+    const std::vector<std::uint32_t> corners = cornersOf(after, made);
+    for (std::size_t f = 0; f < found.size(); ++f) {
+        EXPECT_EQ(corners[3 * f + (last ? 2 : 0)], f) << "triangle " << f << " owns its vertex";
+        const auto& [a, b, c] = expected[f];
+        const bool same = found[f] == expected[f] || found[f] == std::array{b, c, a} || found[f] == std::array{c, a, b};
+        EXPECT_TRUE(same) << "triangle " << f;
+    }
+    EXPECT_EQ(made.value("mode", 4), 4);
+}
+
+// min and max of positions are exact, as glTF asks.
+void expectBounds(const ReadBack& model, const json& primitive)
+{
+    const int accessor = primitive["attributes"]["POSITION"];
+    const json& a = model.root["accessors"][accessor];
+    if (!a.contains("min"))
+        return;
+    const std::vector<float> values = floatsOf(model, accessor, 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        float low = values[c], high = values[c];
+        for (std::size_t i = c; i < values.size(); i += 3) {
+            low = std::min(low, values[i]);
+            high = std::max(high, values[i]);
+        }
+        EXPECT_EQ(a["min"][c].get<float>(), low);
+        EXPECT_EQ(a["max"][c].get<float>(), high);
+    }
+}
+
+struct Provoked {
+    std::vector<GltfProvoked> rows;
+    ReadBack out;
+};
+
+// Both ways round: written, read back, compared with the file as it was.
+Provoked expectProvoked(const Gltf& g, ProvokingVertex provoking = ProvokingVertex::first)
+{
+    Provoked provoked;
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    EXPECT_TRUE(document) << document.error().message;
+    if (!document)
+        return provoked;
+    const auto plain = writeGltf(*document, folder.path / "plain.glb");
+    EXPECT_TRUE(plain) << plain.error().message;
+    auto rows = setGltfProvoking(*document, provoking);
+    EXPECT_TRUE(rows) << rows.error().message;
+    const auto written = writeGltf(*document, folder.path / "out.glb");
+    EXPECT_TRUE(written) << written.error().message;
+    const auto loaded = loadGltf(folder.path / "out.glb");
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    const ReadBack before = readBack(folder.path / "plain.glb");
+    provoked.out = readBack(folder.path / "out.glb");
+    provoked.rows = *rows;
+    for (const GltfProvoked& row : *rows) {
+        const auto primitiveOf = [&](const ReadBack& m) -> const json& {
+            return m.root["meshes"][row.mesh]["primitives"][row.primitive];
+        };
+        const json& made = primitiveOf(provoked.out);
+        expectSameDrawn(before, provoked.out, primitiveOf(before), made, provoking == ProvokingVertex::last);
+        expectBounds(provoked.out, made);
+        EXPECT_EQ(cornersOf(provoked.out, made).size(), 3 * row.triangles);
+        EXPECT_EQ(provoked.out.root["accessors"][made["attributes"]["POSITION"].get<int>()]["count"],
+                  row.verticesAfter);
+    }
+    return provoked;
+}
+
+json indexed(Gltf& g, const std::vector<std::uint32_t>& order, int type)
+{
+    if (type == kUByte)
+        return g.accessor(std::vector<std::uint8_t>(order.begin(), order.end()), "SCALAR", type);
+    if (type == kUShort)
+        return g.accessor(std::vector<std::uint16_t>(order.begin(), order.end()), "SCALAR", type);
+    return g.accessor(order, "SCALAR", type);
+}
+
+TEST(GltfProvoking, aSquareNeedsNoMoreVerticesAndStaysWhatItWas)
+{
+    for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
+        const Provoked p = expectProvoked(square(), provoking);
+        ASSERT_EQ(p.rows.size(), 1u);
+        EXPECT_EQ(p.rows[0].triangles, 2u);
+        EXPECT_EQ(p.rows[0].verticesBefore, 4u);
+        EXPECT_EQ(p.rows[0].verticesAfter, 4u);
+        EXPECT_EQ(p.out.root["accessors"].size(), 4u) << "the old ones are gone";
+    }
+}
+
+TEST(GltfProvoking, indicesOfAllWidthsStripsFansAndNoneComeOutAsLists)
+{
+    const std::vector<std::uint32_t> strip = {0, 1, 3, 2}, fan = {0, 1, 2, 3}, list = {0, 1, 2, 0, 2, 3};
+    for (const auto& [mode, order] : {std::pair{4, list}, {5, strip}, {6, fan}})
+        for (const int type : {kUByte, kUShort, kUInt})
+            for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
+                SCOPED_TRACE(std::to_string(mode) + ", " + std::to_string(type));
+                Gltf g = square();
+                primitive(g)["mode"] = mode;
+                primitive(g)["indices"] = indexed(g, order, type);
+                EXPECT_EQ(expectProvoked(g, provoking).rows.at(0).triangles, 2u);
+            }
+    for (const auto& [mode, triangles] : {std::pair{4, 1u}, {5, 2u}, {6, 2u}}) { // a list of four ends early
+        Gltf g = square();
+        primitive(g)["mode"] = mode;
+        primitive(g).erase("indices");
+        EXPECT_EQ(expectProvoked(g).rows.at(0).triangles, triangles) << mode;
+    }
+}
+
+TEST(GltfProvoking, degenerateTrianglesOfListsStayAndThoseThatJoinStripsGo)
+{
+    Gltf g = square();
+    primitive(g)["indices"] = indexed(g, {0, 1, 2, 2, 2, 0, 1, 1, 1, 0, 2, 3, 0, 1, 2}, kUShort);
+    EXPECT_EQ(expectProvoked(g).rows.at(0).triangles, 5u);
+    primitive(g)["indices"] = indexed(g, {0, 1, 3, 3, 1, 1, 2, 3}, kUShort);
+    primitive(g)["mode"] = 5;
+    EXPECT_EQ(expectProvoked(g).rows.at(0).triangles, 2u);
+    primitive(g)["indices"] = indexed(g, {0, 0, 0, 0}, kUShort); // nothing is left
+    EXPECT_TRUE(expectProvoked(g).rows.empty());
+}
+
+TEST(GltfProvoking, theRestartValueIsRefusedAndNeverWritten)
+{
+    for (const auto& [type, restart] : {std::pair{kUByte, 0xffu}, {kUShort, 0xffffu}, {kUInt, 0xffffffffu}}) {
+        Gltf g = square();
+        primitive(g)["mode"] = 5;
+        primitive(g)["indices"] = indexed(g, {0, 1, 2, restart, 0, 2, 3}, type);
+        const TemporaryFolder folder;
+        const auto document = openText(folder, g.text());
+        ASSERT_FALSE(document);
+        EXPECT_NE(document.error().message.find("the primitive restart value"), std::string::npos);
+    }
+    // 255 vertices fit into bytes, 256 do not, for 255 means restart. Three vertices provoke three triangles; a
+    // fourth needs a copy.
+    for (const auto& [again, type] : {std::pair{2, kUByte}, {3, kUShort}}) {
+        Gltf g = square();
+        primitive(g) = {{"attributes", {{"POSITION", g.floats(std::vector<float>(255 * 3, 0.5f), "VEC3")}}}};
+        std::vector<std::uint32_t> order(255);
+        std::iota(order.begin(), order.end(), 0u);
+        for (int i = 0; i < again; ++i)
+            order.insert(order.end(), {0, 1, 2});
+        primitive(g)["indices"] = indexed(g, order, kUByte);
+        const Provoked p = expectProvoked(g);
+        const json& indices = p.out.root["meshes"][0]["primitives"][0]["indices"];
+        EXPECT_EQ(p.out.root["accessors"][indices.get<int>()]["componentType"], type) << p.rows.at(0).verticesAfter;
+    }
+}
+
+// A seam at which u is mirrored and whose vertices both sides share: each triangle has its own U and V.
+TEST(GltfProvoking, mirroredSeamsShareVerticesAsBefore)
+{
+    Gltf g = square();
+    primitive(g)["attributes"]["POSITION"] =
+        g.floats({-1, 1, 0, -1, -1, 0, 0, 1, 0, 0, -1, 0, 1, 1, 0, 1, -1, 0}, "VEC3");
+    primitive(g)["attributes"]["NORMAL"] = g.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    primitive(g)["attributes"]["TEXCOORD_0"] = g.floats({1, 0, 1, 2, 0, 0, 0, 2, 1, 0, 1, 2}, "VEC2");
+    primitive(g)["indices"] = indexed(g, {0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5}, kUByte);
+    const Provoked p = expectProvoked(g, ProvokingVertex::last);
+    EXPECT_EQ(p.rows.at(0).verticesBefore, 6u);
+    EXPECT_EQ(p.rows.at(0).verticesAfter, 6u); // four provoke, two do not
+}
+
+// Joints, weights, colours of bytes, an attribute that nobody knows, a sparse morph target, positions of shorts
+// with bounds, and a vertex that no triangle uses.
+TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
+{
+    Gltf g = square();
+    json& p = primitive(g);
+    p["indices"] = indexed(g, {0, 1, 3, 1, 3, 0, 3, 0, 1}, kUShort); // vertex 2 is used by nobody
+    p["attributes"]["_PART"] = g.accessor(std::vector<std::uint8_t>{7, 8, 9, 10}, "SCALAR", kUByte);
+    p["attributes"]["COLOR_0"] =
+        g.accessor(std::vector<std::uint8_t>{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 1, 1, 1, 0}, "VEC4", kUByte, true);
+    p["attributes"]["JOINTS_0"] =
+        g.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
+    p["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, .5f, .5f, 0, 0, 1, 0, 0, 0, .25f, .75f, 0, 0}, "VEC4");
+    p["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1, 1, 0, 0, 1}, "VEC4");
+    const int places = g.view(std::vector<std::uint16_t>{1, 2});
+    const int values = g.view(std::vector<float>{0, 0, 5, 0, 0, 6});
+    const auto target = [&](int count) {
+        return g.accessor({{"componentType", kFloat},
+                           {"count", 4},
+                           {"type", "VEC3"},
+                           {"min", {0, 0, 0}},
+                           {"max", {0, 0, 6}},
+                           {"sparse",
+                            {{"count", count},
+                             {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                             {"values", {{"bufferView", values}}}}}});
+    };
+    p["targets"] = {{{"POSITION", target(2)}}, {{"NORMAL", target(1)}}};
+    p["attributes"]["POSITION"] = g.accessor({{"bufferView", g.view(kSquare)},
+                                              {"componentType", kFloat},
+                                              {"type", "VEC3"},
+                                              {"count", 4},
+                                              {"min", {0, 0, 0}},
+                                              {"max", {1, 1, 0}}});
+    const Provoked done = expectProvoked(g);
+    EXPECT_EQ(done.rows.at(0).verticesBefore, 3u);
+    const json& made = done.out.root["meshes"][0]["primitives"][0];
+    const json& morph = done.out.root["accessors"][made["targets"][0]["POSITION"].get<int>()];
+    EXPECT_EQ(morph["max"], json({0, 0, 5})) << "6 was at the vertex that is gone";
+}
+
+// A target whose only change was at a vertex that is gone: glTF forbids sparse parts without values.
+TEST(GltfProvoking, sparsePartsWithoutValuesGo)
+{
+    Gltf g = square();
+    primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort);
+    const int places = g.view(std::vector<std::uint16_t>{2}), values = g.view(std::vector<float>{0, 0, 5});
+    primitive(g)["targets"] = {
+        {{"POSITION",
+          g.accessor({{"componentType", kFloat},
+                      {"count", 4},
+                      {"type", "VEC3"},
+                      {"sparse",
+                       {{"count", 1},
+                        {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                        {"values", {{"bufferView", values}}}}}})}}};
+    const Provoked p = expectProvoked(g);
+    EXPECT_EQ(p.out.root.dump().find("sparse"), std::string::npos);
+}
+
+// Two primitives with parts of the same arrays, and one that draws the same as the first.
+TEST(GltfProvoking, primitivesThatShareVerticesGetTheirOwnAndEqualOnesGoOnSharing)
+{
+    Gltf g = square();
+    json& primitives = g.root["meshes"][0]["primitives"];
+    const json first = primitives[0];
+    primitives.push_back(first);
+    primitives[1]["indices"] = indexed(g, {0, 2, 3}, kUShort);
+    primitives.push_back(first);
+    primitives.push_back(first);
+    primitives[3]["mode"] = 1; // lines: stay
+    const Provoked p = expectProvoked(g);
+    ASSERT_EQ(p.rows.size(), 2u);
+    EXPECT_EQ(p.rows[1].verticesAfter, 3u);
+    const json& made = p.out.root["meshes"][0]["primitives"];
+    EXPECT_EQ(made[2]["attributes"], made[0]["attributes"]);
+    EXPECT_EQ(made[2]["indices"], made[0]["indices"]);
+    EXPECT_EQ(made[3]["mode"], 1);
+    EXPECT_EQ(floatsOf(p.out, made[3]["attributes"]["POSITION"], 3), kSquare);
+}
+
+TEST(GltfProvoking, compressedGeometryIsRefusedAndNothingChanges)
+{
+    Gltf g = square();
+    primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
+    g.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    if (!document) { // refused when it is opened
+        EXPECT_NE(document.error().message.find("KHR_draco_mesh_compression"), std::string::npos);
+        return;
+    }
+    const auto root = document->root;
+    const auto rows = setGltfProvoking(*document, ProvokingVertex::first);
+    ASSERT_FALSE(rows);
+    EXPECT_NE(rows.error().message.find("KHR_draco_mesh_compression"), std::string::npos);
+    EXPECT_EQ(document->root, root);
+}
+
+} // namespace
+} // namespace cotan::test
