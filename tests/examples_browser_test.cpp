@@ -2,10 +2,8 @@
 // those of the analytic surface. One launch shows all pages.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "examples_browser.hpp"
 #include "examples_sheet_model.hpp"
-#include "run_tool.hpp"
 
 namespace cotan::test {
 namespace {
@@ -18,26 +16,11 @@ const std::string kSources = COTAN_SOURCE_DIR;
 // introduction promises 0.002 degrees at 1e-3; times five for the slopes of up to 53 degrees.
 constexpr double kDegrees = 0.01;
 
-void write(const std::filesystem::path& file, const std::string& text)
-{
-    std::ofstream(file, std::ios::binary) << text;
-}
-
 // Puts `value` in the place of each `word`.
 void put(std::string& text, const std::string& word, const std::string& value)
 {
     for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += value.size())
         text.replace(at, word.size(), value);
-}
-
-// Rows from the bottom, as WebGL has them.
-std::string rowsFromTheBottom(const Image& image)
-{
-    const std::size_t row = std::size_t(image.width) * image.bytesPerPixel();
-    std::string bytes;
-    for (int y = image.height - 1; y >= 0; --y)
-        bytes.append(reinterpret_cast<const char*>(image.data.data()) + std::size_t(y) * row, row);
-    return bytes;
 }
 
 // The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet
@@ -86,7 +69,8 @@ json measure()
     write(folder / "webgl2.html",
           readWhole(kSources + "/examples/webgl2/index.html") + "<script>\n"
               + readWhole(kSources + "/tests/examples_webgl2.js") + "</script>\n");
-    json pages = json::array({"webgl2.html"});
+    json pages = writeTriangleWebPages(folder);
+    pages.push_back("webgl2.html");
     const std::string three = COTAN_NPM "/node_modules/three/build/three.module.js";
     if (std::filesystem::exists(three)) {
         writeNpmPage(folder, "three", "three", three);
@@ -105,7 +89,8 @@ json measure()
     const std::string f = folder.path().string();
     const std::string line =
         "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
-        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
+        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
+          "--use-webgpu-adapter=swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
         + "/dom' 2> '" + f + "/log'";
     const int code = std::system(line.c_str());
     const std::string dom = readWhole(folder / "dom");
@@ -113,12 +98,6 @@ json measure()
     if (begin == std::string::npos || end == std::string::npos)
         return {{"error", "chromium printed no result, exit " + std::to_string(code) + ": " + dom.substr(0, 80)}};
     return json::parse(dom.substr(begin + 8, end - begin - 8));
-}
-
-const json& measured()
-{
-    static const json found = measure();
-    return found;
 }
 
 void expectRight(const std::string& label, const json& side)
@@ -141,10 +120,10 @@ TEST(ExampleWebGl2, thePastedTextIsWhatTheToolPrintsToday)
 
 TEST(ExampleWebGl2, normalsAreTheSheetsOnBothSidesBothHalvesAndUpsideDown)
 {
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
-    ASSERT_TRUE(measured().contains("webgl2")) << measured();
-    const json& page = measured()["webgl2"];
+    if (measuredPages().is_string())
+        GTEST_SKIP() << measuredPages().get<std::string>();
+    ASSERT_TRUE(measuredPages().contains("webgl2")) << measuredPages();
+    const json& page = measuredPages()["webgl2"];
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
     for (const char* target : {"upright", "flipped"})
@@ -192,26 +171,26 @@ TEST(ExampleThree, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("
 
 TEST(ExampleThree, cotansFrameIsRightWhereverThreesOwnIsAndInFlippedTargetsToo)
 {
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
+    if (measuredPages().is_string())
+        GTEST_SKIP() << measuredPages().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measured().contains("three")) << measured();
-    expectRightWhereTheirsIsAndFlipped(measured()["three"]);
-    for (const auto& [scene, side] : measured()["three"]["broken"].items()) // with tangents too
+    ASSERT_TRUE(measuredPages().contains("three")) << measuredPages();
+    expectRightWhereTheirsIsAndFlipped(measuredPages()["three"]);
+    for (const auto& [scene, side] : measuredPages()["three"]["broken"].items()) // with tangents too
         expectBroken("broken, " + scene, side);
-    EXPECT_EQ(measured()["three"]["broken"].size(), measured()["three"]["cotan"].size());
+    EXPECT_EQ(measuredPages()["three"]["broken"].size(), measuredPages()["three"]["cotan"].size());
 }
 
 TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTargets)
 {
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
+    if (measuredPages().is_string())
+        GTEST_SKIP() << measuredPages().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measured().contains("three_pictures")) << measured();
+    ASSERT_TRUE(measuredPages().contains("three_pictures")) << measuredPages();
     for (const char* side : {"front", "back"}) {
-        const json& found = measured()["three_pictures"];
+        const json& found = measuredPages()["three_pictures"];
         ASSERT_TRUE(found.contains(side)) << found;
         const json& page = found[side];
         const auto worst = [&](const char* what) { return page[what]["worst"].get<double>(); };
@@ -235,13 +214,20 @@ TEST(ExampleBabylon, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday
 
 TEST(ExampleBabylon, cotansFrameIsRightWhereverBabylonsOwnIsAndInFlippedTargetsAndMirrorsToo)
 {
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
+    if (measuredPages().is_string())
+        GTEST_SKIP() << measuredPages().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/babylonjs"))
         GTEST_SKIP() << "babylonjs is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measured().contains("babylon")) << measured();
-    expectRightWhereTheirsIsAndFlipped(measured()["babylon"]);
+    ASSERT_TRUE(measuredPages().contains("babylon")) << measuredPages();
+    expectRightWhereTheirsIsAndFlipped(measuredPages()["babylon"]);
 }
 
 } // namespace
+
+const json& measuredPages()
+{
+    static const json found = measure();
+    return found;
+}
+
 } // namespace cotan::test

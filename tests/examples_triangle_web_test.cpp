@@ -1,0 +1,189 @@
+// examples/triangle-web in headless Chromium: the analytic sheets, and models that `cotan convert --provoking` wrote against
+// what Cotan's own renderer draws of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "cotan/gltf/edit.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "examples_browser.hpp"
+
+namespace cotan::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kWeb = std::string(COTAN_SOURCE_DIR) + "/examples/triangle-web";
+const std::filesystem::path kBoomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
+
+// Turned a little, in front of an eye in the origin that looks along -z: a box of at most 5 x 3 around (0, 0, -4).
+Mesh placed(Mesh mesh)
+{
+    const float c = std::cos(0.5f), s = std::sin(0.5f), d = std::cos(0.4f), t = std::sin(0.4f);
+    const auto turned = [&](glm::vec3 p) {
+        const glm::vec3 q(c * p.x + s * p.z, p.y, c * p.z - s * p.x); // about y, then about x
+        return glm::vec3(q.x, d * q.y - t * q.z, t * q.y + d * q.z);
+    };
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        mesh.positions[i] = turned(mesh.positions[i]);
+        mesh.normals[i] = turned(mesh.normals[i]);
+        low = glm::min(low, mesh.positions[i]);
+        high = glm::max(high, mesh.positions[i]);
+    }
+    const float scale = std::min(5 / (high.x - low.x), 3 / (high.y - low.y));
+    for (glm::vec3& p : mesh.positions)
+        p = (p - 0.5f * (low + high)) * scale + glm::vec3(0, 0, -4);
+    mesh.tangents.clear();
+    mesh.material = 0;
+    return mesh;
+}
+
+// NAME.glb with the map and the camera of the pages; NAME_first.glb and NAME_last.glb; NAME.normals.
+void writeModel(const TemporaryFolder& folder, const std::string& name, const Mesh& mesh, const Image& map)
+{
+    Scene scene;
+    scene.meshes = {placed(mesh)};
+    scene.images = {map};
+    scene.materials.resize(1);
+    scene.materials[0].normalMap.image = 0;
+    scene.materials[0].doubleSided = true;
+    auto document = gltfDocumentOf(scene);
+    ASSERT_TRUE(document) << document.error().message;
+    document->root["cameras"] = {
+        {{"type", "perspective"},
+         {"perspective", {{"yfov", 2 * std::atan(1 / 2.2)}, {"aspectRatio", 2}, {"znear", 0.1}}}}};
+    document->root["nodes"] = {{{"mesh", 0}}, {{"camera", 0}}};
+    document->root["scenes"] = {{{"nodes", {0, 1}}}};
+    const auto written = writeGltf(*document, folder / (name + ".glb"));
+    ASSERT_TRUE(written) << written.error().message;
+    for (const std::string corner : {"first", "last"}) {
+        const ToolRun run = runTool(
+            {"convert", name + ".glb", "--provoking", corner, "-o", name + "_" + corner + ".glb"}, folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+    }
+    const ToolRun drawn =
+        runTool({"render", name + ".glb", "-o", name + ".exr", "--frame", "triangle", "--view", "normal", "--size",
+                 "480x240", "--camera", "0", "--device", "reference", "--point-sampled", "--quiet"},
+                folder.path());
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    const Result<Image> normals = readImage(folder / (name + ".exr"));
+    ASSERT_TRUE(normals) << normals.error().message;
+    ASSERT_EQ(normals->bytesPerPixel(), 16u);
+    write(folder / (name + ".normals"), rowsFromTheBottom(*normals));
+}
+
+// The page's report, or why there is none.
+json pageOf(const std::string& name)
+{
+    const json& all = measuredPages();
+    if (all.is_string())
+        return {{"skipped", all}};
+    return all.value("triangle " + name, json{{"error", all.dump()}});
+}
+
+void expectWebSheets(const json& page, const std::string& way)
+{
+    for (const char* side : {"front", "back"}) {
+        ASSERT_TRUE(page.contains("sheets")) << page;
+        const json& found = page["sheets"][way][side];
+        EXPECT_GT(found["count"].get<int>(), 2000) << way;
+        ASSERT_TRUE(found["worst"].is_number()) << way << ": a normal is not finite"; // JSON writes NaN as null
+        // Rounding U and V to halfs may turn a normal by 0.03 degrees.
+        EXPECT_LT(found["worst"].get<double>(), 0.03) << way << ", " << side;
+    }
+}
+
+void expectWebModels(const json& page, const std::string& way)
+{
+    for (const auto& [name, found] : page["models"].items()) {
+        const json& errors = found[way];
+        EXPECT_GT(errors["count"].get<int>(), 30000) << name;
+        EXPECT_TRUE(errors["finite"].get<bool>()) << name;
+        EXPECT_LT(errors["median"].get<double>(), 0.03) << name << ", " << way; // the halfs
+        // Corners are snapped, to 1/16 of a pixel and finer, and interpolated normals turn by some 2 degrees a pixel.
+        // At one pixel in twenty at most another texel is the nearest, or another triangle is hit.
+        EXPECT_LT(errors["most95"].get<double>(), 0.25) << name << ", " << way;
+        EXPECT_NE(found["refused"].get<std::string>().find("cotan convert --provoking"), std::string::npos) << name;
+    }
+    EXPECT_EQ(page["models"].size(), std::filesystem::exists(kBoomBox) ? 2u : 1u);
+}
+
+void expectPage(const json& page, const std::vector<std::string>& ways)
+{
+    ASSERT_FALSE(page.contains("error")) << page;
+    for (const std::string& way : ways) {
+        expectWebSheets(page, way);
+        expectWebModels(page, way);
+    }
+}
+
+TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
+{
+    TemporaryFolder folder;
+    for (const auto& [page, lang] : {std::pair<std::string, std::string>{"webgl2", "essl"}, {"webgpu", "wgsl"}})
+        for (const auto& [id, stage] : {std::pair<std::string, std::string>{"make", "vertex"}, {"perturb", "fragment"}}) {
+            const ToolRun printed =
+                runTool({"shader", "--lang", lang, "--frame", "triangle", "--stage", stage}, folder.path());
+            ASSERT_EQ(printed.code, 0) << printed.err;
+            EXPECT_NE(readWhole(kWeb + "/" + page + ".html").find("id=\"" + id + "\">\n" + printed.out + "</script>"),
+                      std::string::npos)
+                << "paste the output of `cotan shader --lang " << lang << " --frame triangle --stage " << stage
+                << "` into examples/triangle-web/" << page << ".html again";
+        }
+}
+
+TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextures)
+{
+    const json page = pageOf("webgl2");
+    if (page.contains("skipped"))
+        GTEST_SKIP() << page["skipped"];
+    expectPage(page, {"provoking", "read"});
+}
+
+TEST(ExampleTriangleWeb, normalsInWebGpuAreRightFromTheProvokingVertex)
+{
+    const json page = pageOf("webgpu");
+    if (page.contains("skipped"))
+        GTEST_SKIP() << page["skipped"];
+    expectPage(page, {"provoking"});
+}
+
+} // namespace
+
+std::vector<std::string> writeTriangleWebPages(const TemporaryFolder& folder)
+{
+    const Image map = makeReliefMap(Relief::domes, 128);
+    write(folder / "triangle_map.bytes",
+          std::string(reinterpret_cast<const char*>(map.data.data()), map.data.size()));
+    json names = {"teapot"};
+    writeModel(folder, "teapot", makeTeapot(12), map);
+    if (std::filesystem::exists(kBoomBox)) {
+        if (const auto scene = loadScene(kBoomBox)) {
+            writeModel(folder, "boombox", scene->meshes.at(0), map);
+            names.push_back("boombox");
+        }
+    }
+    write(folder / "model.js", readWhole(kWeb + "/model.js"));
+    // Without a GPU Chromium cannot show a canvas of WebGPU: what goes there goes into a texture.
+    const std::string before = R"(<script>if (window.GPUCanvasContext) {
+  GPUCanvasContext.prototype.configure = () => {};
+  GPUCanvasContext.prototype.getCurrentTexture = () => device.createTexture({ size: [480, 240],
+    format: navigator.gpu.getPreferredCanvasFormat(), usage: GPUTextureUsage.RENDER_ATTACHMENT });
+}</script>)";
+    std::vector<std::string> pages;
+    for (const std::string page : {"webgl2", "webgpu"}) {
+        pages.push_back("triangle_" + page + ".html");
+        write(folder / pages.back(),
+              "<!doctype html>" + before + readWhole(kWeb + "/" + page + ".html") + "<script>\nconst measuredPage = '" + page
+                  + "', modelNames = " + names.dump() + ";\n"
+                  + readWhole(COTAN_SOURCE_DIR "/tests/examples_triangle_web.js") + "</script>\n");
+    }
+    return pages;
+}
+
+} // namespace cotan::test
