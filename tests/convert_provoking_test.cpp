@@ -112,7 +112,7 @@ TEST(ConvertProvoking, aClosedShapeGetsAVertexATriangleAndFewMore)
             EXPECT_GE(after, triangles);
             EXPECT_LE(after, triangles + triangles / 50);
         }
-    expectDocumented("teapot of `cotan render`, 12 segments a patch", teapot.indices.size() / 3, teapot.positions.size(),
+    expectDocumented("teapot, 12 segments a patch", teapot.indices.size() / 3, teapot.positions.size(),
                      provokingMesh(teapot.indices, teapot.positions.size(), ProvokingVertex::first).sources.size());
 }
 

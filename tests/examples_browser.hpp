@@ -1,4 +1,4 @@
-// What the tests of pages share: one launch of Chromium shows all of them.
+// What the tests of pages share.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,9 @@
 
 namespace cotan::test {
 
-// What the pages report, by page; a string that says why where they cannot run.
-const nlohmann::json& measuredPages();
-
-// The pages of examples/triangle-web with what measures them, and the models that they draw. Returns their file names.
-std::vector<std::string> writeTriangleWebPages(const TemporaryFolder& folder);
+// Shows pages that lie in the folder, in one launch of Chromium. What they report, by the name that each gives itself;
+// a string that says why where they cannot run.
+nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages);
 
 inline void write(const std::filesystem::path& file, const std::string& text)
 {

@@ -63,14 +63,11 @@ void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const 
 // What the pages report, by page; a string that says why where they cannot run.
 json measure()
 {
-    if (std::system("command -v chromium > /dev/null 2>&1") != 0)
-        return "no chromium";
     TemporaryFolder folder;
     write(folder / "webgl2.html",
           readWhole(kSources + "/examples/webgl2/index.html") + "<script>\n"
               + readWhole(kSources + "/tests/examples_webgl2.js") + "</script>\n");
-    json pages = writeTriangleWebPages(folder);
-    pages.push_back("webgl2.html");
+    std::vector<std::string> pages = {"webgl2.html"};
     const std::string three = COTAN_NPM "/node_modules/three/build/three.module.js";
     if (std::filesystem::exists(three)) {
         writeNpmPage(folder, "three", "three", three);
@@ -83,21 +80,13 @@ json measure()
         writeNpmPage(folder, "babylon", "babylon", babylon);
         pages.push_back("babylon.html");
     }
-    std::string harness = readWhole(kSources + "/tests/examples_harness.html.in");
-    put(harness, "PAGES", pages.dump());
-    write(folder / "all.html", harness);
-    const std::string f = folder.path().string();
-    const std::string line =
-        "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
-        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
-          "--use-webgpu-adapter=swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
-        + "/dom' 2> '" + f + "/log'";
-    const int code = std::system(line.c_str());
-    const std::string dom = readWhole(folder / "dom");
-    const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
-    if (begin == std::string::npos || end == std::string::npos)
-        return {{"error", "chromium printed no result, exit " + std::to_string(code) + ": " + dom.substr(0, 80)}};
-    return json::parse(dom.substr(begin + 8, end - begin - 8));
+    return showPages(folder, pages);
+}
+
+const json& measured()
+{
+    static const json found = measure();
+    return found;
 }
 
 void expectRight(const std::string& label, const json& side)
@@ -120,10 +109,10 @@ TEST(ExampleWebGl2, thePastedTextIsWhatTheToolPrintsToday)
 
 TEST(ExampleWebGl2, normalsAreTheSheetsOnBothSidesBothHalvesAndUpsideDown)
 {
-    if (measuredPages().is_string())
-        GTEST_SKIP() << measuredPages().get<std::string>();
-    ASSERT_TRUE(measuredPages().contains("webgl2")) << measuredPages();
-    const json& page = measuredPages()["webgl2"];
+    if (measured().is_string())
+        GTEST_SKIP() << measured().get<std::string>();
+    ASSERT_TRUE(measured().contains("webgl2")) << measured();
+    const json& page = measured()["webgl2"];
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
     for (const char* target : {"upright", "flipped"})
@@ -171,26 +160,26 @@ TEST(ExampleThree, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("
 
 TEST(ExampleThree, cotansFrameIsRightWhereverThreesOwnIsAndInFlippedTargetsToo)
 {
-    if (measuredPages().is_string())
-        GTEST_SKIP() << measuredPages().get<std::string>();
+    if (measured().is_string())
+        GTEST_SKIP() << measured().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measuredPages().contains("three")) << measuredPages();
-    expectRightWhereTheirsIsAndFlipped(measuredPages()["three"]);
-    for (const auto& [scene, side] : measuredPages()["three"]["broken"].items()) // with tangents too
+    ASSERT_TRUE(measured().contains("three")) << measured();
+    expectRightWhereTheirsIsAndFlipped(measured()["three"]);
+    for (const auto& [scene, side] : measured()["three"]["broken"].items()) // with tangents too
         expectBroken("broken, " + scene, side);
-    EXPECT_EQ(measuredPages()["three"]["broken"].size(), measuredPages()["three"]["cotan"].size());
+    EXPECT_EQ(measured()["three"]["broken"].size(), measured()["three"]["cotan"].size());
 }
 
 TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTargets)
 {
-    if (measuredPages().is_string())
-        GTEST_SKIP() << measuredPages().get<std::string>();
+    if (measured().is_string())
+        GTEST_SKIP() << measured().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measuredPages().contains("three_pictures")) << measuredPages();
+    ASSERT_TRUE(measured().contains("three_pictures")) << measured();
     for (const char* side : {"front", "back"}) {
-        const json& found = measuredPages()["three_pictures"];
+        const json& found = measured()["three_pictures"];
         ASSERT_TRUE(found.contains(side)) << found;
         const json& page = found[side];
         const auto worst = [&](const char* what) { return page[what]["worst"].get<double>(); };
@@ -214,20 +203,35 @@ TEST(ExampleBabylon, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday
 
 TEST(ExampleBabylon, cotansFrameIsRightWhereverBabylonsOwnIsAndInFlippedTargetsAndMirrorsToo)
 {
-    if (measuredPages().is_string())
-        GTEST_SKIP() << measuredPages().get<std::string>();
+    if (measured().is_string())
+        GTEST_SKIP() << measured().get<std::string>();
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/babylonjs"))
         GTEST_SKIP() << "babylonjs is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measuredPages().contains("babylon")) << measuredPages();
-    expectRightWhereTheirsIsAndFlipped(measuredPages()["babylon"]);
+    ASSERT_TRUE(measured().contains("babylon")) << measured();
+    expectRightWhereTheirsIsAndFlipped(measured()["babylon"]);
 }
 
 } // namespace
 
-const json& measuredPages()
+json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages)
 {
-    static const json found = measure();
-    return found;
+    if (std::system("command -v chromium > /dev/null 2>&1") != 0)
+        return "no chromium";
+    std::string harness = readWhole(kSources + "/tests/examples_harness.html.in");
+    put(harness, "PAGES", json(pages).dump());
+    write(folder / "all.html", harness);
+    const std::string f = folder.path().string();
+    const std::string line =
+        "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
+        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
+          "--use-webgpu-adapter=swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
+        + "/dom' 2> '" + f + "/log'";
+    const int code = std::system(line.c_str());
+    const std::string dom = readWhole(folder / "dom");
+    const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
+    if (begin == std::string::npos || end == std::string::npos)
+        return {{"error", "chromium printed no result, exit " + std::to_string(code) + ": " + dom.substr(0, 80)}};
+    return json::parse(dom.substr(begin + 8, end - begin - 8));
 }
 
 } // namespace cotan::test

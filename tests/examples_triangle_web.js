@@ -1,6 +1,6 @@
 // Runs after the scripts of examples/triangle-web/*.html: how far the page's normals are from those of the analytic sheets,
 // and of the models beside this page from those that Cotan's own renderer drew of them with the frame triangle
-// (NAME.normals, four floats a pixel), with the same map (triangle_map.bytes). drawn(way) draws into floats, rows from the bottom; texels
+// (NAME.normals, four floats a pixel), with the same map (map.bytes). drawn(way) draws into floats, rows from the bottom; texels
 // are read without filtering, so that the stored bytes are the input.
 const width = 480, height = 240;
 document.querySelector('canvas').width = width;
@@ -62,13 +62,24 @@ function modelErrors(pixels, expected) {
   return { count: degrees.length, finite: degrees.every(Number.isFinite), median: degrees[degrees.length >> 1],
            most95: degrees[Math.floor(degrees.length * 0.95)] };
 }
-// ways: that the page draws in. provoking: the corner. models: by name.
-async function errorsOf(ways, provoking, models, drawn) {
-  const found = { sheets: {}, models: {} };
+// How many pixels two pictures both have, and in how many they are apart, be it that one has none there.
+function apart(a, b) {
+  const found = { pixels: 0, apart: 0 };
+  for (let at = 0; at < 4 * width * height; at += 4) {
+    const n = a.subarray(at, at + 3), m = b.subarray(at, at + 3), here = dot(n, n) > 0.5, there = dot(m, m) > 0.5;
+    found.pixels += here && there;
+    found.apart += here !== there || (here && !(degreesBetween(n, m) < 0.06)); // both were rounded to halfs
+  }
+  return found;
+}
+// ways: that the page draws in. provoking: the corner. models: by name. odd: how many there are of odd0 and so on, which
+// all look the same.
+async function errorsOf(ways, provoking, models, odd, drawn) {
+  const found = { sheets: {}, models: {}, odd: [] };
   load(sheets(provoking));
   loadMap(map, mapSize);
   for (const way of ways) found.sheets[way] = sheetErrors(await drawn(way));
-  loadMap(new Uint8Array(await fetched('triangle_map.bytes')), 128);
+  loadMap(new Uint8Array(await fetched('map.bytes')), 128);
   for (const name of models) {
     load(readGlb(await fetched(name + '_' + provoking + '.glb'), provoking));
     const expected = new Float32Array(await fetched(name + '.normals'));
@@ -79,6 +90,13 @@ async function errorsOf(ways, provoking, models, drawn) {
       found.models[name].refused = e.message;
     }
   }
+  for (const way of ways)
+    for (let k = 0, first; k < odd; ++k) {
+      load(readGlb(await fetched('odd' + k + '_' + provoking + '.glb'), provoking));
+      const pixels = Float32Array.from(await drawn(way));
+      first ||= pixels;
+      found.odd.push(apart(pixels, first));
+    }
   return found;
 }
 function webgl2() {
@@ -89,7 +107,7 @@ function webgl2() {
     gl.renderbufferStorage(gl.RENDERBUFFER, format, width, height);
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, gl.getParameter(gl.RENDERBUFFER_BINDING));
   });
-  return errorsOf(['provoking', 'read'], 'last', modelNames, way => {
+  return errorsOf(['provoking', 'read'], 'last', modelNames, oddCount, way => {
     gl.activeTexture(gl.TEXTURE0 + units.indexOf('normal_map'));
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
@@ -105,7 +123,7 @@ async function webgpu() {
   device.onuncapturederror = e => { throw new Error(e.error.message); };
   const target = device.createTexture({ size: [width, height], format: 'rgba32float',
     usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
-  return errorsOf(['provoking'], 'first', modelNames, async () => {
+  return errorsOf(['provoking'], 'first', modelNames, oddCount, async () => {
     draw(target, true, 'nearest');
     const bytes = 16 * width * height; // rows are a multiple of 256 bytes, as copies ask for
     const read = device.createBuffer({ size: bytes, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
@@ -121,5 +139,5 @@ async function webgpu() {
 (async () => {
   let found;
   try { found = await (measuredPage === 'webgl2' ? webgl2() : webgpu()); } catch (e) { found = { error: String(e) }; }
-  parent.postMessage({ page: 'triangle ' + measuredPage, found }, '*');
+  parent.postMessage({ page: measuredPage, found }, '*');
 })();

@@ -11,6 +11,7 @@
 #include "cotan/model/load.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "examples_browser.hpp"
+#include "examples_odd_models.hpp"
 
 namespace cotan::test {
 namespace {
@@ -43,7 +44,18 @@ Mesh placed(Mesh mesh)
     return mesh;
 }
 
-// NAME.glb with the map and the camera of the pages; NAME_first.glb and NAME_last.glb; NAME.normals.
+// NAME_first.glb and NAME_last.glb.
+void writeProvoking(const TemporaryFolder& folder, const std::string& model)
+{
+    const std::string name = model.substr(0, model.find('.'));
+    for (const std::string corner : {"first", "last"}) {
+        const ToolRun run =
+            runTool({"convert", model, "--provoking", corner, "-o", name + "_" + corner + ".glb"}, folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+    }
+}
+
+// NAME.glb with the map and the camera of the pages, what writeProvoking writes, and NAME.normals.
 void writeModel(const TemporaryFolder& folder, const std::string& name, const Mesh& mesh, const Image& map)
 {
     Scene scene;
@@ -61,11 +73,7 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, const Me
     document->root["scenes"] = {{{"nodes", {0, 1}}}};
     const auto written = writeGltf(*document, folder / (name + ".glb"));
     ASSERT_TRUE(written) << written.error().message;
-    for (const std::string corner : {"first", "last"}) {
-        const ToolRun run = runTool(
-            {"convert", name + ".glb", "--provoking", corner, "-o", name + "_" + corner + ".glb"}, folder.path());
-        ASSERT_EQ(run.code, 0) << run.err;
-    }
+    writeProvoking(folder, name + ".glb");
     const ToolRun drawn =
         runTool({"render", name + ".glb", "-o", name + ".exr", "--frame", "triangle", "--view", "normal", "--size",
                  "480x240", "--camera", "0", "--device", "reference", "--point-sampled", "--quiet"},
@@ -77,13 +85,38 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, const Me
     write(folder / (name + ".normals"), rowsFromTheBottom(*normals));
 }
 
-// The page's report, or why there is none.
-json pageOf(const std::string& name)
+// What the page reports, or why it does not.
+json reportOf(const std::string& page)
 {
-    const json& all = measuredPages();
-    if (all.is_string())
-        return {{"skipped", all}};
-    return all.value("triangle " + name, json{{"error", all.dump()}});
+    TemporaryFolder folder;
+    const Image map = makeReliefMap(Relief::domes, 128);
+    write(folder / "map.bytes", std::string(reinterpret_cast<const char*>(map.data.data()), map.data.size()));
+    json names = {"teapot"};
+    writeModel(folder, "teapot", makeTeapot(12), map);
+    if (std::filesystem::exists(kBoomBox)) {
+        if (const auto scene = loadScene(kBoomBox)) {
+            writeModel(folder, "boombox", scene->meshes.at(0), map);
+            names.push_back("boombox");
+        }
+    }
+    for (std::size_t k = 0; k < oddModels().size(); ++k) {
+        writeOddModel(folder / ("odd" + std::to_string(k) + ".gltf"), oddModels()[k]);
+        writeProvoking(folder, "odd" + std::to_string(k) + ".gltf");
+    }
+    // Without a GPU Chromium cannot show a canvas of WebGPU: what goes there goes into a texture.
+    const std::string before = R"(<!doctype html><script>if (window.GPUCanvasContext) {
+  GPUCanvasContext.prototype.configure = () => {};
+  GPUCanvasContext.prototype.getCurrentTexture = () => device.createTexture({ size: [480, 240],
+    format: navigator.gpu.getPreferredCanvasFormat(), usage: GPUTextureUsage.RENDER_ATTACHMENT });
+}</script>)";
+    write(folder / "model.js", readWhole(kWeb + "/model.js"));
+    write(folder / "page.html",
+          before + readWhole(kWeb + "/" + page + ".html") + "<script>\nconst measuredPage = '" + page
+              + "', modelNames = " + names.dump()
+              + ", oddCount = " + std::to_string(oddModels().size()) + ";\n"
+              + readWhole(COTAN_SOURCE_DIR "/tests/examples_triangle_web.js") + "</script>\n");
+    const json found = showPages(folder, {"page.html"});
+    return found.is_string() ? json{{"skipped", found}} : found.value(page, found);
 }
 
 void expectWebSheets(const json& page, const std::string& way)
@@ -120,6 +153,12 @@ void expectPage(const json& page, const std::vector<std::string>& ways)
         expectWebSheets(page, way);
         expectWebModels(page, way);
     }
+    ASSERT_EQ(page["odd"].size(), ways.size() * oddModels().size());
+    for (std::size_t k = 0; k < page["odd"].size(); ++k) {
+        const char* const name = oddModels()[k % oddModels().size()].name;
+        EXPECT_GT(page["odd"][k]["pixels"].get<int>(), 20000) << name;
+        EXPECT_LT(page["odd"][k]["apart"].get<int>(), 120) << name; // half the pixels of a column: the seam
+    }
 }
 
 TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
@@ -139,7 +178,7 @@ TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
 
 TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextures)
 {
-    const json page = pageOf("webgl2");
+    const json page = reportOf("webgl2");
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
     expectPage(page, {"provoking", "read"});
@@ -147,43 +186,11 @@ TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextu
 
 TEST(ExampleTriangleWeb, normalsInWebGpuAreRightFromTheProvokingVertex)
 {
-    const json page = pageOf("webgpu");
+    const json page = reportOf("webgpu");
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
     expectPage(page, {"provoking"});
 }
 
 } // namespace
-
-std::vector<std::string> writeTriangleWebPages(const TemporaryFolder& folder)
-{
-    const Image map = makeReliefMap(Relief::domes, 128);
-    write(folder / "triangle_map.bytes",
-          std::string(reinterpret_cast<const char*>(map.data.data()), map.data.size()));
-    json names = {"teapot"};
-    writeModel(folder, "teapot", makeTeapot(12), map);
-    if (std::filesystem::exists(kBoomBox)) {
-        if (const auto scene = loadScene(kBoomBox)) {
-            writeModel(folder, "boombox", scene->meshes.at(0), map);
-            names.push_back("boombox");
-        }
-    }
-    write(folder / "model.js", readWhole(kWeb + "/model.js"));
-    // Without a GPU Chromium cannot show a canvas of WebGPU: what goes there goes into a texture.
-    const std::string before = R"(<script>if (window.GPUCanvasContext) {
-  GPUCanvasContext.prototype.configure = () => {};
-  GPUCanvasContext.prototype.getCurrentTexture = () => device.createTexture({ size: [480, 240],
-    format: navigator.gpu.getPreferredCanvasFormat(), usage: GPUTextureUsage.RENDER_ATTACHMENT });
-}</script>)";
-    std::vector<std::string> pages;
-    for (const std::string page : {"webgl2", "webgpu"}) {
-        pages.push_back("triangle_" + page + ".html");
-        write(folder / pages.back(),
-              "<!doctype html>" + before + readWhole(kWeb + "/" + page + ".html") + "<script>\nconst measuredPage = '" + page
-                  + "', modelNames = " + names.dump() + ";\n"
-                  + readWhole(COTAN_SOURCE_DIR "/tests/examples_triangle_web.js") + "</script>\n");
-    }
-    return pages;
-}
-
 } // namespace cotan::test
