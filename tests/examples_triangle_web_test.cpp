@@ -2,9 +2,8 @@
 // what Cotan's own renderer draws of them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-
-#include <glm/common.hpp>
 
 #include "cotan/gltf/edit.hpp"
 #include "cotan/image/file.hpp"
@@ -21,29 +20,6 @@ using nlohmann::json;
 const std::string kWeb = std::string(COTAN_SOURCE_DIR) + "/examples/triangle-web";
 const std::filesystem::path kBoomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
 
-// Turned a little, in front of an eye in the origin that looks along -z: a box of at most 5 x 3 around (0, 0, -4).
-Mesh placed(Mesh mesh)
-{
-    const float c = std::cos(0.5f), s = std::sin(0.5f), d = std::cos(0.4f), t = std::sin(0.4f);
-    const auto turned = [&](glm::vec3 p) {
-        const glm::vec3 q(c * p.x + s * p.z, p.y, c * p.z - s * p.x); // about y, then about x
-        return glm::vec3(q.x, d * q.y - t * q.z, t * q.y + d * q.z);
-    };
-    glm::vec3 low(1e30f), high(-1e30f);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        mesh.positions[i] = turned(mesh.positions[i]);
-        mesh.normals[i] = turned(mesh.normals[i]);
-        low = glm::min(low, mesh.positions[i]);
-        high = glm::max(high, mesh.positions[i]);
-    }
-    const float scale = std::min(5 / (high.x - low.x), 3 / (high.y - low.y));
-    for (glm::vec3& p : mesh.positions)
-        p = (p - 0.5f * (low + high)) * scale + glm::vec3(0, 0, -4);
-    mesh.tangents.clear();
-    mesh.material = 0;
-    return mesh;
-}
-
 // NAME_first.glb and NAME_last.glb.
 void writeProvoking(const TemporaryFolder& folder, const std::string& model)
 {
@@ -55,22 +31,32 @@ void writeProvoking(const TemporaryFolder& folder, const std::string& model)
     }
 }
 
-// NAME.glb with the map and the camera of the pages, what writeProvoking writes, and NAME.normals.
-void writeModel(const TemporaryFolder& folder, const std::string& name, const Mesh& mesh, const Image& map)
+// NAME.glb with the map and a camera that sees it as the pages do; what writeProvoking writes; and NAME.normals.
+void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mesh, const Image& map)
 {
     Scene scene;
-    scene.meshes = {placed(mesh)};
+    mesh.material = 0;
+    mesh.tangents.clear();
+    scene.meshes = {std::move(mesh)};
     scene.images = {map};
     scene.materials.resize(1);
     scene.materials[0].normalMap.image = 0;
     scene.materials[0].doubleSided = true;
     auto document = gltfDocumentOf(scene);
     ASSERT_TRUE(document) << document.error().message;
-    document->root["cameras"] = {
-        {{"type", "perspective"},
-         {"perspective", {{"yfov", 2 * std::atan(1 / 2.2)}, {"aspectRatio", 2}, {"znear", 0.1}}}}};
-    document->root["nodes"] = {{{"mesh", 0}}, {{"camera", 0}}};
-    document->root["scenes"] = {{{"nodes", {0, 1}}}};
+    auto& root = document->root;
+    const auto positions = root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>();
+    const auto low = root["accessors"][positions]["min"].get<std::array<double, 3>>(),
+               high = root["accessors"][positions]["max"].get<std::array<double, 3>>();
+    // The pages scale it into a box of 5 x 3 and look at its middle from 4 away.
+    const double away = 4 / std::min(5 / (high[0] - low[0]), 3 / (high[1] - low[1]));
+    root["cameras"] = {{{"type", "perspective"},
+                        {"perspective", {{"yfov", 2 * std::atan(1 / 2.2)}, {"aspectRatio", 2}, {"znear", away / 100}}}}};
+    root["nodes"] = {{{"mesh", 0}},
+                     {{"camera", 0},
+                      {"translation",
+                       {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 + away}}}};
+    root["scenes"] = {{{"nodes", {0, 1}}}};
     const auto written = writeGltf(*document, folder / (name + ".glb"));
     ASSERT_TRUE(written) << written.error().message;
     writeProvoking(folder, name + ".glb");
