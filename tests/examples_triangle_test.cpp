@@ -68,7 +68,7 @@ void expectSameHoweverStored(const std::string& name)
                 ++only;
         }
         EXPECT_GT(pixels, 20000u) << model.name;
-        EXPECT_LT(only, 120u) << model.name; // half the pixels of a column
+        EXPECT_LT(only, 20u) << model.name;
     }
 }
 

@@ -143,7 +143,7 @@ void expectPage(const json& page, const std::vector<std::string>& ways)
     for (std::size_t k = 0; k < page["odd"].size(); ++k) {
         const char* const name = oddModels()[k % oddModels().size()].name;
         EXPECT_GT(page["odd"][k]["pixels"].get<int>(), 20000) << name;
-        EXPECT_LT(page["odd"][k]["apart"].get<int>(), 120) << name; // half the pixels of a column: the seam
+        EXPECT_LT(page["odd"][k]["apart"].get<int>(), 20) << name; // on the seam and the edges
     }
 }
 
