@@ -101,6 +101,47 @@ void checkTangentsRead(const std::vector<GltfCornerTangents>& set, const std::ve
         }
 }
 
+// The same attributes to the bit at corner i of one and corner k of the other.
+bool sameCorner(const GltfGeometry& a, std::size_t i, const GltfGeometry& b, std::size_t k)
+{
+    const auto same = [&](const auto& x, const auto& y) {
+        return x.empty() == y.empty()
+            && (x.empty() || std::memcmp(&x[a.indices[i]], &y[b.indices[k]], sizeof x[0]) == 0);
+    };
+    return same(a.positions, b.positions) && same(a.normals, b.normals) && same(a.tangents, b.tangents)
+        && same(a.texcoords, b.texcoords);
+}
+
+// A vertex for every triangle, as `convert --provoking` makes them: each triangle is there as it was, turned at most.
+void checkProvoking(GltfDocument document, const std::filesystem::path& file, ProvokingVertex provoking)
+{
+    const std::vector<Primitive> before = primitivesOf(document);
+    if (const auto rows = setGltfProvoking(document, provoking); !rows)
+        return checkError(rows.error());
+    const auto written = writeGltf(document, file, smallLimits());
+    if (!written)
+        return checkError(written.error());
+    // Copies of vertices may go over the limits.
+    const auto again = openGltfDocument(file, smallLimits());
+    if (!again)
+        return checkError(again.error());
+    const std::vector<Primitive> after = primitivesOf(*again);
+    COTAN_HOLDS(before.size() == after.size(), "{} {}", before.size(), after.size());
+    for (std::size_t p = 0; p < before.size(); ++p) {
+        const GltfGeometry &a = before[p].geometry, &b = after[p].geometry;
+        COTAN_HOLDS(a.indices.size() == b.indices.size(), "primitive {}", p);
+        for (std::size_t f = 0; f < a.indices.size(); f += 3) {
+            bool same = false;
+            for (std::size_t turn = 0; turn < 3; ++turn)
+                same = same
+                    || (sameCorner(a, f, b, f + turn) && sameCorner(a, f + 1, b, f + (turn + 1) % 3)
+                        && sameCorner(a, f + 2, b, f + (turn + 2) % 3));
+            COTAN_HOLDS(same, "primitive {}, corner {}", p, f);
+            COTAN_HOLDS(b.indices[f + (provoking == ProvokingVertex::last ? 2 : 0)] == f / 3, "corner {}", f);
+        }
+    }
+}
+
 // A new picture for every image and a copy of every material, as `convert` makes them.
 void changeImages(GltfDocument& document)
 {
@@ -143,6 +184,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::vector<Primitive> before = primitivesOf(*document);
     through(*document, scratch / "repacked.glb", before);
     through(*document, scratch / "repacked.gltf", before);
+    for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last})
+        checkProvoking(*document, scratch / "provoking.glb", provoking);
 
     const std::vector<GltfCornerTangents> tangents = tangentsOf(before);
     if (const auto set = setGltfTangents(*document, tangents))

@@ -2,6 +2,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "cotan/provoking.hpp"
 #include "gltf_edit_maker.hpp"
@@ -229,19 +230,21 @@ TEST(GltfProvoking, theRestartValueIsRefusedAndNeverWritten)
         ASSERT_FALSE(document);
         EXPECT_NE(document.error().message.find("the primitive restart value"), std::string::npos);
     }
-    // 255 vertices fit into bytes, 256 do not, for 255 means restart. Three vertices provoke three triangles; a
-    // fourth needs a copy.
-    for (const auto& [again, type] : {std::pair{2, kUByte}, {3, kUShort}}) {
+    // 255 vertices fit into bytes, 256 do not, for 255 means restart; so for shorts. Three vertices provoke three
+    // triangles; a fourth needs a copy.
+    for (const auto& [vertices, before, again, after] :
+         {std::tuple{255u, kUByte, 2, kUByte}, {255u, kUByte, 3, kUShort}, {65535u, kUShort, 2, kUShort},
+          {65535u, kUShort, 3, kUInt}}) {
         Gltf g = square();
-        primitive(g) = {{"attributes", {{"POSITION", g.floats(std::vector<float>(255 * 3, 0.5f), "VEC3")}}}};
-        std::vector<std::uint32_t> order(255);
+        primitive(g) = {{"attributes", {{"POSITION", g.floats(std::vector<float>(vertices * 3, 0.5f), "VEC3")}}}};
+        std::vector<std::uint32_t> order(vertices);
         std::iota(order.begin(), order.end(), 0u);
         for (int i = 0; i < again; ++i)
             order.insert(order.end(), {0, 1, 2});
-        primitive(g)["indices"] = indexed(g, order, kUByte);
+        primitive(g)["indices"] = indexed(g, order, before);
         const Provoked p = expectProvoked(g);
         const json& indices = p.out.root["meshes"][0]["primitives"][0]["indices"];
-        EXPECT_EQ(p.out.root["accessors"][indices.get<int>()]["componentType"], type) << p.rows.at(0).verticesAfter;
+        EXPECT_EQ(p.out.root["accessors"][indices.get<int>()]["componentType"], after) << p.rows.at(0).verticesAfter;
     }
 }
 
