@@ -38,8 +38,8 @@ std::string withCommas(std::size_t n)
 // The row of the table in docs/triangle.md.
 void expectDocumented(const std::string& name, std::size_t triangles, std::size_t before, std::size_t after)
 {
-    const std::string row = fmt::format("| {} | {} | {} | {} | {:.2f} |", name, withCommas(triangles), withCommas(before),
-                                        withCommas(after), double(after) / double(before));
+    const std::string row = fmt::format("| {} | {} | {} | {} | {:.2f} |", name, withCommas(triangles),
+                                        withCommas(before), withCommas(after), double(after) / double(before));
     EXPECT_NE(readWhole(COTAN_SOURCE_DIR "/docs/triangle.md").find(row), std::string::npos)
         << "docs/triangle.md should say: " << row;
 }
@@ -58,8 +58,8 @@ TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorAnythingThatIsDrawn)
     EXPECT_TRUE(r["maps"].empty());
     EXPECT_FALSE(r.contains("to"));
     for (const std::string model : {"quad.gltf", "out.glb"})
-        ASSERT_EQ(runTool({"render", model, "-o", model + ".png", "--frame", "mikktspace", "--size", "64x64", "--device",
-                           "reference", "--quiet"},
+        ASSERT_EQ(runTool({"render", model, "-o", model + ".png", "--frame", "mikktspace", "--size", "64x64",
+                           "--device", "reference", "--quiet"},
                           folder.path())
                       .code,
                   0);
@@ -70,11 +70,12 @@ TEST(ConvertProvoking, goesWithAConversionOfTheMaps)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
-    const json r = provoke(folder.path(), {"quad.gltf", "--to-frame", "triangle", "--provoking", "first", "-o", "out.glb",
-                                           "--verify", "v", "--device", "reference"});
+    const json r = provoke(folder.path(),
+                           {"quad.gltf", "--to-frame", "triangle", "--provoking", "first", "-o", "out.glb", "--verify",
+                            "v", "--device", "reference"});
     EXPECT_EQ(r["provoking"]["vertices_after"], 6);
     EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
-    EXPECT_EQ(r["tangents"]["vertices"], 6); // dropped
+    EXPECT_EQ(r["tangents"]["vertices"], 6);                               // dropped
     EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25); // maps of 8 bits
 }
 

@@ -224,8 +224,8 @@ json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pa
     const std::string line =
         "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
         + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
-          "--use-webgpu-adapter=swiftshader --dump-dom 'file://" + f + "/all.html' > '" + f
-        + "/dom' 2> '" + f + "/log'";
+          "--use-webgpu-adapter=swiftshader --dump-dom 'file://"
+        + f + "/all.html' > '" + f + "/dom' 2> '" + f + "/log'";
     const int code = std::system(line.c_str());
     const std::string dom = readWhole(folder / "dom");
     const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);

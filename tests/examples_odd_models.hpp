@@ -37,7 +37,8 @@ inline const std::vector<OddModel>& oddModels()
 inline void writeOddModel(const std::filesystem::path& file, const OddModel& model)
 {
     using nlohmann::json;
-    json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
+    json root = {
+        {"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}};
     std::string bytes;
     const auto add = [&](const void* data, std::size_t size, int component, const char* type, std::size_t count) {
         bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -65,11 +66,10 @@ inline void writeOddModel(const std::filesystem::path& file, const OddModel& mod
     const std::size_t p = addFloats(positions, "VEC3", 3);
     root["accessors"][p]["min"] = {-1, -1, -0.2f};
     root["accessors"][p]["max"] = {1, 1, 0};
-    json primitive = {{"mode", model.mode},
-                      {"attributes",
-                       {{"POSITION", p},
-                        {"NORMAL", addFloats(normals, "VEC3", 3)},
-                        {"TEXCOORD_0", addFloats(uv, "VEC2", 2)}}}};
+    json primitive = {
+        {"mode", model.mode},
+        {"attributes",
+         {{"POSITION", p}, {"NORMAL", addFloats(normals, "VEC3", 3)}, {"TEXCOORD_0", addFloats(uv, "VEC2", 2)}}}};
     if (model.bits > 0) {
         std::string packed; // little-endian
         for (const std::uint32_t i : model.indices)

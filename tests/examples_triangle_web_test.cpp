@@ -1,5 +1,5 @@
-// examples/triangle-web in headless Chromium: the analytic sheets, and models that `cotan convert --provoking` wrote against
-// what Cotan's own renderer draws of them.
+// examples/triangle-web in headless Chromium: the analytic sheets, and models that `cotan convert --provoking` wrote
+// against what Cotan's own renderer draws of them.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -50,12 +50,13 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mes
                high = root["accessors"][positions]["max"].get<std::array<double, 3>>();
     // The pages scale it into a box of 5 x 3 and look at its middle from 4 away.
     const double away = 4 / std::min(5 / (high[0] - low[0]), 3 / (high[1] - low[1]));
-    root["cameras"] = {{{"type", "perspective"},
-                        {"perspective", {{"yfov", 2 * std::atan(1 / 2.2)}, {"aspectRatio", 2}, {"znear", away / 100}}}}};
-    root["nodes"] = {{{"mesh", 0}},
-                     {{"camera", 0},
-                      {"translation",
-                       {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 + away}}}};
+    root["cameras"] = {
+        {{"type", "perspective"},
+         {"perspective", {{"yfov", 2 * std::atan(1 / 2.2)}, {"aspectRatio", 2}, {"znear", away / 100}}}}};
+    root["nodes"] = {
+        {{"mesh", 0}},
+        {{"camera", 0},
+         {"translation", {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2 + away}}}};
     root["scenes"] = {{{"nodes", {0, 1}}}};
     const auto written = writeGltf(*document, folder / (name + ".glb"));
     ASSERT_TRUE(written) << written.error().message;
@@ -98,8 +99,7 @@ json reportOf(const std::string& page)
     write(folder / "model.js", readWhole(kWeb + "/model.js"));
     write(folder / "page.html",
           before + readWhole(kWeb + "/" + page + ".html") + "<script>\nconst measuredPage = '" + page
-              + "', modelNames = " + names.dump()
-              + ", oddCount = " + std::to_string(oddModels().size()) + ";\n"
+              + "', modelNames = " + names.dump() + ", oddCount = " + std::to_string(oddModels().size()) + ";\n"
               + readWhole(COTAN_SOURCE_DIR "/tests/examples_triangle_web.js") + "</script>\n");
     const json found = showPages(folder, {"page.html"});
     return found.is_string() ? json{{"skipped", found}} : found.value(page, found);
@@ -151,7 +151,8 @@ TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
 {
     TemporaryFolder folder;
     for (const auto& [page, lang] : {std::pair<std::string, std::string>{"webgl2", "essl"}, {"webgpu", "wgsl"}})
-        for (const auto& [id, stage] : {std::pair<std::string, std::string>{"make", "vertex"}, {"perturb", "fragment"}}) {
+        for (const auto& [id, stage] :
+             {std::pair<std::string, std::string>{"make", "vertex"}, {"perturb", "fragment"}}) {
             const ToolRun printed =
                 runTool({"shader", "--lang", lang, "--frame", "triangle", "--stage", stage}, folder.path());
             ASSERT_EQ(printed.code, 0) << printed.err;

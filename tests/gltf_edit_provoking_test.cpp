@@ -26,8 +26,8 @@ std::vector<std::string> bytesOf(const ReadBack& model, int accessor)
     const json& sparse = a["sparse"];
     const auto at = [&](const char* part, std::size_t i, std::size_t step) {
         const json& view = model.root["bufferViews"][sparse[part]["bufferView"].get<int>()];
-        return model.buffer.substr(
-            view.value("byteOffset", 0u) + sparse[part].value("byteOffset", 0u) + i * step, step);
+        return model.buffer.substr(view.value("byteOffset", 0u) + sparse[part].value("byteOffset", 0u) + i * step,
+                                   step);
     };
     for (std::size_t i = 0; i < sparse["count"]; ++i) {
         const std::string index = at("indices", i, sizes.at(sparse["indices"]["componentType"]));
@@ -232,9 +232,10 @@ TEST(GltfProvoking, theRestartValueIsRefusedAndNeverWritten)
     }
     // 255 vertices fit into bytes, 256 do not, for 255 means restart; so for shorts. Three vertices provoke three
     // triangles; a fourth needs a copy.
-    for (const auto& [vertices, before, again, after] :
-         {std::tuple{255u, kUByte, 2, kUByte}, {255u, kUByte, 3, kUShort}, {65535u, kUShort, 2, kUShort},
-          {65535u, kUShort, 3, kUInt}}) {
+    for (const auto& [vertices, before, again, after] : {std::tuple{255u, kUByte, 2, kUByte},
+                                                         {255u, kUByte, 3, kUShort},
+                                                         {65535u, kUShort, 2, kUShort},
+                                                         {65535u, kUShort, 3, kUInt}}) {
         Gltf g = square();
         primitive(g) = {{"attributes", {{"POSITION", g.floats(std::vector<float>(vertices * 3, 0.5f), "VEC3")}}}};
         std::vector<std::uint32_t> order(vertices);
@@ -262,8 +263,8 @@ TEST(GltfProvoking, mirroredSeamsShareVerticesAsBefore)
     EXPECT_EQ(p.rows.at(0).verticesAfter, 6u); // four provoke, two do not
 }
 
-// Joints, weights, colours of bytes, an attribute that nobody knows, a sparse morph target, positions of shorts
-// with bounds, and a vertex that no triangle uses.
+// Joints, weights, colours of bytes, an attribute that nobody knows, a sparse morph target, bounds, and a vertex that
+// no triangle uses.
 TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
 {
     Gltf g = square();
@@ -303,21 +304,46 @@ TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
     EXPECT_EQ(morph["max"], json({0, 0, 5})) << "6 was at the vertex that is gone";
 }
 
+// The bounds of integers are integers, though they stand for parts of 1.
+TEST(GltfProvoking, boundsOfQuantisedPositionsAreThoseOfTheStoredNumbers)
+{
+    Gltf g = square();
+    primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort); // vertex 2 goes
+    const int view = g.view(std::vector<std::int16_t>{-5, 0, 0, 0, 100, 0, 0, 0, 32767, 32767, 0, 0, 0, 300, 0, 0});
+    g.root["bufferViews"][std::size_t(view)]["byteStride"] = 8;
+    primitive(g)["attributes"]["POSITION"] = g.accessor({{"bufferView", view},
+                                                         {"componentType", kShort},
+                                                         {"normalized", true},
+                                                         {"type", "VEC3"},
+                                                         {"count", 4},
+                                                         {"min", {-5, 0, 0}},
+                                                         {"max", {32767, 32767, 0}}});
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(setGltfProvoking(*document, ProvokingVertex::first));
+    const auto& root = document->root;
+    const auto& made =
+        root["accessors"][root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(made["min"].dump(), "[-5,0,0]");
+    EXPECT_EQ(made["max"].dump(), "[100,300,0]");
+}
+
 // A target whose only change was at a vertex that is gone: glTF forbids sparse parts without values.
 TEST(GltfProvoking, sparsePartsWithoutValuesGo)
 {
     Gltf g = square();
     primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort);
     const int places = g.view(std::vector<std::uint16_t>{2}), values = g.view(std::vector<float>{0, 0, 5});
-    primitive(g)["targets"] = {
-        {{"POSITION",
-          g.accessor({{"componentType", kFloat},
-                      {"count", 4},
-                      {"type", "VEC3"},
-                      {"sparse",
-                       {{"count", 1},
-                        {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
-                        {"values", {{"bufferView", values}}}}}})}}};
+    primitive(g)["targets"] = {{{"POSITION",
+                                 g.accessor({{"componentType", kFloat},
+                                             {"count", 4},
+                                             {"type", "VEC3"},
+                                             {"sparse",
+                                              {{"count", 1},
+                                               {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                                               {"values", {{"bufferView", values}}}}}})}}};
     const Provoked p = expectProvoked(g);
     EXPECT_EQ(p.out.root.dump().find("sparse"), std::string::npos);
 }

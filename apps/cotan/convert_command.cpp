@@ -224,10 +224,11 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
-    a.option("--provoking", o.provoking,
-             "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "
-             "WebGL), for the frame triangle: vertex k then provokes triangle k. Copies vertices; without --to-frame "
-             "nothing else changes")
+    a.option(
+         "--provoking", o.provoking,
+         "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "
+         "WebGL), for the frame triangle: vertex k then provokes triangle k. Copies vertices; without --to-frame "
+         "nothing else changes")
         .from({"first", "last"})
         .in("CORNER")
         .withoutDefault();
@@ -245,7 +246,8 @@ void addConvertCommand(Arguments& tool)
     addCommand<ConvertCommandOptions>(
         tool,
         {"convert",
-         "make a glTF model's normal maps for another frame, and drop the tangents; or its vertices for the frame triangle",
+         "make a glTF model's normal maps for another frame, and drop the tangents; or its vertices for the frame "
+         "triangle",
          "the converted model, .glb or .gltf",
          {"cotan convert model.glb --to-frame smooth -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",

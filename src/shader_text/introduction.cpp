@@ -96,10 +96,11 @@ std::string call(const Choice& choice, Form form)
 std::string needs(const Choice& choice)
 {
     if (choice.stage == Stage::vertex)
-        return std::string("// Needs from the caller:\n"
-                           "//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
-                           "and those\n"
-                           "//   of the other two, read from ")
+        return std::string(
+                   "// Needs from the caller:\n"
+                   "//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
+                   "and those\n"
+                   "//   of the other two, read from ")
             + (choice.language == Language::essl ? "data textures" : "storage buffers")
             + ". Hand the three words on without interpolation (flat).\n"
               "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and WebGL\n"
