@@ -24,7 +24,9 @@ function sheets(provoking) {
 // The first primitive of a .glb that `cotan convert --provoking first|last` wrote, moved and scaled into view; nodes and
 // materials are not read.
 function readGlb(buffer, provoking) {
-  const view = new DataView(buffer), length = view.getUint32(12, true);
+  const view = new DataView(buffer);
+  if (buffer.byteLength < 20 || view.getUint32(0, true) !== 0x46546C67) throw new Error('expected a .glb file');
+  const length = view.getUint32(12, true);
   const root = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 20, length)));
   const read = index => {
     const a = root.accessors[index], v = root.bufferViews[a.bufferView];
@@ -49,6 +51,20 @@ function readGlb(buffer, provoking) {
   const scale = Math.min(5 / (high[0] - low[0]), 3 / (high[1] - low[1]));
   mesh.positions = p.map((x, i) => (x - (low[i % 3] + high[i % 3]) / 2) * scale - (i % 3 === 2 ? 4 : 0));
   return mesh;
+}
+
+// Draws the model that is chosen, or says what is wrong with it.
+function drawChosen(provoking, show) {
+  document.getElementById('model').onchange = async e => {
+    const said = document.getElementById('said');
+    said.textContent = '';
+    try {
+      load(readGlb(await e.target.files[0].arrayBuffer(), provoking));
+      show();
+    } catch (problem) {
+      said.textContent = problem.message;
+    }
+  };
 }
 
 // Four domes, as glTF stores them: red along +u, green up the image, flat is (128, 128, 255).

@@ -123,7 +123,7 @@ GltfProvoked sumOf(const std::vector<GltfProvoked>& primitives)
 
 double growthOf(const GltfProvoked& p)
 {
-    return double(p.verticesAfter) / double(std::max<std::size_t>(p.verticesBefore, 1));
+    return p.verticesBefore > 0 ? double(p.verticesAfter) / double(p.verticesBefore) : 1;
 }
 
 Json rowOf(const GltfProvoked& p)
@@ -139,6 +139,8 @@ Json rowOf(const GltfProvoked& p)
 std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
 {
     const GltfProvoked sum = sumOf(primitives);
+    if (primitives.empty())
+        return "no triangles: nothing was numbered anew";
     return fmt::format("{} of {}: {} vertices, before {}: {:.2f} times as many; vertex k provokes triangle k as its {}",
                        counted(sum.triangles, "triangle"), counted(primitives.size(), "primitive"), sum.verticesAfter,
                        sum.verticesBefore, growthOf(sum), provoking);
