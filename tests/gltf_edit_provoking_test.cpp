@@ -369,23 +369,5 @@ TEST(GltfProvoking, primitivesThatShareVerticesGetTheirOwnAndEqualOnesGoOnSharin
     EXPECT_EQ(floatsOf(p.out, made[3]["attributes"]["POSITION"], 3), kSquare);
 }
 
-TEST(GltfProvoking, compressedGeometryIsRefusedAndNothingChanges)
-{
-    Gltf g = square();
-    primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
-    g.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
-    const TemporaryFolder folder;
-    auto document = openText(folder, g.text());
-    if (!document) { // refused when it is opened
-        EXPECT_NE(document.error().message.find("KHR_draco_mesh_compression"), std::string::npos);
-        return;
-    }
-    const auto root = document->root;
-    const auto rows = setGltfProvoking(*document, ProvokingVertex::first);
-    ASSERT_FALSE(rows);
-    EXPECT_NE(rows.error().message.find("KHR_draco_mesh_compression"), std::string::npos);
-    EXPECT_EQ(document->root, root);
-}
-
 } // namespace
 } // namespace cotan::test

@@ -54,20 +54,11 @@ GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, Provo
     return done;
 }
 
-void refuseAnyCompressed(const GltfDocument& document)
-{
-    (void)forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
-        refuseCompressed(document.root["meshes"][m]["primitives"][p], primitiveField(m, p));
-        return Done{};
-    });
-}
-
 } // namespace
 
 Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking)
 {
     return caughtGltf(document.source->path, [&] {
-        refuseAnyCompressed(document);
         std::vector<GltfProvoked> all;
         std::map<std::string, Json> done; // by what a primitive drew what it draws now
         (void)forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {

@@ -41,7 +41,8 @@ struct GltfDocument {
 };
 
 // Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
-// are not opened. Errors (ErrorKind::input): those of loadGltf; EXT_meshopt_compression.
+// are not opened. Compressed geometry is decoded, and is plain in the document; a note says so. Errors: those of
+// loadGltf.
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The file that a document was read from, for messages; empty for one that was made from a scene.
@@ -69,8 +70,7 @@ struct GltfGeometry {
 };
 
 // mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
-// empty geometry.
-// Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
+// empty geometry. Errors (ErrorKind::input): indices out of range.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- tangents -------------------------------------------------------------------------------
@@ -86,12 +86,12 @@ struct GltfCornerTangents {
 // and morph targets, only where corners that share it differ; primitives that share their
 // attributes go on sharing them if all of them are given in one call. Strips and fans become lists.
 // Returns how many vertices were added.
-// Errors (ErrorKind::input): compressed geometry, no NORMAL; ErrorKind::usage: corners of the wrong
+// Errors (ErrorKind::input): no NORMAL; ErrorKind::usage: corners of the wrong
 // number. On error the document is unchanged.
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents);
 
 // Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
-Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
+bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- provoking vertices ---------------------------------------------------------------------
 
@@ -109,7 +109,7 @@ struct GltfProvoked {
 // lists. Vertices that no triangle uses are left out, and primitives that shared vertices get their own. Points and
 // lines stay as they are. Returns what has triangles; primitives that draw the same arrays go on sharing them, and
 // only the first is returned.
-// Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression). On error the document is unchanged.
+// Errors (ErrorKind::input): no memory for the copies; the document is then not to be used.
 Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking);
 
 // ---- images ---------------------------------------------------------------------------------
