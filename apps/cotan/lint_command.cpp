@@ -60,7 +60,7 @@ Status run(const LintCommandOptions& o)
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadTold(o, o.memory, o.model, Pixels::whereReadable);
+    auto scene = loadTold(o, limitsFor(o.memory, Pixels::whereReadable), o.model);
     if (!scene)
         return scene.error();
     if (Status applied = applyNormalMap(o.normalMap, o.memory, *scene); !applied)

@@ -15,6 +15,8 @@ namespace cotan::app {
 struct PictureOptions {
     std::string model; // empty: the built-in scene
     NormalMapOption normalMap;
+    std::string animation;
+    double time = 0;
     std::string size = "1280x720";
     std::string camera; // empty: the built-in scene's own, fit for a model
     std::string device = "auto";
