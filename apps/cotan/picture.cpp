@@ -48,7 +48,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
 {
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
     addMemoryOption(a, o.memory);
-    addNormalMapOption(a, o.normalMap);
+    addOwnMaps(a, o.maps);
     a.option("--animation", o.animation,
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
@@ -102,7 +102,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     }
     if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
         return ok.error();
-    if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
+    if (Status applied = applyOwnMaps(options.maps, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
         deriveVertexFrames(picture.scene, frame,
