@@ -14,6 +14,7 @@ set(COTAN_PACKAGE_fmt::fmt "fmt")
 set(COTAN_PACKAGE_nlohmann_json::nlohmann_json "nlohmann_json")
 set(COTAN_PACKAGE_PNG::PNG "PNG")
 set(COTAN_PACKAGE_JPEG::JPEG "JPEG")
+set(COTAN_PACKAGE_WebP::webp "WebP")
 set(COTAN_PACKAGE_assimp::assimp "assimp")
 set(COTAN_PACKAGE_draco::draco "draco CONFIG")
 set(COTAN_PACKAGE_meshoptimizer::meshoptimizer "meshoptimizer CONFIG")
@@ -23,6 +24,7 @@ set(COTAN_PC_TBB::tbb "tbb")
 set(COTAN_PC_fmt::fmt "fmt")
 set(COTAN_PC_PNG::PNG "libpng")
 set(COTAN_PC_JPEG::JPEG "libjpeg")
+set(COTAN_PC_WebP::webp "libwebp")
 set(COTAN_PC_assimp::assimp "assimp")
 set(COTAN_PC_draco::draco "draco")
 set(COTAN_FLAG_Threads::Threads "-pthread")
@@ -119,4 +121,5 @@ configure_package_config_file(cmake/cotanConfig.cmake.in ${PROJECT_BINARY_DIR}/c
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cotanConfig.cmake ${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
+  cmake/FindWebP.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)

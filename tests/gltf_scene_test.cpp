@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "gltf_maker.hpp"
+#include "webp_maker.hpp"
 
 using namespace cotan;
 using namespace cotan::test;
@@ -243,6 +244,26 @@ TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
     g.root["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}};
     COTAN_LOADED(embedded, g.load());
     EXPECT_EQ(embedded.images.at(0).data, file.images.at(0).data);
+}
+
+TEST(GltfMaterial, aWebpOfItsExtensionIsReadWhereThereIsNoPlainSource)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const int webp =
+        g.add("images", {{"uri", "data:image/webp;base64," + base64(makeWebp(1, 1, {{130, 120, 250, 255}}))}});
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"EXT_texture_webp"};
+    g.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = webp;
+    COTAN_LOADED(both, g.load());
+    EXPECT_EQ(both.images.at(0).width, 2) << "the plain source";
+    EXPECT_TRUE(both.warnings.empty());
+    g.root["textures"][0].erase("source");
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.warnings.empty());
+    const Image& image = scene.images.at(std::size_t(scene.materials.at(0).normalMap.image));
+    ASSERT_EQ(image.pixelCount(), 1u);
+    EXPECT_EQ(image.bytes8()[0], 130);
+    EXPECT_EQ(image.bytes8()[2], 250);
 }
 
 TEST(GltfMaterial, unusedImagesAreNotDecoded)

@@ -203,7 +203,10 @@ struct Foreign {
     std::string bytes;
 };
 
-const Foreign kForeign[] = {{"EXT_texture_webp", "waves.webp", "WebP", std::string("RIFF\x10\0\0\0WEBPVP8 ", 16)},
+const Foreign kForeign[] = {{"EXT_texture_avif", "waves.avif", "AVIF",
+                             std::string("\0\0\0\x1c"
+                                         "ftypavif and more",
+                                         21)},
                             {"KHR_texture_basisu", "waves.ktx2", "KTX2", std::string("\xabKTX 20\xbb\r\n\x1a\n more")}};
 
 void writeForeign(const Foreign& f, const std::filesystem::path& folder)
@@ -276,7 +279,7 @@ TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
     writeForeign(kForeign[0], folder.path());
     EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, folder.path()).code,
               2);
-    std::ofstream(folder / "waves.webp") << "not an image";
+    std::ofstream(folder / "waves.avif") << "not an image";
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 2); // broken is not foreign
 }
 

@@ -215,12 +215,10 @@ constexpr std::array kSupported{
     string_view("KHR_meshopt_compression"),
 };
 
-// These put an image of another format in the place of a texture's; they matter to who needs the pixels.
-constexpr std::array kImageFormats{
+// The same in formats that are not read; they matter to who needs the pixels.
+constexpr std::array kUnreadImages{
     string_view("KHR_texture_basisu"),
-    string_view("EXT_texture_webp"),
     string_view("EXT_texture_avif"),
-    string_view("MSFT_texture_dds"),
 };
 
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
@@ -235,8 +233,8 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
         for (std::size_t i = 0; names && i < names->size(); ++i) {
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const bool known = std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
-            const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
+            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != all.end(); };
+            const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = in(kUnreadImages);
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));

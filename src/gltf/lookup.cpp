@@ -83,4 +83,17 @@ std::set<std::size_t> texturesBesideNormalMap(const Json& material)
     return textures;
 }
 
+void takeOffExtension(Json& root, const std::string& name)
+{
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+        const auto names = root.find(list);
+        if (names == root.end())
+            continue;
+        auto& items = names->get_ref<Json::array_t&>();
+        std::erase(items, name);
+        if (items.empty())
+            root.erase(list);
+    }
+}
+
 } // namespace cotan
