@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "gltf_maker.hpp"
+#include "ktx2_maker.hpp"
 #include "webp_maker.hpp"
 
 using namespace cotan;
@@ -264,6 +265,22 @@ TEST(GltfMaterial, aWebpOfItsExtensionIsReadWhereThereIsNoPlainSource)
     ASSERT_EQ(image.pixelCount(), 1u);
     EXPECT_EQ(image.bytes8()[0], 130);
     EXPECT_EQ(image.bytes8()[2], 250);
+}
+
+// (0.6, 0, 0.8) within a code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes.
+TEST(GltfMaterial, aNormalMapOfTwoChannelsGetsItsThird)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const std::string file = makeKtx2({.format = 16, .levels = {{"\xcc\x80"}}});
+    g.root["images"][0] = {{"uri", "data:image/ktx2;base64," + base64(file)}};
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_texture_basisu"};
+    g.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.images.at(0).pixelCount(), 1u);
+    EXPECT_EQ(scene.images[0].bytes8()[0], 204);
+    EXPECT_EQ(scene.images[0].bytes8()[2], 230);
 }
 
 TEST(GltfMaterial, unusedImagesAreNotDecoded)

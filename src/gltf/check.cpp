@@ -215,11 +215,8 @@ constexpr std::array kSupported{
     string_view("KHR_meshopt_compression"),
 };
 
-// The same in formats that are not read; they matter to who needs the pixels.
-constexpr std::array kUnreadImages{
-    string_view("KHR_texture_basisu"),
-    string_view("EXT_texture_avif"),
-};
+// The same in a format that is not read; it matters to who needs the pixels.
+constexpr string_view kUnreadImages = "EXT_texture_avif";
 
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
 // can be drawn without them, if that is said. Any other unknown extension may change what the
@@ -234,7 +231,7 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
             const auto in = [&](const auto& all) { return std::ranges::find(all, name) != all.end(); };
-            const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = in(kUnreadImages);
+            const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = name == kUnreadImages;
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cotan/files/bytes.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "material.hpp"
@@ -131,6 +132,9 @@ void GltfMaterials::decodeImages()
     for (const GltfProblem& problem : problems) // the first in the file, whichever came first
         if (!problem.message.empty())
             throw problem;
+    for (const Material& material : scene_.materials)
+        if (material.normalMap.image >= 0)
+            completeNormals(scene_.images[std::size_t(material.normalMap.image)]);
     for (std::size_t i = 0; i < jobs.size(); ++i)
         if (!foreign[i].empty())
             model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));

@@ -12,6 +12,7 @@
 #include "cotan/image/convert.hpp"
 #include "formats.hpp"
 #include "jpeg.hpp"
+#include "ktx2.hpp"
 #include "png.hpp"
 #include "sandboxed.hpp"
 #include "webp.hpp"
@@ -41,12 +42,22 @@ bool isJpeg(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "
 std::string foreignFormat(std::span<const std::byte> bytes)
 {
     const std::string format = pictureFormat(bytes);
-    const bool foreign = format == "AVIF" || format == "KTX2" || (format == "WebP" && !readsWebp())
-        || (format == "DDS" && !readsOtherFormats());
+    if (format == "KTX2" && !foreignKtx2(bytes).empty())
+        return "KTX2 with " + foreignKtx2(bytes);
+    const bool foreign =
+        format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats());
     return foreign ? format : "";
 }
 
 namespace {
+
+Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->read(bytes, name, limits);
+}
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
@@ -56,19 +67,23 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     if (format == "JPEG")
         if (auto image = readJpeg(bytes, name, limits))
             return *std::move(image);
-    if (format == "AVIF" || format == "KTX2")
-        return unavailableError(fmt::format("{}: {} pictures are not read here", name, format));
+    if (format == "AVIF")
+        return unavailableError(fmt::format("{}: AVIF pictures are not read here", name));
+    if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
+        return unavailableError(fmt::format(
+            "{}: {} is not decoded here{}", name, payload,
+            payload.starts_with("BasisU") ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is"
+                                          : ""));
     if (format.empty() && !knownImage(bytes, name))
         return inputError(fmt::format(
-            "{}: expected an image (PNG, JPEG, WebP, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
+            "{}: expected an image (PNG, JPEG, WebP, KTX2, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
     if (!limits.sandbox.program.empty())
         return decodeSandboxed(bytes, name, limits);
     if (format == "WebP")
         return readWebp(bytes, name, limits);
-    const auto formats = imageFormats();
-    if (!formats)
-        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
-    return (*formats)->read(bytes, name, limits);
+    if (format == "KTX2")
+        return readKtx2(bytes, name, limits, readOther);
+    return readOther(bytes, name, limits);
 }
 
 } // namespace
