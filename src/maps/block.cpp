@@ -90,10 +90,11 @@ Ends leastSquares(const Ends& from, const Values& values, const Values& weights)
     return valid(to) ? to : from;
 }
 
+constexpr std::array<Ends, 6> kMoves{{{-1, 1}, {0, 1}, {-1, 0}, {1, 0}, {0, -1}, {1, -1}}};
+
 // Moves ends by one as long as that helps, a few times at most.
 void descend(Ends& best, float& error, const Values& values, const Values& weights)
 {
-    constexpr std::array<Ends, 6> kMoves{{{-1, 1}, {0, 1}, {-1, 0}, {1, 0}, {0, -1}, {1, -1}}};
     constexpr int kRounds = 3;
     for (int round = 0, moved = 1; moved != 0 && round < kRounds; ++round) {
         moved = 0;
@@ -186,11 +187,12 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
     return t;
 }
 
-// Of the four pairs of places around each texel that with the smallest angle.
-void pairUp(const Texels& t, const Ends& x, const Ends& y, Places& placesX, Places& placesY)
+// Of the four pairs of places around each texel that with the smallest angle. Returns the sum of their squares.
+float pairUp(const Texels& t, const Ends& x, const Ends& y, Places& placesX, Places& placesY)
 {
     const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
     const float inverseX = 1 / stepX, inverseY = 1 / stepY;
+    Four sum{};
     const auto below = [](Four value, float low, float inverse) {
         return __builtin_convertvector(least(most((value - low) * inverse, kNone), kNone + 6), FourInts);
     };
@@ -208,17 +210,52 @@ void pairUp(const Texels& t, const Ends& x, const Ends& y, Places& placesX, Plac
             rightX = better ? FourInts{} + (k & 1) : rightX;
             rightY = better ? FourInts{} + (k >> 1) : rightY;
         }
+        sum += smallest;
         const FourInts atX = px + rightX, atY = py + rightY;
         std::memcpy(placesX.data() + 4 * i, &atX, sizeof atX);
         std::memcpy(placesY.data() + 4 * i, &atY, sizeof atY);
     }
+    return sumOf(sum);
+}
+
+// Whether the error of x counts for y: from tilts of some 30 degrees.
+bool steep(const Texels& t)
+{
+    constexpr float kFrom = 0.3f;
+    Four square{};
+    for (std::size_t i = 0; i < 4; ++i)
+        square = most(square, t.u[i] * t.u[i] + t.v[i] * t.v[i]);
+    return std::max(std::max(square[0], square[1]), std::max(square[2], square[3])) > kFrom;
+}
+
+// Moves each end of both channels by one where that makes the angles smaller.
+void settleTogether(const Texels& t, Ends& x, Ends& y, Places& placesX, Places& placesY)
+{
+    float error = pairUp(t, x, y, placesX, placesY);
+    for (Ends* const ends : {&x, &y})
+        for (const Ends& by : kMoves) {
+            const Ends before = *ends;
+            *ends = {before.high + by.high, before.low + by.low};
+            Places tryX, tryY;
+            const float there = valid(*ends) ? pairUp(t, x, y, tryX, tryY) : error;
+            if (there < error) {
+                error = there;
+                placesX = tryX;
+                placesY = tryY;
+            } else {
+                *ends = before;
+            }
+        }
 }
 
 void encodeNormals(const Texels& t, std::byte* to)
 {
-    const Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
+    Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
     Places placesX{}, placesY{};
-    pairUp(t, x, y, placesX, placesY);
+    if (steep(t))
+        settleTogether(t, x, y, placesX, placesY);
+    else
+        pairUp(t, x, y, placesX, placesY);
     put(x, placesX, to);
     put(y, placesY, to + 8);
 }
