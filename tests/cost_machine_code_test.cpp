@@ -86,7 +86,8 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
 {
     // On the processor too: the way is the same. What the times are is not tested.
     const std::vector<const Row*> some = {rowFromName("floor"), rowFromName("mikktspace"), rowFromName("smooth"),
-                                          rowFromName("exact"), rowFromName("cotangent-fused")};
+                                          rowFromName("exact"), rowFromName("triangle-halfs"),
+                                          rowFromName("triangle-read"), rowFromName("cotangent-fused")};
     const auto timed = timeRows(some, {{}, true, 1});
     if (!timed || timed->empty())
         GTEST_SKIP() << "no Vulkan device";
@@ -98,6 +99,15 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
             ASSERT_EQ(r.nanosecondsPerMillionPixels.size(), triangleLegs().size());
             for (const double t : r.nanosecondsPerMillionPixels)
                 EXPECT_GT(t, 0) << d.name << " " << r.row;
+        }
+        // 2 cells^2 triangles, of which each owns its provoking vertex. Few vertices are left over.
+        const auto row = [&](std::string_view name) { return *std::ranges::find(d.rows, name, &TimedRow::row); };
+        for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
+            const auto cells = std::uint32_t(1024 / triangleLegs()[i]);
+            EXPECT_EQ(row("mikktspace").vertices[i], (cells + 1) * (cells + 1));
+            EXPECT_EQ(row("triangle-read").vertices[i], (cells + 1) * (cells + 1));
+            EXPECT_GE(row("triangle-halfs").vertices[i], 2 * cells * cells);
+            EXPECT_LE(row("triangle-halfs").vertices[i], 2 * cells * cells + 2 * cells + 1);
         }
     }
 }

@@ -324,8 +324,10 @@ Json toJson(const CostReport& report)
     for (const DeviceTiming& d : report.timing) {
         Json device = {
             {"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}, {"legs", triangleLegs()}};
-        for (const TimedRow& r : d.rows)
+        for (const TimedRow& r : d.rows) {
             device["nanoseconds_per_million_pixels"][std::string(r.row)] = r.nanosecondsPerMillionPixels;
+            device["vertices"][std::string(r.row)] = r.vertices;
+        }
         json["timing"].push_back(std::move(device));
     }
     return json;
