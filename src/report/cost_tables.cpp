@@ -7,17 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "cotan/cost/break_even.hpp"
 #include "cotan/cost/scalar_count.hpp"
 #include "cotan/cost/spirv_count.hpp"
 #include "cotan/files/output.hpp"
+#include "cost_markdown.hpp"
 
 namespace cotan {
 
-namespace {
-
 using namespace cost;
-using Table = std::vector<std::vector<std::string>>; // the first row is the header
 
 std::string aligned(const Table& table)
 {
@@ -39,16 +36,6 @@ std::string aligned(const Table& table)
     return text + '\n';
 }
 
-std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
-
-// The floor as it is; other rows as what they add to it.
-std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
-{
-    if (!value || !floor)
-        return "-";
-    return isFloor ? plain(value) : fmt::format("{:+.0f}", *value - *floor);
-}
-
 std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
 
 std::vector<const DeviceCode*> devicesWithCode(const CostReport& report)
@@ -60,12 +47,23 @@ std::vector<const DeviceCode*> devicesWithCode(const CostReport& report)
     return list;
 }
 
-// `header`, and a column for each of the devices.
 Table tableOf(std::vector<std::string> header, const std::vector<const DeviceCode*>& devices)
 {
     for (const DeviceCode* d : devices)
         header.push_back(title(*d));
     return {std::move(header)};
+}
+
+namespace {
+
+std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
+
+// The floor as it is; other rows as what they add to it.
+std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
+{
+    if (!value || !floor)
+        return "-";
+    return isFloor ? plain(value) : fmt::format("{:+.0f}", *value - *floor);
 }
 
 std::string overview(const CostReport& report)
@@ -117,27 +115,6 @@ std::string details(const DeviceCode& d)
         + fmt::format("### {}: whole other stages\n\n", title(d)) + aligned(others);
 }
 
-std::string ratio(double pixels)
-{
-    return std::isinf(pixels) ? "always" : pixels <= 0 ? "never" : fmt::format("{:.2f}", pixels);
-}
-
-const RowCode* find(const DeviceCode& d, std::string_view row)
-{
-    for (const RowCode& r : d.rows)
-        if (r.row == row)
-            return &r;
-    return nullptr;
-}
-
-// Extra instructions of the vertex stage with a stored tangent.
-std::optional<double> tangentAtVertex(const DeviceCode& d)
-{
-    const auto with = d.vertices[std::size_t(Stored::tangent)].vertex.instructions;
-    const auto without = d.vertices[std::size_t(Stored::nothing)].vertex.instructions;
-    return with && without ? std::optional(*with - *without) : std::nullopt;
-}
-
 std::string vertexStages(const CostReport& report)
 {
     const auto devices = devicesWithCode(report);
@@ -187,31 +164,6 @@ std::string stagesBesides(const CostReport& report)
         + otherStagesOf(StageKind::pass, report)
         + "### What a frame adds where a visibility buffer is resolved, in instructions\n\n"
         + otherStagesOf(StageKind::resolve, report);
-}
-
-std::string breakEven(const CostReport& report)
-{
-    const auto devices = devicesWithCode(report);
-    Table table = tableOf({"wins below ... pixels a vertex", "in bytes"}, devices);
-    const int tangentBytes = vertexStage(Stored::tangent).bytes;
-    for (const Row* row : report.rows) {
-        if (row->stored != Stored::nothing || row->group == Group::floor || row->group == Group::papers)
-            continue;
-        std::vector<std::string> line = {std::string(row->name),
-                                         ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};
-        for (const DeviceCode* d : devices) {
-            const RowCode* mine = find(*d, row->name);
-            const RowCode* mikktspace = find(*d, "mikktspace");
-            const auto vertex = tangentAtVertex(*d);
-            const bool known =
-                mine && mikktspace && vertex && mine->fragment.instructions && mikktspace->fragment.instructions;
-            line.push_back(known ? ratio(pixelsPerVertex(
-                               *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
-                                 : "-");
-        }
-        table.push_back(std::move(line));
-    }
-    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
 }
 
 std::string frameOperations()
@@ -275,7 +227,7 @@ Json operationsJson(const Operations& o)
 
 } // namespace
 
-std::string toMarkdown(const CostReport& report)
+std::string toMarkdown(const CostReport& report, const std::string& chart)
 {
     std::string text = fmt::format("Machine: {}. SPIR-V: {}.\n", report.machine, spirvCompiler());
     for (const DeviceCode& d : report.code)
@@ -285,6 +237,8 @@ std::string toMarkdown(const CostReport& report)
     const auto devices = devicesWithCode(report);
     if (!devices.empty())
         text += vertexStages(report) + breakEven(report);
+    if (!chart.empty())
+        text += fmt::format("![Cost of a triangle against `mikktspace`, by the pixels it covers]({})\n\n", chart);
     text += stagesBesides(report);
     for (const DeviceCode* d : devices)
         text += details(*d);
