@@ -127,6 +127,12 @@ const RangedForm kFusedForms[] = {
          const double position = std::max(glm::length(i.dpdx), glm::length(i.dpdy));
          return position * position * i.slope() * double(glm::length(i.n)) <= 1e5;
      }},
+    {"cotangent-seen",
+     [](const RangeInput& i) {
+         const double side = glm::dot(glm::dvec3(i.n), glm::cross(glm::dvec3(i.dpdx), glm::dvec3(i.dpdy)));
+         return f32::cotan_perturb_cotangent_seen(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m, side < 0 ? -1.0f : 1.0f);
+     },
+     f64::cotan_frame_triangle, any},
     {"gradient", COTAN_FUSED(cotan_perturb_gradient), f64::cotan_frame_gradient,
      [](const RangeInput& i) { return i.area() * double(glm::length(i.n) * i.m.z) >= 1e-10; }},
     {"orthonormal", COTAN_FUSED(cotan_perturb_orthonormal), f64::cotan_frame_orthonormal, any},
