@@ -205,10 +205,10 @@ TEST(Fused, orthonormalLeansNothingWhereUvHaveNoArea)
 
 TEST(Fused, theLimitsOfScaleAreInside)
 {
-    // Products of the differences of 1e-12 and 1e5, as fused.h promises; gradient has its own
-    // limit.
+    // Products of the differences of 1e-12 and 1e5, as fused.h promises; cotangent-seen and gradient
+    // have their own limits.
     Random random(20);
-    for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[2], kPairs[4]})
+    for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[4]})
         for (const auto& [p, uv] :
              {std::pair(1e-6f, 1e-6f), std::pair(1e-9f, 1e-3f), std::pair(1e5f, 1.0f), std::pair(1e-1f, 1e6f)})
             for (int k = 0; k < 500; ++k) {

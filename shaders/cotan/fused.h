@@ -88,14 +88,15 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
 // leans from the triangle's own normal by an angle a, slopes are those of `cotangent` times a factor
 // between cos(a) and 1. n on the other side: bumps come out as dents.
 // How: n x U and n x V are taken as one product, of the sum, and the length of n cancels. m.z is multiplied
-// by the scale instead of dividing m.x and m.y by it, so nothing has to be guarded.
+// by the scale instead of dividing m.x and m.y by it, so nothing has to be guarded. Besides the limits
+// above: the longest position difference times the longest uv difference times m.z at least 1e-11.
 COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_seen(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy,
     cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m, cotan_real side)
 {
     cotan_vec3 u = dpdx * duvdy.x - dpdy * duvdx.x;
     cotan_vec3 v = dpdx * duvdy.y - dpdy * duvdx.y;
     cotan_real longest = sqrt(max(dot(u, u), dot(v, v)));
-    cotan_vec3 r = n * (m.z * longest + cotan_real(1e-16)) // as COTAN_FUSED_REST, for smaller sums
+    cotan_vec3 r = n * (m.z * longest + cotan_real(2e-17)) // as COTAN_FUSED_REST, for smaller sums
         + cross(n, u * (m.x * side) + v * (m.y * side));
     return r * cotan_inversesqrt(dot(r, r));
 }
