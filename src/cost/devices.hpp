@@ -26,9 +26,10 @@ struct Device {
     std::string driver;
     bool cpu = false;
     bool radv = false;
-    bool reports = false;   // machine code
-    std::string missing;    // empty: it can be opened
-    double nanoseconds = 0; // per tick of its timestamps; 0: it has none
+    bool reports = false;     // machine code
+    bool meshShaders = false; // VK_EXT_mesh_shader
+    std::string missing;      // empty: it can be opened
+    double nanoseconds = 0;   // per tick of its timestamps; 0: it has none
 };
 
 // All devices, not opened.

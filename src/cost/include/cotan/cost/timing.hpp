@@ -1,6 +1,7 @@
 // How long the rows take, on devices with timestamps.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace cotan::cost {
 struct TimedRow {
     std::string_view row;
     std::vector<double> nanosecondsPerMillionPixels; // medians, one per triangle size
+    // As many: of the mesh that is drawn. More where every triangle owns its provoking vertex (cotan/provoking.hpp).
+    std::vector<std::uint32_t> vertices;
 };
 
 struct DeviceTiming {
