@@ -51,7 +51,7 @@ Layout makeLayout(const Device& device)
 
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
                                 std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                bool capture)
+                                bool capture, int samplesAPixel)
 {
     const vk::raii::ShaderModule vertexModule = makeModule(device, vertex);
     const vk::raii::ShaderModule fragmentModule = makeModule(device, fragment);
@@ -65,7 +65,7 @@ vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stor
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
-    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
+    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits(samplesAPixel));
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState attachment;
     attachment.colorWriteMask = C::eR | C::eG | C::eB | C::eA;

@@ -17,10 +17,10 @@ struct Layout {
 Layout makeLayout(const Device& device);
 
 // Vertices: one binding; position, normal, uv, then what is stored, all as 32-bit floats, packed.
-// capture: ask the driver for statistics. Throws vk::SystemError.
+// capture: ask the driver for statistics. samples: a pixel. Throws vk::SystemError.
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
                                 std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                bool capture);
+                                bool capture, int samples = 1);
 
 // Floats of a vertex.
 std::uint32_t vertexFloats(Stored stored);

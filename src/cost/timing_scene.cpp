@@ -17,28 +17,51 @@ std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::Memory
 
 } // namespace
 
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+static Buffer emptyBuffer(const Device& device, vk::BufferUsageFlags usage, std::size_t bytes,
+                          vk::MemoryPropertyFlags memory)
 {
     Buffer b;
     b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
     const auto needs = b.buffer.getMemoryRequirements();
-    using M = vk::MemoryPropertyFlagBits;
-    b.memory = vk::raii::DeviceMemory(
-        device.device, {needs.size, memoryType(device, needs.memoryTypeBits, M::eHostVisible | M::eHostCoherent)});
+    b.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, memory)});
     b.buffer.bindMemory(*b.memory, 0);
+    return b;
+}
+
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+{
+    using M = vk::MemoryPropertyFlagBits;
+    Buffer b = emptyBuffer(device, usage, bytes, M::eHostVisible | M::eHostCoherent);
     std::memcpy(b.memory.mapMemory(0, bytes), data, bytes);
     b.memory.unmapMemory();
     return b;
 }
 
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage)
+Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+{
+    using U = vk::BufferUsageFlagBits;
+    const Buffer staging = makeBuffer(device, U::eTransferSrc, data, bytes);
+    Buffer b = emptyBuffer(device, usage | U::eTransferDst, bytes, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    const vk::raii::CommandPool pool(device.device, {{}, device.queueFamily});
+    const vk::raii::CommandBuffers list(device.device, {*pool, vk::CommandBufferLevel::ePrimary, 1});
+    list[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    list[0].copyBuffer(*staging.buffer, *b.buffer, vk::BufferCopy(0, 0, bytes));
+    list[0].end();
+    const vk::raii::Queue queue = device.device.getQueue(device.queueFamily, 0);
+    queue.submit(vk::SubmitInfo({}, {}, *list[0]));
+    queue.waitIdle();
+    return b;
+}
+
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage,
+                    int samples)
 {
     Picture p;
-    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits::e1,
+    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits(samples),
                              vk::ImageTiling::eOptimal, usage);
     p.image = vk::raii::Image(device.device, info);
     const auto needs = p.image.getMemoryRequirements();
-    p.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, {})});
+    p.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
     p.image.bindMemory(*p.memory, 0);
     p.view = vk::raii::ImageView(device.device,
                                  vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
@@ -46,9 +69,9 @@ Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
     return p;
 }
 
-Grid makeGrid(const Device& device, int leg)
+Grid makeGrid(const Device& device, int leg, int side)
 {
-    const std::uint32_t cells = kTargetSize / static_cast<std::uint32_t>(leg);
+    const std::uint32_t cells = static_cast<std::uint32_t>(side / leg);
     std::vector<float> positions, texcoords, normals;
     std::vector<std::vector<float>> vertices(vertexStages().size());
     for (std::uint32_t y = 0; y <= cells; ++y)
@@ -74,11 +97,11 @@ Grid makeGrid(const Device& device, int leg)
     using U = vk::BufferUsageFlagBits;
     Grid grid;
     for (const auto& list : vertices)
-        grid.vertices.push_back(makeBuffer(device, U::eVertexBuffer, list.data(), list.size() * 4));
-    grid.indices = makeBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
-    grid.positions = makeBuffer(device, U::eStorageBuffer, positions.data(), positions.size() * 4);
-    grid.texcoords = makeBuffer(device, U::eStorageBuffer, texcoords.data(), texcoords.size() * 4);
-    grid.normals = makeBuffer(device, U::eStorageBuffer, normals.data(), normals.size() * 4);
+        grid.vertices.push_back(makeDeviceBuffer(device, U::eVertexBuffer, list.data(), list.size() * 4));
+    grid.indices = makeDeviceBuffer(device, U::eIndexBuffer | U::eStorageBuffer, indices.data(), indices.size() * 4);
+    grid.positions = makeDeviceBuffer(device, U::eStorageBuffer, positions.data(), positions.size() * 4);
+    grid.texcoords = makeDeviceBuffer(device, U::eStorageBuffer, texcoords.data(), texcoords.size() * 4);
+    grid.normals = makeDeviceBuffer(device, U::eStorageBuffer, normals.data(), normals.size() * 4);
     grid.indexCount = static_cast<std::uint32_t>(indices.size());
     return grid;
 }
