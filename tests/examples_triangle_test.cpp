@@ -12,7 +12,7 @@ namespace cotan::test {
 namespace {
 
 #ifdef COTAN_TRIANGLE_EXAMPLE
-std::string way(const std::string& name) { return std::string(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
+std::string way(const std::string& name) { return programAt(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
 
 // All normals of the teapot, empty pixels being zero.
 std::vector<Vec> teapot(const std::string& name)

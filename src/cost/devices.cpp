@@ -64,6 +64,7 @@ std::vector<Device> listDevices(const Instance& instance)
     std::vector<Device> devices;
     for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance.instance))
         devices.push_back(describe(std::move(physical)));
+    std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.cpu; });
     return devices;
 }
 

@@ -236,7 +236,7 @@ Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, 
         const Instance instance = openInstance();
         std::vector<DeviceTiming> result;
         for (Device& device : listDevices(instance)) {
-            if (!wanted(device.name, options.devices))
+            if (!wanted(device.name, options.devices) || result.size() >= options.most)
                 continue;
             DeviceTiming timing;
             timing.name = device.name;

@@ -50,6 +50,7 @@ struct TimingOptions {
     int repeats = 15;                 // of which the median is taken
     std::vector<TimingCase> cases = usualCases();
     double seconds = std::numeric_limits<double>::infinity(); // cases that would begin later are skipped
+    std::size_t most = std::numeric_limits<std::size_t>::max(); // devices: the first ones
 };
 
 // Draws each case with every row, all rows once per repeat, so that a drift of the clock meets all alike.
