@@ -166,7 +166,7 @@ Take = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, c.POINTER(Picture), c.POINTER(P
 call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3),
      Take(lambda user, level, normals, rough: sizes.append((level, normals[0].width, rough[0].height)) or 0), None)
 assert sizes == [(i, side >> i, side >> i) for i in range(7)], sizes
-call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3), Take(lambda *a: 1), None, expect=1)
+call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3), Take(lambda *a: 1), None, expect=6)
 
 # A flat detail changes nothing; the base is unit up to its 8 bits.
 flat = (c.c_uint8 * 4)(128, 128, 255, 255)
@@ -321,6 +321,15 @@ if lint_of(model) is not None:
     back_again = ConvertOptions(b"cotangent", b"mikktspace", 0, 0, 0, 1, Progress(), None)
     call("cotan_convert_gltf", whole, c.c_size_t(len(whole)), c.byref(files), c.byref(back_again), c.byref(convert), c.byref(glb), None)
     assert degrees([w - 128 for w in encoded[1][:3]], stored) < 0.5 and convert.primitives_given == 1
+    cotan.cotan_bytes_free(glb)
+
+    # Without a map nothing is judged, which is not 0 degrees.
+    plain = json.loads(model)
+    del plain["materials"][0]["normalTexture"]
+    plain = json.dumps(plain).encode()
+    call("cotan_convert_gltf", plain, c.c_size_t(len(plain)), c.byref(files), None, c.byref(convert), c.byref(glb), None)
+    assert convert.maps_converted == convert.maps_kept == 0
+    assert convert.worst_degrees_before == convert.worst_degrees_after == -1
     cotan.cotan_bytes_free(glb)
 
     # One line for whatever is wrong.

@@ -177,6 +177,8 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     auto options = parseOptions(o);
     if (!options)
         return options.error();
+    if (const auto why = HighSurface::unavailable())
+        return *why;
     const bool mapsCount = options->ownMaps && showsNormals(options->bake.kind);
     auto low = loadSceneWithin(o.memory, o.low);
     if (!low)

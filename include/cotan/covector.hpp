@@ -125,10 +125,9 @@ public:
 
     // The cofactor matrix times c, with the determinant's sign: the direction of operator(), but
     // finite for a flattened object too, where it is the normal of what remains.
-    Covector3<Real> planeImage(Covector3<Real> c) const
-    {
-        return Covector3<Real>(cofactor_ * c.raw() * Real(determinant_ < 0 ? -1 : 1));
-    }
+    Covector3<Real> planeImage(Covector3<Real> c) const { return Covector3<Real>(planeMatrix() * c.raw()); }
+    // The matrix of planeImage(), for many covectors: the inverse transpose up to a factor above 0.
+    Matrix planeMatrix() const { return cofactor_ * Real(determinant_ < 0 ? -1 : 1); }
 
 private:
     Matrix matrix_;

@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/covector.hpp"
 #include "curved_normals.hpp"
 
 namespace cotan {
@@ -29,18 +30,16 @@ Part placed(const Mesh& mesh, const glm::mat4& toWorld)
 {
     Part part;
     const glm::mat3 linear(toWorld);
-    const float side = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
-    const glm::mat3 cofactors =
-        glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]))
-        * side;
+    const LinearMap<float> map(linear);
+    const glm::mat3 covectors = map.planeMatrix();
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         part.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
-        const glm::vec3 n = cofactors * mesh.normals[v];
+        const glm::vec3 n = covectors * mesh.normals[v];
         const float length = glm::length(n);
         part.normals.push_back(length > 0 ? n / length : n);
     }
     part.indices = mesh.indices;
-    if (side < 0)
+    if (map.determinant() < 0)
         for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
             std::swap(part.indices[i + 1], part.indices[i + 2]);
     return part;
@@ -236,6 +235,8 @@ struct HighSurface::State {
         rtcReleaseGeometry(geometry);
     }
 };
+
+std::optional<Error> HighSurface::unavailable() { return std::nullopt; }
 
 Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int threads)
 {

@@ -8,10 +8,8 @@ struct HighSurface::State {
     std::vector<std::string> names;
 };
 
-Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int)
-{
-    return notBuiltWith("Embree", "libembree-dev");
-}
+std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
+Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int) { return *unavailable(); }
 
 HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
 HighSurface::HighSurface(HighSurface&&) noexcept = default;

@@ -188,12 +188,16 @@ void fill(const ConvertModelReport& report, cotan_convert_result& r)
     const std::size_t size = r.size;
     r = {};
     r.size = size;
+    r.worst_degrees_before = r.worst_degrees_after = -1;
+    const auto take = [](double& worst, const Spread& map) {
+        if (map.count > 0)
+            worst = std::max(worst, map.mean);
+    };
     for (const ConvertedMap& map : report.maps) {
         const Spread &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
         ++(map.kept ? r.maps_kept : r.maps_converted);
-        r.worst_degrees_before =
-            before.count > 0 ? std::max(r.worst_degrees_before, before.mean) : r.worst_degrees_before;
-        r.worst_degrees_after = after.count > 0 ? std::max(r.worst_degrees_after, after.mean) : r.worst_degrees_after;
+        take(r.worst_degrees_before, before);
+        take(r.worst_degrees_after, after);
     }
     r.primitives_given = report.primitivesGiven;
     r.tangent_bytes_dropped = report.dropped.bytes;

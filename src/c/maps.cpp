@@ -144,7 +144,8 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
         auto levels = maps::mipChain(image, settings);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             const cotan_picture normals = pictureOf(levels[i].normals), rough = pictureOf(levels[i].roughness);
-            require(take(user, int(i), &normals, &rough) == 0, "take: stopped by the caller");
+            if (take(user, int(i), &normals, &rough) != 0)
+                throw Failure{stoppedError()};
         }
     });
 }

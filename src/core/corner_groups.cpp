@@ -27,6 +27,15 @@ Side sideAt(const Edges& e, glm::vec3 normal)
     return side > 0 ? Side::mirrored : Side::unmirrored;
 }
 
+// How much a triangle has to say about which side a vertex is on: |cosine| of its plane to the vertex's. One that is
+// seen edge-on can take half a turn as seen along the normal, and folds over to the other side by rounding.
+static float openness(const Edges& e, glm::vec3 normal)
+{
+    const glm::dvec3 face = glm::cross(e.dp1, e.dp2);
+    const double lengths = glm::length(face) * glm::length(glm::dvec3(normal));
+    return lengths > 0 ? float(std::abs(glm::dot(face, glm::dvec3(normal))) / lengths) : 1.0f;
+}
+
 std::vector<Side> cornerSides(const MeshView& mesh)
 {
     std::vector<Side> sides(mesh.indices.size());
@@ -54,13 +63,14 @@ CornerGroups groupCorners(const MeshView& mesh)
     const std::size_t count = mesh.positions.size();
     CornerGroups g{weld(mesh), std::vector<Side>(mesh.indices.size()), CotangentSums(2 * count),
                    std::vector<std::size_t>(count)};
-    std::vector<float> share(2 * count, 0.0f); // angle by vertex as given and side
+    std::vector<float> share(2 * count, 0.0f); // angle times openness by vertex as given and side
     for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
         const std::uint32_t vertex = mesh.indices[c];
         const Edges e = edgesAt(mesh, c / 3, c % 3);
         const Side side = g.sides[c] = sideAt(e, mesh.normals[vertex]);
         if (side != Side::none)
-            share[slot(vertex, side)] += addCorner(g.sums, slot(g.first[vertex], side), e, mesh.normals[vertex]);
+            share[slot(vertex, side)] += addCorner(g.sums, slot(g.first[vertex], side), e, mesh.normals[vertex])
+                * openness(e, mesh.normals[vertex]);
     }
     const auto isEmpty = [&](std::size_t at) { return g.sums.isEmpty(at); };
     for (std::uint32_t vertex = 0; vertex < count; ++vertex) {

@@ -9,6 +9,12 @@
 
 namespace cotan {
 
+glm::vec3 unitOrZero(glm::dvec3 v)
+{
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
+}
+
 namespace {
 
 // Lengths within this of one are taken as unit: the corners of a signed 8-bit grid are off by up
@@ -26,12 +32,6 @@ template<class T> void spread(std::vector<T>& values, const std::vector<std::uin
     for (const std::uint32_t i : order)
         copy.push_back(values[i]);
     values = std::move(copy);
-}
-
-glm::vec3 unitOrZero(glm::dvec3 v)
-{
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
 }
 
 // glTF asks for flat normals where a primitive has none: every corner gets a vertex of its own

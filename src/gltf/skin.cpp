@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
+#include "cotan/covector.hpp"
 #include "mesh.hpp"
 
 namespace cotan {
@@ -35,23 +35,6 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vecto
     return sum;
 }
 
-// The cofactor matrix is the inverse transpose times the determinant, so it gives the direction
-// of a transformed normal even where the matrix has no inverse; the sign is put back.
-glm::dvec3 turnNormal(const glm::dmat3& m, double determinant, const glm::vec3& n)
-{
-    const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    const glm::dvec3 turned = cofactor * glm::dvec3(n) * (determinant < 0 ? -1.0 : 1.0);
-    const double length = glm::length(turned);
-    return length > 0 ? turned / length : glm::dvec3(0);
-}
-
-glm::vec4 turnTangent(const glm::dmat3& m, double determinant, const glm::vec4& t)
-{
-    const glm::dvec3 turned = m * glm::dvec3(t);
-    const double length = glm::length(turned);
-    return glm::vec4(length > 0 ? glm::vec3(turned / length) : glm::vec3(0), determinant < 0 ? -t.w : t.w);
-}
-
 } // namespace
 
 void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings)
@@ -66,13 +49,16 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
         }
         const glm::dmat4 matrix = sum.matrix / sum.weight;
         const glm::dmat3 linear(matrix);
-        const double determinant = glm::determinant(linear);
-        mirrored += determinant < 0;
+        const LinearMap<double> map(linear);
+        const bool mirrors = map.determinant() < 0;
+        mirrored += mirrors;
         primitive.positions[i] = glm::vec3(matrix * glm::dvec4(primitive.positions[i], 1));
         if (!primitive.normals.empty())
-            primitive.normals[i] = turnNormal(linear, determinant, primitive.normals[i]);
-        if (!primitive.tangents.empty())
-            primitive.tangents[i] = turnTangent(linear, determinant, primitive.tangents[i]);
+            primitive.normals[i] = unitOrZero(map.planeMatrix() * glm::dvec3(primitive.normals[i]));
+        if (!primitive.tangents.empty()) {
+            const glm::vec4 t = primitive.tangents[i];
+            primitive.tangents[i] = glm::vec4(unitOrZero(linear * glm::dvec3(t)), mirrors ? -t.w : t.w);
+        }
     }
     if (mirrored == primitive.positions.size())
         for (std::size_t i = 0; i < primitive.triangles.size(); i += 3)

@@ -130,6 +130,17 @@ OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc t
     return spec;
 }
 
+Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
+{
+    if (format == "tiff")
+        return checkTiff(file, limits);
+    if (format == "openexr")
+        return checkExr(file, limits);
+    if (format == "dds")
+        return checkDds(file);
+    return std::nullopt;
+}
+
 } // namespace oiio
 
 using namespace oiio;

@@ -7,13 +7,12 @@
 #include <span>
 #include <string>
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "cotan/files/limits.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
+#include "file_layout.hpp"
 
 namespace cotan::oiio {
 
@@ -33,8 +32,7 @@ void completeChannels(Image& image, int channels);
 // Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
 // strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
 // by those numbers, or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
-std::optional<std::string> checkFileLayout(OIIO::Filesystem::IOProxy& file, const std::string& format,
-                                           const LoadLimits& limits);
+Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits);
 
 // What a header may claim beside its size.
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name);

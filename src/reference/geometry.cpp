@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/covector.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/parallel/loops.hpp"
 
@@ -23,20 +24,17 @@ struct Transform {
 Transform transformOf(const glm::mat4& toWorld, glm::dvec3 eye)
 {
     Transform t;
-    glm::dmat3 m(toWorld);
     t.vectors = glm::mat3(toWorld);
     t.translation = glm::vec3(glm::dvec3(toWorld[3]) - eye);
-    // The matrix of cofactors is the inverse transpose times the determinant. It exists for
-    // singular matrices too: an instance squashed flat keeps the normal of its plane.
-    glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    double determinant = glm::dot(m[0], cofactors[0]);
-    t.mirrored = determinant < 0;
+    const LinearMap<double> map{glm::dmat3(toWorld)};
+    const glm::dmat3 covectors = map.planeMatrix();
+    t.mirrored = map.determinant() < 0;
     double largest = 0;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            largest = std::max(largest, std::abs(cofactors[column][row]));
+            largest = std::max(largest, std::abs(covectors[column][row]));
     bool usable = largest > 0 && std::isfinite(largest);
-    t.covectors = usable ? cofactors * ((t.mirrored ? -1.0 : 1.0) / largest) : glm::dmat3(0.0);
+    t.covectors = usable ? covectors / largest : glm::dmat3(0.0);
     return t;
 }
 

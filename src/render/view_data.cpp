@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/covector.hpp"
+
 namespace cotan {
 
 namespace {
@@ -197,20 +199,14 @@ gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
     g.rowY = row({x.y, y.y, z.y}, origin.y);
     g.rowZ = row({x.z, y.z, z.z}, origin.z);
 
-    // The cofactors are the inverse transpose times the determinant; they exist for flattening
-    // matrices too. Only directions matter, so the size is brought near one.
-    dvec3 cx = glm::cross(y, z);
-    dvec3 cy = glm::cross(z, x);
-    dvec3 cz = glm::cross(x, y);
-    const double sign = glm::dot(x, cx) < 0 ? -1 : 1;
-    const double size = std::max({glm::length(cx), glm::length(cy), glm::length(cz)});
-    const double scale = size > 0 && std::isfinite(size) ? sign / size : 0;
-    cx *= scale;
-    cy *= scale;
-    cz *= scale;
-    g.normalX = row({cx.x, cy.x, cz.x}, sign);
-    g.normalY = row({cx.y, cy.y, cz.y}, 0);
-    g.normalZ = row({cx.z, cy.z, cz.z}, 0);
+    // Only directions matter, so the size is brought near one.
+    const LinearMap<double> map{glm::dmat3(toWorld)};
+    glm::dmat3 c = map.planeMatrix();
+    const double size = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
+    c *= size > 0 && std::isfinite(size) ? 1 / size : 0;
+    g.normalX = row({c[0].x, c[1].x, c[2].x}, map.determinant() < 0 ? -1 : 1);
+    g.normalY = row({c[0].y, c[1].y, c[2].y}, 0);
+    g.normalZ = row({c[0].z, c[1].z, c[2].z}, 0);
     return g;
 }
 

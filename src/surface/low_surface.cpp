@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/covector.hpp"
 #include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
@@ -26,15 +27,14 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
 {
     const auto base = std::uint32_t(surface.positions.size());
     const glm::mat3 linear(toWorld);
-    const float determinant = glm::determinant(linear);
-    const glm::mat3 cofactors =
-        glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]))
-        * (determinant < 0 ? -1.0f : 1.0f);
+    const LinearMap<float> placing(linear);
+    const float determinant = placing.determinant();
+    const glm::mat3 covectors = placing.planeMatrix();
     // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
-    const bool rigid = cofactors == linear;
+    const bool rigid = covectors == linear;
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
-        surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(cofactors * mesh.normals[v]));
+        surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(covectors * mesh.normals[v]));
     }
     const std::vector<glm::vec2> uv = textureUv(map, mesh);
     surface.texcoords.insert(surface.texcoords.end(), uv.begin(), uv.end());

@@ -1,12 +1,16 @@
-/* Cotan for C and for bindings to other languages: plain arrays with sizes, no global state, any number of threads.
+/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state. Any thread may
+ * call any function.
  *
- * Every function that can fail returns a cotan_status. Where that is not COTAN_OK, one line is in `message`, cut to
- * `message_size` bytes with its zero; a null pointer and 0 are fine. Nothing is written to outputs then, unless said.
+ * Errors. Every function that can fail returns a cotan_status. Where that is not COTAN_OK, `message` holds one line
+ * that says why. It is cut to `message_size` bytes, the zero at its end included. A caller who wants no text passes a
+ * null pointer and 0. After an error nothing has been written to the outputs, unless the function says so.
  *
- * Structs begin with their size in bytes, which the caller sets (COTAN_INIT): a newer library goes on to understand
- * older callers. Arrays of vectors are packed floats, three or two to a vector. Pictures are packed red, green, blue,
- * alpha, rows from the top. Names are those of the command line; conventions are its words, such as "gltf" or
- * "unity,xyz". */
+ * Structs. Each begins with its size in bytes. The caller sets it (COTAN_INIT), so that a library that is newer than
+ * the caller knows which members are there.
+ *
+ * Data. Arrays of vectors are floats without gaps, two or three to a vector. Pictures are red, green, blue, alpha
+ * without gaps, rows from the top. Names of frames and other words are those of the command line. So are conventions:
+ * "gltf", "unity,xyz". */
 #ifndef COTAN_H
 #define COTAN_H
 
@@ -46,8 +50,9 @@ const void* cotan_bytes_data(const cotan_bytes* bytes);
 size_t cotan_bytes_size(const cotan_bytes* bytes);
 void cotan_bytes_free(cotan_bytes* bytes);
 
-/* Told by long work how much of it is done, 0 to 1: one call at a time, not always in order nor on the caller's thread.
- * Another result than 0 stops the work soon, which then returns COTAN_STOPPED. */
+/* Long work calls this to say how much is done, 0 to 1. There is one call at a time. It may come from another thread
+ * than the caller's, and numbers may arrive out of order. To stop the work, return another number than 0: the function
+ * then ends soon with COTAN_STOPPED. */
 typedef int (*cotan_progress)(void* user, double done);
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
@@ -119,7 +124,7 @@ typedef struct cotan_picture {
     size_t size;
     int width, height;
     int bits;
-    void* pixels; /* read where the picture is an input; of an output written, and there for all of them */
+    void* pixels; /* never null: read where the picture is an input, written where it is an output */
 } cotan_picture;
 
 typedef struct cotan_green {
@@ -169,7 +174,7 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
 
 /* Levels of half the size each, down to 1 x 1, filtered as vectors. `take` gets each, largest first, with the map and
  * with the roughness (grey) that makes up for what averaging took; both are gone when it returns, and another result
- * than 0 stops (COTAN_USAGE). roughness: of the material, 0 to 1. */
+ * than 0 stops (COTAN_STOPPED). roughness: of the material, 0 to 1. */
 typedef int (*cotan_take_level)(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
 cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
                             void* user, char* message, size_t message_size);
@@ -182,8 +187,7 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
 
-/* ---- baking --------------------------------------------------------------------------------------------------------
- */
+/* ---- baking ------------------------------------------------------------------------------------------------------ */
 
 typedef struct cotan_bake_options {
     size_t size;
@@ -217,9 +221,9 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
 
 /* ---- glTF in memory ---------------------------------------------------------------------------------------------- */
 
-/* How the files and pictures of a model are reached: on the caller's thread, one call at a time. Each function gives a
- * pointer to what it has, and 0, or another result where there is nothing; what it points to is copied, and then `done`
- * is called. A null pointer for the struct, or for a function, is fine. */
+/* How the files and pictures of a model are reached. The functions are called on the caller's thread, one at a time.
+ * Each sets a pointer to what it has and returns 0; where there is nothing it returns another number. The library
+ * copies what the pointer points to, and then calls `done`. The struct, and each function, may be null. */
 typedef struct cotan_model_files {
     size_t size;
     void* user;
@@ -275,8 +279,9 @@ typedef struct cotan_convert_result {
     size_t maps_converted, maps_kept;
     size_t primitives_given; /* that have new tangents */
     size_t tangent_bytes_dropped;
-    double worst_degrees_before,
-        worst_degrees_after; /* off with the new frame: means over a map's surface; 0: no map */
+    /* How far the normals are off with the new frame: the mean over the surface of a map, of the worst of the maps.
+     * -1: nothing was judged. */
+    double worst_degrees_before, worst_degrees_after;
 } cotan_convert_result;
 
 /* A model's normal maps made for another frame. glb: the new model, with all files of the old one inside. options,

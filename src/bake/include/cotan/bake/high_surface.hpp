@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,9 @@ enum class HighNormals {
 // All instances of some scenes in world space, in Embree's acceleration structure.
 class HighSurface {
 public:
+    // Why none can be made here, whatever the scenes are: not built with Embree. To be asked before files are read.
+    static std::optional<Error> unavailable();
+
     // `threads`: 0 for all. Errors: ErrorKind::input where there is no triangle;
     // ErrorKind::unavailable where memory does not suffice.
     static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads);

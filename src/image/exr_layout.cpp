@@ -1,0 +1,170 @@
+// Whether an OpenEXR file holds the attributes and blocks that its header promises.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "file_layout.hpp"
+
+namespace cotan::oiio {
+
+namespace {
+
+// Text up to its zero, at most 256 bytes: a name of that length has no end. `at` moves behind it.
+constexpr std::size_t kNoEnd = 256;
+
+std::string nameAt(Numbers& numbers, std::uint64_t& at)
+{
+    std::string name;
+    while (name.size() < kNoEnd && !numbers.past)
+        if (const auto c = char(numbers.at(at++, 1)))
+            name += c;
+        else
+            break;
+    return name;
+}
+
+// Bytes from `at` that OpenEXR takes for a value of this type. It keeps to `size` for unknown types and text only;
+// where the two differ, the next attribute is not where the size says.
+std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view type, std::uint64_t size)
+{
+    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 24> kFixed = {{{"box2f", 16},
+                                                                                    {"box2i", 16},
+                                                                                    {"chromaticities", 32},
+                                                                                    {"compression", 1},
+                                                                                    {"deepImageState", 1},
+                                                                                    {"double", 8},
+                                                                                    {"envmap", 1},
+                                                                                    {"float", 4},
+                                                                                    {"int", 4},
+                                                                                    {"keycode", 28},
+                                                                                    {"lineOrder", 1},
+                                                                                    {"m33d", 72},
+                                                                                    {"m33f", 36},
+                                                                                    {"m44d", 128},
+                                                                                    {"m44f", 64},
+                                                                                    {"rational", 8},
+                                                                                    {"tiledesc", 9},
+                                                                                    {"timecode", 8},
+                                                                                    {"v2d", 16},
+                                                                                    {"v2f", 8},
+                                                                                    {"v2i", 8},
+                                                                                    {"v3d", 24},
+                                                                                    {"v3f", 12},
+                                                                                    {"v3i", 12}}};
+    if (type == "chlist") {
+        std::uint64_t end = at;
+        while (!nameAt(numbers, end).empty() && !numbers.past)
+            end += 16; // pixel type, linearity, two samplings
+        return end - at;
+    }
+    if (type == "stringvector") {
+        std::uint64_t taken = 0;
+        while (taken < size && !numbers.past)
+            taken += 4 + numbers.at(at + taken, 4);
+        return taken;
+    }
+    if (type == "floatvector")
+        return size / 4 * 4;
+    if (type == "preview") {
+        const std::uint64_t pixels = numbers.at(at, 4) * numbers.at(at + 4, 4);
+        return pixels > size ? size + 1 : 8 + 4 * pixels;
+    }
+    const auto fixed = std::ranges::find(kFixed, type, &std::pair<std::string_view, std::uint64_t>::first);
+    return fixed == kFixed.end() ? size : fixed->second;
+}
+
+// One attribute behind its name; `at` moves behind it.
+Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
+{
+    const std::string type = nameAt(numbers, at);
+    const std::uint64_t size = numbers.at(at, 4);
+    at += 4;
+    if (numbers.past || type.size() >= kNoEnd || size > numbers.size() - at)
+        return fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
+                           numbers.size() - std::min(at, numbers.size()));
+    const std::uint64_t taken = exrValueBytes(numbers, at, type, size);
+    if (numbers.past || taken != size)
+        return fmt::format("an attribute of its header has {} bytes, which its type does not take", size);
+    at += size;
+    return std::nullopt;
+}
+
+// What a header says about its blocks of rows or tiles. OpenEXR takes memory for one as soon as it opens a file.
+struct ExrBlocks {
+    std::int64_t width = 0, height = 0;
+    std::uint64_t rows = 1; // in a block
+    std::uint64_t channels = 0;
+    std::uint64_t tileWidth = 0, tileHeight = 0;
+};
+
+// An attribute whose value ends at `end`.
+void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start, std::uint64_t end, ExrBlocks& blocks)
+{
+    const auto number = [&](std::uint64_t at) { return std::int64_t(std::int32_t(numbers.at(at, 4))); };
+    if (name == "dataWindow") {
+        blocks.width = number(end - 8) - number(end - 16) + 1;
+        blocks.height = number(end - 4) - number(end - 12) + 1;
+    } else if (name == "compression") {
+        constexpr std::array<std::uint64_t, 10> kRows = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+        const std::uint64_t method = numbers.at(end - 1, 1);
+        blocks.rows = method < kRows.size() ? kRows[method] : 1;
+    } else if (name == "tiles") {
+        blocks.tileWidth = numbers.at(end - 9, 4);
+        blocks.tileHeight = numbers.at(end - 5, 4);
+    } else if (name == "channels") {
+        while (start < end && !nameAt(numbers, start).empty()) {
+            start += 16;
+            ++blocks.channels;
+        }
+    }
+}
+
+Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
+{
+    if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
+        return fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide);
+    const std::uint64_t row = std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * blocks.rows;
+    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
+    const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
+    if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
+        return fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes", std::max(row, tile), bytes,
+                           limits.imageBytes);
+    return std::nullopt;
+}
+
+} // namespace
+
+// "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
+// empty header the headers of several parts.
+Problem checkExr(File& file, const LoadLimits& limits)
+{
+    constexpr std::uint64_t kSeveralParts = 0x1000;
+    Numbers numbers(file, /*bigEndian*/ false);
+    std::uint64_t at = 8;
+    const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
+    for (bool first = true, more = true; more; first = false) {
+        bool empty = true;
+        ExrBlocks blocks;
+        for (std::string name = nameAt(numbers, at); !name.empty(); name = nameAt(numbers, at), empty = false) {
+            if (name.size() >= kNoEnd)
+                return "an attribute of its header has a name without an end";
+            const std::uint64_t start = at;
+            std::uint64_t value = start;
+            if (const Problem problem = checkExrAttribute(numbers, at))
+                return problem;
+            nameAt(numbers, value); // its type
+            readExrBlocks(numbers, name, value + 4, at, blocks);
+        }
+        if (const Problem problem = checkExrBlocks(blocks, limits))
+            return problem;
+        if (numbers.past)
+            return "its header goes on behind the end of the file";
+        more = several && !(empty && !first);
+    }
+    return std::nullopt;
+}
+
+} // namespace cotan::oiio

@@ -1,0 +1,158 @@
+// Whether a TIFF file holds the strips and tiles that its directory promises.
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "file_layout.hpp"
+
+namespace cotan::oiio {
+
+namespace {
+
+// Values of one tag of the directory: `count` of `size` bytes from `offset`. count 0: not there.
+struct Tag {
+    std::uint64_t count = 0, offset = 0;
+    std::size_t size = 0;
+};
+
+// Bytes of the whole numbers of TIFF 6.0, section 2, and of BigTIFF, with and without sign; 0: another type.
+std::size_t wholeNumberBytes(std::uint64_t type)
+{
+    switch (type) {
+    case 1:
+    case 6: return 1;
+    case 3:
+    case 8: return 2;
+    case 4:
+    case 9: return 4;
+    case 16:
+    case 17: return 8;
+    default: return 0;
+    }
+}
+
+class TiffDirectory {
+public:
+    explicit TiffDirectory(File& file) : numbers_(file, startsWithM(file))
+    {
+        const bool large = numbers_.at(2, 2) == 43; // BigTIFF
+        const std::size_t word = large ? 8 : 4;
+        const std::uint64_t start = numbers_.at(large ? 8 : 4, word);
+        const std::uint64_t entries = numbers_.at(start, large ? 8 : 2);
+        for (std::uint64_t i = 0; i < entries && !numbers_.past; ++i) {
+            const std::uint64_t entry = start + (large ? 8 : 2) + i * (large ? 20 : 12);
+            Tag tag{numbers_.at(entry + 4, word), entry + 4 + word, wholeNumberBytes(numbers_.at(entry + 2, 2))};
+            if (tag.size == 0)
+                tag = {}; // still the one that counts: the library passes over a second tag of the same number
+            else if (tag.count > word / tag.size)
+                tag.offset = numbers_.at(tag.offset, word);
+            tags_.emplace_back(numbers_.at(entry, 2), tag);
+        }
+    }
+
+    Tag find(std::uint64_t id) const
+    {
+        const auto found = std::ranges::find(tags_, id, &std::pair<std::uint64_t, Tag>::first);
+        return found == tags_.end() ? Tag{} : found->second;
+    }
+
+    std::uint64_t value(const Tag& tag, std::uint64_t i) { return numbers_.at(tag.offset + i * tag.size, tag.size); }
+
+    std::uint64_t valueOr(std::uint64_t id, std::uint64_t fallback)
+    {
+        const Tag tag = find(id);
+        return tag.count > 0 ? value(tag, 0) : fallback;
+    }
+
+    bool past() const { return numbers_.past; }
+    std::uint64_t fileSize() const { return numbers_.size(); }
+
+private:
+    static bool startsWithM(File& file)
+    {
+        char first = 0;
+        return file.pread(&first, 1, 0) == 1 && first == 'M';
+    }
+
+    Numbers numbers_;
+    std::vector<std::pair<std::uint64_t, Tag>> tags_;
+};
+
+// Bytes that the rows of a strip, or a tile, take where they are not compressed; 0: unknown.
+std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
+{
+    const std::uint64_t width = tiled ? tiff.valueOr(322, 0) : tiff.valueOr(256, 0);
+    const bool subsampled = tiff.valueOr(262, 0) == 6; // YCbCr
+    if (tiff.valueOr(259, 1) != 1 || subsampled || width > 0xffffffff)
+        return 0;
+    const std::uint64_t bits = tiff.valueOr(258, 1) * (planes ? 1 : tiff.valueOr(277, 1));
+    return (width * std::min<std::uint64_t>(bits, 0xffffff) + 7) / 8;
+}
+
+// Parts of `each` that cover `whole`, at least 1.
+std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
+{
+    constexpr std::uint64_t kMost = 0xffffffff;
+    each = std::clamp<std::uint64_t>(each, 1, kMost);
+    return std::max<std::uint64_t>(1, (std::min(whole, kMost) + each - 1) / each);
+}
+
+// What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.
+bool knownTiffCompression(std::uint64_t method)
+{
+    constexpr std::array<std::uint64_t, 12> kKnown = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
+    return std::ranges::find(kKnown, method) != kKnown.end();
+}
+
+} // namespace
+
+// TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
+Problem checkTiff(File& file, const LoadLimits& limits)
+{
+    TiffDirectory tiff(file);
+    const bool tiled = tiff.find(324).count > 0, planes = tiff.valueOr(284, 1) == 2;
+    const Tag offsets = tiff.find(tiled ? 324 : 273), counts = tiff.find(tiled ? 325 : 279);
+    const std::uint64_t height = tiff.valueOr(257, 0);
+    const std::uint64_t rows = std::max<std::uint64_t>(
+        1, std::min(tiled ? tiff.valueOr(323, 0) : tiff.valueOr(278, height), std::uint64_t(0xffffffff)));
+    const std::uint64_t strips = partsOf(height, rows);
+    const std::uint64_t plane = strips * (tiled ? partsOf(tiff.valueOr(256, 0), tiff.valueOr(322, 0)) : 1);
+    const std::uint64_t samples = planes ? std::clamp<std::uint64_t>(tiff.valueOr(277, 1), 1, 0xffff) : 1;
+    const std::uint64_t expected = std::min(plane, std::uint64_t(1) << 40) * samples;
+    const std::uint64_t rowBytes = plainRowBytes(tiff, tiled, planes);
+    const char* const part = tiled ? "tile" : "strip";
+    if (tiff.past())
+        return "its directory lies behind the end of the file";
+    if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO takes it for 8
+        return "its directory does not state the bits per sample";
+    if (!knownTiffCompression(tiff.valueOr(259, 1)))
+        return fmt::format("its compression {} is not read here", tiff.valueOr(259, 1));
+    // OpenImageIO takes memory for all rows of a strip, 4 channels each. The largest number means: all in one strip.
+    const std::uint64_t sampleBytes = 4 * std::clamp<std::uint64_t>(tiff.valueOr(258, 1) / 8, 1, 16);
+    const std::uint64_t width = std::clamp<std::uint64_t>(tiff.valueOr(256, 0), 1, 0xffffffff);
+    if (!tiled && rows > height && rows != 0xffffffff && rows > limits.imageBytes / sampleBytes / width)
+        return fmt::format("its strips have {} rows, the picture {}", rows, height);
+    if (offsets.count < expected)
+        return fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected);
+    for (std::uint64_t i = 0; i < offsets.count; ++i) {
+        const std::uint64_t offset = tiff.value(offsets, i), stored = i < counts.count ? tiff.value(counts, i) : 0;
+        const std::uint64_t rowsHere = tiled ? rows : std::min(rows, height - std::min(height, i % strips * rows));
+        const std::uint64_t plain = std::min(rowBytes * rowsHere, std::uint64_t(1) << 62);
+        if (tiff.past())
+            return "the list of its strips or tiles lies behind the end of the file";
+        if (counts.count > 0 && stored == 0) // without any list the sizes follow from the picture's
+            return fmt::format("{} {} has no bytes", part, i);
+        if (stored > 0 && stored < plain)
+            return fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain);
+        const std::uint64_t needed = std::max<std::uint64_t>({stored, plain, 1});
+        if (offset > tiff.fileSize() || needed > tiff.fileSize() - offset)
+            return fmt::format("{} {} takes {} bytes from {}, the file has {}", part, i, needed, offset,
+                               tiff.fileSize());
+    }
+    return std::nullopt;
+}
+
+} // namespace cotan::oiio
