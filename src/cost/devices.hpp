@@ -26,7 +26,8 @@ struct Device {
     std::string driver;
     bool cpu = false;
     bool radv = false;
-    bool reports = false;   // machine code
+    bool reports = false;     // machine code
+    bool meshShaders = false; // VK_EXT_mesh_shader
     std::string missing;    // empty: it can be opened
     double nanoseconds = 0; // per tick of its timestamps; 0: it has none
 };

@@ -128,6 +128,13 @@ Operations operationsOfFrame(std::string_view frame)
     return {};
 }
 
+Operations operationsOfTriangleVectors(bool total)
+{
+    const counted::cost_inputs i = exampleInputs();
+    const auto run = total ? counted::cotan_triangle_of_edges : counted::cotan_triangle_of_sound_edges;
+    return count([&] { run(i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.n); });
+}
+
 Operations operationsOfSafeNormal()
 {
     const counted::cost_inputs i = exampleInputs();

@@ -64,10 +64,12 @@ public:
         const std::array buffers{vk::DescriptorBufferInfo(*uniforms_.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.positions.buffer, 0, VK_WHOLE_SIZE),
                                  vk::DescriptorBufferInfo(*grid.texcoords.buffer, 0, VK_WHOLE_SIZE),
-                                 vk::DescriptorBufferInfo(*grid.indices.buffer, 0, VK_WHOLE_SIZE)};
+                                 vk::DescriptorBufferInfo(*grid.corners.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.normals.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.triangles.buffer, 0, VK_WHOLE_SIZE)};
         const std::array writes{vk::WriteDescriptorSet(set_, 0, 0, 1, T::eUniformBuffer, nullptr, &buffers[0]),
                                 vk::WriteDescriptorSet(set_, 1, 0, 1, T::eCombinedImageSampler, &image),
-                                vk::WriteDescriptorSet(set_, 2, 0, 3, T::eStorageBuffer, nullptr, &buffers[1])};
+                                vk::WriteDescriptorSet(set_, 2, 0, 5, T::eStorageBuffer, nullptr, &buffers[1])};
         device_.device.updateDescriptorSets(writes, nullptr);
     }
 
@@ -88,7 +90,8 @@ public:
         commands_.setViewport(0, vk::Viewport(0, 0, float(side), float(side), 0, 1));
         commands_.setScissor(0, area);
         commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
-        commands_.bindIndexBuffer(*grid.indices.buffer, 0, vk::IndexType::eUint32);
+        const Buffer& indices = provokes(stored) ? grid.provokingIndices : grid.indices;
+        commands_.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
         commands_.drawIndexed(grid.indexCount, std::uint32_t(what_.layers), 0, 0, 0);
         commands_.endRendering();
         commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 1);
@@ -178,6 +181,7 @@ void timeCase(Timer& timer, const std::vector<const Row*>& rows, const TimingCas
     for (std::size_t i = 0; i < rows.size(); ++i) {
         result.rows[i].nanosecondsPerMillionPixels.push_back(median(times[i]));
         result.rows[i].repeats.push_back(std::move(times[i]));
+        result.rows[i].vertices.push_back(provokes(rows[i]->stored) ? grid.provokingVertexCount : grid.vertexCount);
     }
 }
 
@@ -187,7 +191,7 @@ void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOp
     open(device);
     Timer timer(device);
     for (const Row* row : rows)
-        result.rows.push_back({row->name, {}, {}});
+        result.rows.push_back({row->name, {}, {}, {}});
     std::pair<int, int> made;
     Grid grid;
     for (const TimingCase& what : options.cases) {

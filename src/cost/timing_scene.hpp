@@ -16,15 +16,22 @@ struct Picture {
     vk::raii::ImageView view{nullptr};
 };
 
-// The square as a grid of right-angled triangles.
+// The square as a grid of right-angled triangles. Rows that take U and V from the provoking vertex draw their own
+// index buffer, in which every triangle owns one, and so more vertices.
 struct Grid {
     std::vector<Buffer> vertices; // in the order of Stored
     Buffer indices;
+    Buffer provokingIndices;
     Buffer positions; // read by index, as are the next
     Buffer texcoords;
+    Buffer corners; // three a triangle, and a triangle for each vertex that provokes none
     Buffer normals;
+    Buffer triangles; // U and V as six halfs
     std::uint32_t indexCount = 0;
+    std::uint32_t vertexCount = 0, provokingVertexCount = 0;
 };
+
+bool provokes(Stored stored);
 
 // All throw vk::SystemError. In memory that the host sees:
 Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);

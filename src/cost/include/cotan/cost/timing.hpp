@@ -1,6 +1,7 @@
 // How long the rows take, on devices with timestamps.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct TimedRow {
     std::string_view row;
     std::vector<double> nanosecondsPerMillionPixels; // medians, one per case; a pixel counts once per layer
     std::vector<std::vector<double>> repeats;        // per case what the median is of: entry r of all rows is one turn
+    // One per case: of the mesh that is drawn. More where every triangle owns its provoking vertex (cotan/provoking.hpp).
+    std::vector<std::uint32_t> vertices;
 };
 
 struct SkippedCase {
