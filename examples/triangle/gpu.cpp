@@ -25,7 +25,7 @@ Gpu openGpu()
     vk::PhysicalDeviceMeshShaderFeaturesEXT meshShader;
     meshShader.meshShader = VK_TRUE;
     vk::PhysicalDeviceVulkan13Features v13;
-    v13.dynamicRendering = v13.synchronization2 = VK_TRUE;
+    v13.dynamicRendering = v13.synchronization2 = v13.maintenance4 = VK_TRUE; // the last: sizes of work groups
     v13.pNext = gpu.meshShaders ? &meshShader : nullptr;
     vk::PhysicalDeviceVulkan12Features v12;
     v12.bufferDeviceAddress = VK_TRUE;

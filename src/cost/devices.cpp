@@ -76,6 +76,7 @@ void open(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
+    use13.maintenance4 = VK_TRUE; // sizes of work groups, as SPIR-V for 1.3 states them
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
     vk::PhysicalDeviceMeshShaderFeaturesEXT mesh(VK_FALSE, VK_TRUE);
     vk::PhysicalDeviceVulkan12Features use12;
