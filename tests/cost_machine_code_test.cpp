@@ -110,9 +110,10 @@ TEST(CostMachineCode, everyComputeStageIsReportedAndMeshStagesWhereTheDeviceHasT
     // Where a visibility buffer is resolved the edges are at hand: U and V cost less than what `cotangent` does with
     // differences, and read from memory they cost less than tangents of three vertices.
     const auto resolve = [&](std::string_view name) {
-        return std::ranges::find_if(others, [&](const OtherCode& o) {
-                   return o.stage->kind == StageKind::resolve && o.stage->name == name;
-               })->code.instructions.value();
+        return std::ranges::find_if(
+                   others,
+                   [&](const OtherCode& o) { return o.stage->kind == StageKind::resolve && o.stage->name == name; })
+            ->code.instructions.value();
     };
     EXPECT_LT(resolve("triangle-fused"), resolve("cotangent-fused"));
     EXPECT_LT(resolve("triangle-read"), resolve("mikktspace"));
@@ -137,9 +138,10 @@ TEST(CostMachineCode, aTangentCostsInstructionsAtTheVertices)
 TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
 {
     // On the processor too: the way is the same. What the times are is not tested.
-    const std::vector<const Row*> some = {rowFromName("floor"), rowFromName("mikktspace"), rowFromName("smooth"),
-                                          rowFromName("exact"), rowFromName("triangle-halfs"),
-                                          rowFromName("triangle-read"), rowFromName("cotangent-fused")};
+    const std::vector<const Row*> some = {rowFromName("floor"),          rowFromName("mikktspace"),
+                                          rowFromName("smooth"),         rowFromName("exact"),
+                                          rowFromName("triangle-halfs"), rowFromName("triangle-read"),
+                                          rowFromName("cotangent-fused")};
     const auto timed = timeRows(some, {{}, true, 1, usualCases()});
     if (!timed || timed->empty())
         GTEST_SKIP() << "no Vulkan device";

@@ -147,7 +147,7 @@ TEST(OnGpuPack, whatIsCarriedRunsByItselfAndWritesNoTablesOfSmallSizes)
     std::filesystem::create_symlink(COTAN_ON_GPU, folder / "build/tests/on_gpu");
     const std::string place = (folder / "pack").string();
     const ShellRun packed = runShell("ON_GPU_BUILD='" + (folder / "build").string()
-                                + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '" + place + "'");
+                                     + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '" + place + "'");
     ASSERT_EQ(packed.code, 0) << packed.err;
     EXPECT_NE(packed.err.find("has no shader_test"), std::string::npos) << packed.err;
     const ShellRun none = runShell("VK_DRIVER_FILES=/no/such.json VK_ICD_FILENAMES=/no/such.json '" + place + "/run'");
@@ -167,8 +167,9 @@ TEST(OnGpuPack, aBuildWithoutTheProgramIsNamed)
 {
     test::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "build/tests");
-    const ShellRun packed = runShell("ON_GPU_BUILD='" + (folder / "build").string()
-                                + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '" + (folder / "pack").string() + "'");
+    const ShellRun packed =
+        runShell("ON_GPU_BUILD='" + (folder / "build").string() + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '"
+                 + (folder / "pack").string() + "'");
     EXPECT_EQ(packed.code, 3);
     EXPECT_EQ(packed.err, "on-gpu: " + (folder / "build").string() + " has no on_gpu\n");
 }

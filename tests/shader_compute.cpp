@@ -36,9 +36,9 @@ std::string shaderOf(const Case& c, bool hlsl)
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label)
 {
     const char* keep = std::getenv("COTAN_SPIRV");
-    const std::string kept =
-        keep ? std::string(keep) + "/" + std::to_string(std::hash<std::string>()((hlsl ? "hlsl " : "glsl ") + stage + shader))
-             : "";
+    const std::string kept = keep ? std::string(keep) + "/"
+            + std::to_string(std::hash<std::string>()((hlsl ? "hlsl " : "glsl ") + stage + shader))
+                                  : "";
     if (std::filesystem::exists(kept))
         return readWhole(kept);
     TemporaryFolder folder;

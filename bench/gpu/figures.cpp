@@ -19,22 +19,26 @@ FOLDER/run                  # there, under ten minutes: writes FOLDER/gpu.md, wh
 bench/on-gpu                # both, here: writes docs/gpu.md
 ```
 
-FOLDER carries programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.34 or later and a driver
-for Vulkan 1.3; no display, compiler, network or Vulkan loader. `FOLDER/run` ends with 3 and one line where
-no driver is found, and with 5 where a test fails.
+FOLDER carries programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later
+(Debian 12, Ubuntu 22.04) and a driver for Vulkan 1.3; no display, compiler, network or Vulkan loader. `FOLDER/run`
+ends with 3 and one line where no driver is found, and with 5 where a test fails.
 
-**Rows** are those of [cost.md](cost.md): whole pipelines that fill a square of 2048 x 2048 pixels, 1024 x 1024 for the smallest triangles, with
-right-angled triangles of equal legs. A target of four half floats, no depth, no blending; meshes and target in the device's memory. Two timestamps
-around one draw. All rows are drawn in turn, 15 times after a first that does not count. "4 samples" is a multisampled target, not resolved. "4 layers" draws every pixel
-four times over one another in one draw, nothing hidden; each counts. `triangle-read` reads vectors that were made at load;
-other rows of the triangle make them at provoking vertices, of which a mesh has almost twice as many, so their times include that.
+**Rows** are those of [cost.md](cost.md): whole pipelines that fill a square of 2048 x 2048 pixels, 1024 x 1024 for
+the smallest triangles, with right-angled triangles of equal legs. A target of four half floats, no depth, no
+blending; meshes and target in the device's memory. Two timestamps around one draw. All rows are drawn in turn, 15
+times after a first that does not count. "4 samples" is a multisampled target, not resolved. "4 layers" draws every
+pixel four times over one another in one draw, nothing hidden; each counts. `triangle-read` reads vectors that were
+made at load; other rows of the triangle make them at provoking vertices, of which a mesh has almost twice as many, so
+their times include that.
 
-**A cell** is the median in nanoseconds per million pixels; then the median, over repetitions, of the ratio to `mikktspace` in the same
-repetition, and half the distance between that ratio's quartiles.
+**A cell** is the median in nanoseconds per million pixels; then the median, over repetitions, of the ratio to
+`mikktspace` in the same repetition, and half the distance between that ratio's quartiles.
 
-**Passes** are those of [examples/deforming](../examples/deforming), over a tube of a million triangles, likewise by timestamps, each dispatch alone.
+**Passes** are those of [examples/deforming](../examples/deforming), over a tube of a million triangles, likewise by
+timestamps, each dispatch alone.
 
-**Tests** are the parity tests of the portable text and those of the examples, as `./run-tests` has them, on this device.
+**Tests** are the parity tests of the portable text and those of the examples, as `./run-tests` has them, on this
+device.
 
 )";
 

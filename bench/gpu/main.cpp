@@ -89,7 +89,8 @@ int measure(const Options& options)
     figures.triangles = 2 * std::size_t(around) * along;
     figures.passes = timePasses(around, along, repeats, passDevice);
     if (passDevice != device.name)
-        return failed(3, fmt::format("rows would be timed on {}, passes on {}: leave one driver", device.name, passDevice));
+        return failed(
+            3, fmt::format("rows would be timed on {}, passes on {}: leave one driver", device.name, passDevice));
 
     std::vector<const cost::Row*> rows;
     for (const cost::Row& row : cost::rows())

@@ -14,10 +14,11 @@ std::vector<PassTimes> timePasses(std::uint32_t around, std::uint32_t along, int
     const ::Mesh pose = posed(rest, kMotions[0], 1, Normals::exact);
     passes.pose(pose.positions, pose.normals);
     constexpr Pass kPasses[] = {Pass::triangles, Pass::smooth, Pass::tangents, Pass::normals};
-    std::vector<PassTimes> times = {{"triangles.comp", "U and V of `triangle`, six halfs: at load, or for every pose", {}},
-                                    {"smooth.comp", "t and b of `smooth`, 8 bytes a vertex", {}},
-                                    {"tangents.comp", "orthonormal tangents, 8 bytes a vertex", {}},
-                                    {"normals.comp", "unit normals", {}}};
+    std::vector<PassTimes> times = {
+        {"triangles.comp", "U and V of `triangle`, six halfs: at load, or for every pose", {}},
+        {"smooth.comp", "t and b of `smooth`, 8 bytes a vertex", {}},
+        {"tangents.comp", "orthonormal tangents, 8 bytes a vertex", {}},
+        {"normals.comp", "unit normals", {}}};
     const double millions = double(rest.indices.size() / 3) * 1e-6;
     for (int repeat = -1; repeat < repeats; ++repeat) // the first warms up
         for (std::size_t i = 0; i < times.size(); ++i) {

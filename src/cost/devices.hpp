@@ -28,8 +28,8 @@ struct Device {
     bool radv = false;
     bool reports = false;     // machine code
     bool meshShaders = false; // VK_EXT_mesh_shader
-    std::string missing;    // empty: it can be opened
-    double nanoseconds = 0; // per tick of its timestamps; 0: it has none
+    std::string missing;      // empty: it can be opened
+    double nanoseconds = 0;   // per tick of its timestamps; 0: it has none
 };
 
 // All devices, not opened; those that draw on the processor last.

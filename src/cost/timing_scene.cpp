@@ -59,15 +59,16 @@ Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const 
     return b;
 }
 
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage,
-                    int samples)
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage, int samples)
 {
     Picture p;
     vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits(samples),
                              vk::ImageTiling::eOptimal, usage);
     p.image = vk::raii::Image(device.device, info);
     const auto needs = p.image.getMemoryRequirements();
-    p.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
+    p.memory = vk::raii::DeviceMemory(
+        device.device,
+        {needs.size, memoryType(device, needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
     p.image.bindMemory(*p.memory, 0);
     p.view = vk::raii::ImageView(device.device,
                                  vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},

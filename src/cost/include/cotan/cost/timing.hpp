@@ -23,7 +23,7 @@ struct TimedRow {
     std::string_view row;
     std::vector<double> nanosecondsPerMillionPixels; // medians, one per case; a pixel counts once per layer
     std::vector<std::vector<double>> repeats;        // per case what the median is of: entry r of all rows is one turn
-    // One per case: of the mesh that is drawn. More where every triangle owns its provoking vertex (cotan/provoking.hpp).
+    // One per case: of the mesh that is drawn. More where triangles own their provoking vertices (cotan/provoking.hpp).
     std::vector<std::uint32_t> vertices;
 };
 
@@ -52,7 +52,7 @@ struct TimingOptions {
     bool cpuDevices = false;          // time those too
     int repeats = 15;                 // of which the median is taken
     std::vector<TimingCase> cases = usualCases();
-    double seconds = std::numeric_limits<double>::infinity(); // cases that would begin later are skipped
+    double seconds = std::numeric_limits<double>::infinity();   // cases that would begin later are skipped
     std::size_t most = std::numeric_limits<std::size_t>::max(); // devices: the first ones
 };
 
