@@ -183,6 +183,13 @@ TEST(CostTiming, aCaseThatTheDeviceCannotDrawOrThatComesTooLateIsNamed)
         for (const std::vector<double>& turns : r.repeats)
             EXPECT_EQ(turns.size(), 3u);
     }
+    // The first turn takes milliseconds, a million take longer than ten seconds.
+    options.cases = {{8, 1, 1, 64}, {8, 4, 1, 64}};
+    options.seconds = 10;
+    options.repeats = 1000000;
+    const auto endless = timeRows(some, options);
+    ASSERT_TRUE(endless);
+    EXPECT_EQ(endless->front().silence, "no time was left");
     options.seconds = -1;
     const auto late = timeRows(some, options);
     ASSERT_TRUE(late);

@@ -124,7 +124,7 @@ int main(int count, char** words)
     CLI::App app("times every row of cotan cost and the passes of examples/deforming on a GPU");
     app.add_option("-o,--output", options.output, "file for the page");
     app.add_option("--tests", options.log, "what the test programs printed");
-    app.add_option("--seconds", options.seconds, "sizes of triangles that would begin later are left out, and named");
+    app.add_option("--seconds", options.seconds, "sizes of triangles that would end later are left out, and named");
     app.add_flag("--quick", options.quick, "small sizes, as on a device that draws on the processor");
     app.add_flag("--tables", options.tables, "write tables of small sizes, too: they say nothing about a GPU");
     app.add_flag("--probe", options.probe, "print `gpu` or `cpu` and the name of the device, and stop");

@@ -165,18 +165,30 @@ double median(std::vector<double> values)
     return *middle;
 }
 
+constexpr char kLate[] = "no time was left";
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Throws where all repetitions would take longer than these seconds, going by the first, which warms up.
 void timeCase(Timer& timer, const std::vector<const Row*>& rows, const TimingCase& what, const Grid& grid, int repeats,
-              DeviceTiming& result)
+              double seconds, DeviceTiming& result)
 {
     timer.use(what, rows, grid);
+    const auto start = std::chrono::steady_clock::now();
     std::vector<std::vector<double>> times(rows.size());
     const double pixels = double(what.side) * what.side * what.layers;
-    for (int repeat = -1; repeat < repeats; ++repeat) // the first warms up
+    for (int repeat = -1; repeat < repeats; ++repeat) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double t = timer.draw(i, rows[i]->stored, grid);
             if (repeat >= 0)
                 times[i].push_back(t / pixels * 1e6);
         }
+        if (repeat < 0 && secondsSince(start) * (repeats + 1) > seconds)
+            throw std::runtime_error(kLate);
+    }
     result.cases.push_back(what);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         result.rows[i].nanosecondsPerMillionPixels.push_back(median(times[i]));
@@ -195,22 +207,19 @@ void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOp
     std::pair<int, int> made;
     Grid grid;
     for (const TimingCase& what : options.cases) {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        if (passed.count() > options.seconds) {
-            result.skipped.push_back({what, "no time was left"});
-            continue;
-        }
         try {
+            if (secondsSince(start) > options.seconds)
+                throw std::runtime_error(kLate);
             if (std::pair(what.leg, what.side) != made) {
                 grid = {};
+                made = {};
                 grid = makeGrid(device, what.leg, what.side);
                 made = {what.leg, what.side};
             }
-            timeCase(timer, rows, what, grid, options.repeats, result);
+            timeCase(timer, rows, what, grid, options.repeats, options.seconds - secondsSince(start), result);
         } catch (const vk::DeviceLostError&) {
             throw;
         } catch (const std::exception& e) {
-            made = {};
             result.skipped.push_back({what, reason(e)});
         }
     }

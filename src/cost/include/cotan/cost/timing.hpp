@@ -52,7 +52,7 @@ struct TimingOptions {
     bool cpuDevices = false;          // time those too
     int repeats = 15;                 // of which the median is taken
     std::vector<TimingCase> cases = usualCases();
-    double seconds = std::numeric_limits<double>::infinity();   // cases that would begin later are skipped
+    double seconds = std::numeric_limits<double>::infinity();   // cases that would end later are skipped
     std::size_t most = std::numeric_limits<std::size_t>::max(); // devices: the first ones
 };
 
