@@ -39,6 +39,9 @@ cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG
 cotan_optional(OPENIMAGEIO OpenImageIO::OpenImageIO OpenImageIO "libopenimageio-dev openimageio-tools"
   "no EXR, TIFF, HDR, TGA, BMP and DDS; JPEG is read and not written" OpenImageIO)
 cotan_optional(ASSIMP assimp::assimp Assimp libassimp-dev "of models only glTF and OBJ" assimp)
+cotan_optional(DRACO draco::draco Draco libdraco-dev "no glTF compressed with Draco" draco CONFIG)
+cotan_optional(MESHOPTIMIZER meshoptimizer::meshoptimizer meshoptimizer libmeshoptimizer-dev
+  "no glTF compressed with meshoptimizer" meshoptimizer CONFIG)
 cotan_optional(EMBREE embree "Embree 3" libembree-dev "no baking" embree 3 CONFIG)
 cotan_optional(VULKAN Vulkan::Headers Vulkan "libvulkan-dev glslang-tools"
   "pictures are drawn on the processor, no cotan cost" Vulkan)

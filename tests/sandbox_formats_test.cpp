@@ -84,6 +84,24 @@ TEST(SandboxFormats, everyModelFormatGivesTheSameSceneToTheBit)
     EXPECT_EQ(loadScene(folder / "m.obj", inChild())->images.size(), 2u); // pictures come along
 }
 
+TEST(SandboxFormats, dracoStreamsOfPublicModelsGiveTheSameSceneToTheBit)
+{
+    const std::filesystem::path compressed = std::filesystem::path(COTAN_SHARED_DATA) / "compressed";
+    if (!std::filesystem::exists(compressed))
+        GTEST_SKIP() << "no models: " << compressed << " is missing";
+    for (const auto& [name, triangles] :
+         {std::pair("heart_draco.glb", 180), std::pair("chess_board_draco.glb", 178848)}) {
+        const auto here = loadScene(compressed / name), there = loadScene(compressed / name, inChild());
+        ASSERT_TRUE(here) << here.error().message;
+        ASSERT_TRUE(there) << there.error().message;
+        EXPECT_EQ(everyByte(*here), everyByte(*there)) << name;
+        std::size_t found = 0;
+        for (const Instance& instance : here->instances)
+            found += here->meshes[std::size_t(instance.mesh)].triangleCount();
+        EXPECT_EQ(found, std::size_t(triangles)); // by the counts of their accessors
+    }
+}
+
 TEST(SandboxFormats, errorsOfAReaderAreTheSameLine)
 {
     const TemporaryFolder folder;

@@ -37,14 +37,6 @@ void checkCounts(const GltfModel& model)
     }
 }
 
-void refuseMeshopt(const Json& root)
-{
-    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-        for (const std::string& found : unknownExtensions(root))
-            if (found == name)
-                failGltf("its buffers are compressed ({}); expected plain buffers", name);
-}
-
 // What the reader would find wrong with the nodes and the geometry.
 void checkModel(GltfModel& model)
 {
@@ -61,8 +53,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
     const std::size_t modelBytes = model.file.size; // buffers are added to it
-    refuseMeshopt(model.file.json);
-    readGltfModel(model);
+    const std::vector<std::string> unpacked = readGltfModel(model);
     checkModel(model);
 
     auto source = std::make_shared<GltfSource>();
@@ -73,6 +64,8 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     source->views = std::move(model.views);
     GltfDocument document;
     document.root = source->root;
+    for (const std::string& name : unpacked)
+        document.notes.push_back(fmt::format("{}: decoded; the geometry is written plain", name));
     document.source = std::move(source);
     return document;
 }

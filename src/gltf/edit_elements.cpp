@@ -59,14 +59,6 @@ std::size_t addAccessor(GltfDocument& document, Json accessor)
     return document.root["accessors"].size() - 1;
 }
 
-void refuseCompressed(const Json& primitive, const std::string& field)
-{
-    if (gltf::extension(primitive, "KHR_draco_mesh_compression"))
-        failGltf("{}: its geometry is compressed (KHR_draco_mesh_compression); expected plain "
-                 "buffers",
-                 field);
-}
-
 } // namespace gltf_edit
 
 namespace {
@@ -103,7 +95,6 @@ void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitiv
 
 GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field)
 {
-    gltf_edit::refuseCompressed(source, field);
     const gltf::Primitive primitive = gltf::readPrimitive(source);
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
     GltfGeometry out;

@@ -93,7 +93,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
     Json first = Json::object();
     if (const std::size_t count = countOf(out.root, "buffers"); count > 0) {
         first = out.root["buffers"][0];
-        if (count > 1)
+        if (count > 1 && document.source->file.unpackedBytes.empty()) // of those the extension's note tells
             document.notes.push_back(
                 fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }

@@ -65,9 +65,6 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
 std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
 std::size_t addAccessor(GltfDocument& document, Json accessor);
 
-// Refuses geometry that cannot be read without a decoder. field: meshes[i].primitives[j].
-void refuseCompressed(const Json& primitive, const std::string& field);
-
 // ---- edit_repack.cpp --------------------------------------------------------------------------
 
 // Takes the bytes of accessors marked as removed out of views that others still use: ranges are

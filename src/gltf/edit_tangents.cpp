@@ -41,7 +41,6 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
     for (const GltfCornerTangents& t : tangents) {
         const Json& primitive = primitiveOf(document, t);
         const std::string field = primitiveField(t.mesh, t.primitive);
-        refuseCompressed(primitive, field);
         const Json& attributes = primitive["attributes"];
         for (const char* const needed : {"POSITION", "NORMAL"})
             if (!attributes.contains(needed))
@@ -279,17 +278,11 @@ Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const Gltf
     }
 }
 
-Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
+bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
 {
     Json& p = document.root["meshes"][mesh]["primitives"][primitive];
-    try {
-        if (!p["attributes"].contains("TANGENT"))
-            return false;
-        refuseCompressed(p, primitiveField(mesh, primitive));
-    } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + problem.message);
-    }
-    p["attributes"].erase("TANGENT");
+    if (p["attributes"].erase("TANGENT") == 0)
+        return false;
     for (std::size_t t = 0; p.contains("targets") && t < p["targets"].size(); ++t) {
         Json& target = p["targets"][t];
         const auto tangents = target.find("TANGENT");

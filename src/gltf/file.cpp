@@ -221,6 +221,16 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
     return resource;
 }
 
+bool isGltfFallback(const gltf::Json& buffer)
+{
+    if (gltf::member(buffer, "uri"))
+        return false;
+    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const gltf::Json* const packed = gltf::extension(buffer, name))
+            return gltf::valueOr(*packed, "fallback", false);
+    return false;
+}
+
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
 {
     const gltf::Json* const list = gltf::member(file.json, "buffers");
@@ -229,6 +239,10 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
     for (std::size_t i = 0; i < count; ++i) {
         const std::string field = fmt::format("buffers[{}]", i);
         const gltf::Json& buffer = (*list)[i];
+        if (isGltfFallback(buffer)) {
+            file.buffers.emplace_back();
+            continue;
+        }
         const auto length = buffer["byteLength"].get<std::size_t>();
         std::span<const std::byte> bytes;
         if (const gltf::Json* const uri = gltf::member(buffer, "uri")) {

@@ -35,6 +35,8 @@ struct GltfFile {
     std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
+    std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
+    std::size_t unpacked = 0;                                            // how many bytes those are
 };
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
@@ -45,7 +47,10 @@ GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, G
 Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,
                                                 const LoadLimits& limits);
 
-// Fills GltfFile::buffers. The JSON must have passed checkGltfShape.
+// Whether a buffer has no bytes because all its views are compressed: EXT_meshopt_compression's fallback.
+bool isGltfFallback(const gltf::Json& buffer);
+
+// Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 
 // What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
+#include "unpack.hpp"
+
 namespace cotan {
 
-void readGltfModel(GltfModel& model)
+std::vector<std::string> readGltfModel(GltfModel& model)
 {
     checkGltfShape(model.file.json, model.limits, model.warnings);
     loadGltfBuffers(model.file, model.limits);
+    std::vector<std::string> unpacked = unpackGltf(model.file, model.limits);
     model.structure = gltf::readStructure(model.file.json);
     findGltfAccessors(model);
+    return unpacked;
 }
 
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field)

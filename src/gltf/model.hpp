@@ -32,14 +32,19 @@ struct GltfModel {
     std::size_t bytesTaken = 0;            // by arrays of vertices and triangles, against gltfAllowance
 };
 
-// Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, fills the structure,
-// the views and the accessors.
-void readGltfModel(GltfModel& model);
+// Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, decodes compressed
+// geometry (unpack.hpp), fills the structure, the views and the accessors. Returns the names of the extensions that
+// were decoded.
+std::vector<std::string> readGltfModel(GltfModel& model);
 
 // The bytes that the geometry of this file may take: a part that every file has, and so many times
 // its own size that only what is not in the file, or is read again and again, can go beyond it.
-// (Sixteen: a strip of bytes that becomes triangles with flat normals grows by the most.)
-inline std::size_t gltfAllowance(const GltfModel& model) { return model.limits.geometryBytes + 16 * model.file.size; }
+// (Sixteen: a strip of bytes that becomes triangles with flat normals grows by the most. Four of what was
+// compressed, which has its own limit: bytes become floats.)
+inline std::size_t gltfAllowance(const GltfModel& model)
+{
+    return model.limits.geometryBytes + 16 * model.file.size + 4 * model.file.unpacked;
+}
 
 // Counts bytes before they are allocated. field: for the message where they are too many.
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);

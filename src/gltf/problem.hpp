@@ -19,11 +19,12 @@ namespace cotan {
 // The message says field, expected, found; caughtGltf puts the file in front.
 struct GltfProblem {
     std::string message;
+    ErrorKind kind = ErrorKind::input;
 };
 
 template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> text, Args&&... args)
 {
-    throw GltfProblem{fmt::format(text, std::forward<Args>(args)...)};
+    throw GltfProblem{fmt::format(text, std::forward<Args>(args)...), ErrorKind::input};
 }
 
 // For files of glTF 1.0, whose structure is another one. field: where that shows.
@@ -57,14 +58,14 @@ std::string oneLine(const std::string& text);
 // What load() returns, and what it throws as an error: one line with the file's name in front, once.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
 {
-    const auto failed = [&](const std::string& what) {
+    const auto failed = [&](const std::string& what, ErrorKind kind = ErrorKind::input) {
         const std::string name = file.string();
-        return inputError(oneLine(what.starts_with(name) ? what : name + ": " + what));
+        return Error{kind, oneLine(what.starts_with(name) ? what : name + ": " + what)};
     };
     try {
         return load();
     } catch (const GltfProblem& problem) {
-        return failed(problem.message);
+        return failed(problem.message, problem.kind);
     } catch (const std::bad_alloc&) {
         return failed("not enough memory for what the file asks for");
     } catch (const std::exception& problem) {

@@ -134,13 +134,15 @@ inline constexpr std::array kNode{text("name"),
                                   numbers("weights"),
                                   object("extensions", kNodeExtensions)};
 
+inline constexpr std::array kDraco{required(index("bufferView", "bufferViews")), required(object("attributes", {}))};
+inline constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDraco)};
 inline constexpr std::array kPrimitive{
     Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"},
     index("indices", "accessors"),
     index("material", "materials"),
     integer("mode", 0, 6),
     Field{.name = "targets", .shape = Shape::indexMaps, .refers = "accessors"},
-    object("extensions", {})};
+    object("extensions", kPrimitiveExtensions)};
 inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)), numbers("weights")};
 
 inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), integer("byteOffset"),
@@ -157,10 +159,23 @@ inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       object("sparse", kSparse),
                                       numbers("min"),
                                       numbers("max")};
+inline constexpr std::array kMeshoptModes{string_view("ATTRIBUTES"), string_view("TRIANGLES"), string_view("INDICES")};
+inline constexpr std::array kMeshoptFilters{string_view("NONE"), string_view("OCTAHEDRAL"), string_view("QUATERNION"),
+                                            string_view("EXPONENTIAL"), string_view("COLOR")};
+inline constexpr std::array kMeshopt{
+    required(index("buffer", "buffers")),    size("byteOffset"),      required(size("byteLength")),
+    required(integer("byteStride", 1, 256)), required(size("count")), required(text("mode", kMeshoptModes)),
+    text("filter", kMeshoptFilters)};
+inline constexpr std::array kViewExtensions{object("EXT_meshopt_compression", kMeshopt),
+                                            object("KHR_meshopt_compression", kMeshopt)};
 inline constexpr std::array kBufferView{
     required(index("buffer", "buffers")), size("byteOffset"), required(size("byteLength")),
-    Field{.name = "byteStride", .shape = Shape::integer, .low = 0, .high = 252, .multipleOf = 4}};
-inline constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
+    Field{.name = "byteStride", .shape = Shape::integer, .low = 0, .high = 252, .multipleOf = 4},
+    object("extensions", kViewExtensions)};
+inline constexpr std::array kFallback{boolean("fallback")};
+inline constexpr std::array kBufferExtensions{object("EXT_meshopt_compression", kFallback),
+                                              object("KHR_meshopt_compression", kFallback)};
+inline constexpr std::array kBuffer{required(size("byteLength")), text("uri"), object("extensions", kBufferExtensions)};
 
 inline constexpr std::array kTransform{numbers("offset", 2), number("rotation"), numbers("scale", 2),
                                        integer("texCoord")};

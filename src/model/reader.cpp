@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "cotan/files/account.hpp"
+#include "cotan/gltf/draco.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/model/load.hpp"
@@ -68,6 +69,8 @@ public:
         else if (request_.kind == ReaderKind::picture)
             say(decodeImage(request_.bytes, request_.name, request_.limits),
                 [&](const Image& image) { exchangeImage(answer_, image); });
+        else if (request_.kind == ReaderKind::draco)
+            readDraco();
         else
             readRows();
         answer_.flush();
@@ -110,6 +113,15 @@ private:
         else
             exchangeError(answer_, result.error());
         answer_.flush();
+    }
+
+    void readDraco()
+    {
+        std::vector<DracoJob> jobs;
+        exchangeDracoJobs(question_, jobs);
+        if (question_.good())
+            say(decodeDraco(jobs, request_.name, request_.limits),
+                [&](const std::vector<DracoGeometry>& meshes) { exchangeDracoGeometry(answer_, meshes); });
     }
 
     // Strips as long as somebody asks for them.

@@ -32,6 +32,8 @@ std::string readerName(const ReaderRequest& request)
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::toupper(c); });
     const bool known = extension.size() > 1 && extension.size() < 6;
     const std::string format = known ? extension.substr(1) + " " : "";
+    if (request.kind == ReaderKind::draco)
+        return "the decoder of Draco streams";
     return fmt::format("the reader of {}{}", format, request.kind == ReaderKind::model ? "files" : "pictures");
 }
 

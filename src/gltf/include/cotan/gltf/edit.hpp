@@ -40,7 +40,8 @@ struct GltfDocument {
 };
 
 // Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
-// are not opened. Errors (ErrorKind::input): those of loadGltf; EXT_meshopt_compression.
+// are not opened. Compressed geometry is decoded, and is plain in the document; a note says so. Errors: those of
+// loadGltf.
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The file that a document was read from, for messages; empty for one that was made from a scene.
@@ -68,8 +69,7 @@ struct GltfGeometry {
 };
 
 // mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
-// empty geometry.
-// Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
+// empty geometry. Errors (ErrorKind::input): indices out of range.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- tangents -------------------------------------------------------------------------------
@@ -85,12 +85,12 @@ struct GltfCornerTangents {
 // and morph targets, only where corners that share it differ; primitives that share their
 // attributes go on sharing them if all of them are given in one call. Strips and fans become lists.
 // Returns how many vertices were added.
-// Errors (ErrorKind::input): compressed geometry, no NORMAL; ErrorKind::usage: corners of the wrong
+// Errors (ErrorKind::input): no NORMAL; ErrorKind::usage: corners of the wrong
 // number. On error the document is unchanged.
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents);
 
 // Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
-Result<bool> dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
+bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- images ---------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ namespace cotan {
 
 inline constexpr char kReaderWord[] = "read-for-parent"; // the reader's only argument
 inline constexpr int kNoMemoryCode = 71;                 // its exit code where memory ended
-inline constexpr std::uint32_t kReaderVersion = 1;       // of what is said; both are the same program, or should be
+inline constexpr std::uint32_t kReaderVersion = 2;       // of what is said; both are the same program, or should be
 
 // The most that the reader may take.
 struct ReaderBudget {
@@ -38,7 +38,7 @@ inline ReaderBudget budgetFor(const LoadLimits& limits, std::size_t fileBytes, s
             sandbox.seconds > 0 ? sandbox.seconds : std::min(4 + 4 * file + 0.2 * decoded, 3600.0)};
 }
 
-enum class ReaderKind { model, picture, rows };
+enum class ReaderKind { model, picture, rows, draco };
 
 struct ReaderRequest {
     std::uint32_t version = kReaderVersion;
@@ -66,7 +66,7 @@ template<class W, class T> void exchangeLimits(W& w, T& limits)
 template<class W, class T> void exchangeRequest(W& w, T& request)
 {
     w.number(request.version);
-    w.choice(request.kind, ReaderKind::rows);
+    w.choice(request.kind, ReaderKind::draco);
     w.text(request.name);
     w.array(request.bytes);
     w.number(request.fileBytes);

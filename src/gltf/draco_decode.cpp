@@ -1,0 +1,183 @@
+// Draco's bitstream 2.2 to the arrays that glTF wants. Source: the Draco Bitstream Specification, version 2.2, sections
+// 4 (header) and 5 (connectivity).
+#include <cstring>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#include <draco/compression/decode.h>
+#include <draco/core/decoder_buffer.h>
+#include <fmt/format.h>
+
+#include "codes.hpp"
+#include "cotan/gltf/views.hpp"
+#include "draco.hpp"
+#include "problem.hpp"
+
+namespace cotan::gltf {
+
+namespace {
+
+// The numbers at the start of a stream, read by ourselves: the decoder takes memory by them.
+class Header {
+public:
+    explicit Header(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+
+    bool past() const { return past_; }
+
+    std::uint64_t number(int bytes)
+    {
+        std::uint64_t value = 0;
+        for (int i = 0; i < bytes; ++i)
+            value |= std::uint64_t(next()) << (8 * i);
+        return value;
+    }
+
+    std::uint64_t varint() // LEB128
+    {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 64; shift += 7) {
+            const std::uint8_t byte = next();
+            value |= std::uint64_t(byte & 0x7f) << shift;
+            if (byte < 0x80)
+                return value;
+        }
+        past_ = true;
+        return 0;
+    }
+
+private:
+    std::uint8_t next()
+    {
+        past_ = past_ || at_ >= bytes_.size();
+        return past_ ? 0 : std::to_integer<std::uint8_t>(bytes_[at_++]);
+    }
+
+    const std::vector<std::byte>& bytes_;
+    std::size_t at_ = 0;
+    bool past_ = false;
+};
+
+// Refuses a stream whose header promises something else than the model does.
+void checkHeader(const DracoJob& job)
+{
+    constexpr std::uint64_t kMagic = 0x4f43415244; // "DRACO"
+    constexpr std::uint64_t kVersion = 0x0202, kMesh = 1, kSequential = 0, kEdgebreaker = 1, kMetadata = 0x8000;
+    Header header(job.bytes);
+    if (header.number(5) != kMagic)
+        failGltf("{}: expected a Draco stream, found other data", job.field);
+    const std::uint64_t version = header.number(2), kind = header.number(1), method = header.number(1),
+                        flags = header.number(2);
+    if (version != kVersion)
+        failGltf("{}: expected Draco bitstream 2.2, found {}.{}", job.field, version & 0xff, version >> 8);
+    if (kind != kMesh || (method != kSequential && method != kEdgebreaker))
+        failGltf("{}: expected a mesh of triangles, found another kind of Draco stream", job.field);
+    if (flags & kMetadata)
+        failGltf("{}: the Draco stream has metadata, which is not read here", job.field);
+    std::uint64_t faces = 0, vertices = 0; // Edgebreaker's vertices are positions: attributes may split them
+    if (method == kEdgebreaker) {
+        header.number(1); // how the triangles are traversed
+        vertices = header.varint();
+        faces = header.varint();
+    } else {
+        faces = header.varint();
+        vertices = header.varint();
+    }
+    if (header.past())
+        failGltf("{}: the Draco stream ends within its header", job.field);
+    if (faces != job.indices / 3 || job.indices % 3 != 0)
+        failGltf("{}: expected {} indices, as the accessor has, found {} triangles in the Draco stream", job.field,
+                 job.indices, faces);
+    if (vertices > job.vertices)
+        failGltf("{}: expected {} vertices, as the accessors have, found {} in the Draco stream", job.field,
+                 job.vertices, vertices);
+}
+
+// Calls use(T()) with the type of a component.
+template<class Use> void withType(int componentType, const Use& use)
+{
+    switch (componentType) {
+    case kByte: return use(std::int8_t());
+    case kUnsignedByte: return use(std::uint8_t());
+    case kShort: return use(std::int16_t());
+    case kUnsignedShort: return use(std::uint16_t());
+    case kUnsignedInt: return use(std::uint32_t());
+    default: return use(float());
+    }
+}
+
+std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& wanted, const DracoJob& job)
+{
+    const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(wanted.id);
+    if (!attribute)
+        failGltf("{}: the Draco stream has no attribute of the id {}", job.field, wanted.id);
+    if (std::uint32_t(attribute->num_components()) != wanted.components)
+        failGltf("{}: expected {} components in the Draco attribute of the id {}, found {}", job.field,
+                 wanted.components, wanted.id, attribute->num_components());
+    const std::size_t each = wanted.components * componentSize(wanted.componentType);
+    std::vector<std::byte> values(job.vertices * each);
+    withType(wanted.componentType, [&]<class T>(T) {
+        std::vector<T> element(wanted.components);
+        for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
+            const draco::AttributeValueIndex at = attribute->mapped_index(draco::PointIndex(p));
+            if (at.value() >= attribute->size()
+                || !attribute->ConvertValue(at, static_cast<std::int8_t>(wanted.components), element.data()))
+                failGltf("{}: vertex {} of the Draco attribute of the id {} is no {}", job.field, p, wanted.id,
+                         nameOfComponent(wanted.componentType));
+            std::memcpy(values.data() + p * each, element.data(), each);
+        }
+    });
+    return values;
+}
+
+std::vector<std::byte> indicesOf(const draco::Mesh& mesh, const DracoJob& job)
+{
+    const std::size_t each = componentSize(job.indexType);
+    std::vector<std::byte> indices(job.indices * each);
+    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t index = mesh.face(draco::FaceIndex(f))[k].value();
+            if (index >= job.vertices || (each < 4 && index >> (8 * each) != 0))
+                failGltf("{}: index {} of the Draco stream is {}, but there are {} vertices and {} bytes for it",
+                         job.field, 3 * f + k, index, job.vertices, each);
+            std::memcpy(indices.data() + (3 * f + k) * each, &index, each); // little-endian, as the file
+        }
+    return indices;
+}
+
+DracoGeometry decode(const DracoJob& job)
+{
+    checkHeader(job);
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
+    auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok())
+        failGltf("{}: the Draco stream is damaged ({})", job.field, oneLine(decoded.status().error_msg_string()));
+    const draco::Mesh& mesh = *decoded.value();
+    if (mesh.num_points() != job.vertices)
+        failGltf("{}: expected {} vertices, as the accessors have, found {} in the Draco stream", job.field,
+                 job.vertices, mesh.num_points());
+    if (mesh.num_faces() != job.indices / 3)
+        failGltf("{}: expected {} indices, as the accessor has, found {} triangles in the Draco stream", job.field,
+                 job.indices, mesh.num_faces());
+    DracoGeometry geometry{indicesOf(mesh, job), {}};
+    for (const DracoAttribute& wanted : job.attributes)
+        geometry.attributes.push_back(valuesOf(mesh, wanted, job));
+    return geometry;
+}
+
+} // namespace
+
+Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& jobs)
+try {
+    std::vector<DracoGeometry> meshes;
+    for (const DracoJob& job : jobs)
+        meshes.push_back(decode(job));
+    return meshes;
+} catch (const GltfProblem& problem) {
+    return inputError(problem.message);
+} catch (const std::bad_alloc&) {
+    return inputError("not enough memory for a Draco stream");
+}
+
+} // namespace cotan::gltf

@@ -1,0 +1,62 @@
+// The codecs and filters of EXT_meshopt_compression. libmeshoptimizer's decoders take untrusted bytes; what they assert
+// about sizes is checked here.
+#include <meshoptimizer.h>
+
+#include "problem.hpp"
+#include "unpack.hpp"
+
+namespace cotan::gltf {
+
+namespace {
+
+// What the specification of the extension allows.
+void checkSizes(const MeshoptView& view, const std::string& field)
+{
+    const bool attributes = view.mode == "ATTRIBUTES";
+    if (attributes ? view.stride % 4 != 0 || view.stride == 0 || view.stride > 256
+                   : view.stride != 2 && view.stride != 4)
+        failGltf("{}.byteStride: expected {}, found {}", field, attributes ? "a multiple of 4 up to 256" : "2 or 4",
+                 view.stride);
+    if (view.mode == "TRIANGLES" && view.count % 3 != 0)
+        failGltf("{}.count: expected a multiple of 3, found {}", field, view.count);
+    if (view.filter != "NONE" && !attributes)
+        failGltf("{}.filter: expected none for mode {}, found {}", field, view.mode, view.filter);
+    if (view.filter == "OCTAHEDRAL" && view.stride != 4 && view.stride != 8)
+        failGltf("{}.byteStride: expected 4 or 8 for filter OCTAHEDRAL, found {}", field, view.stride);
+    if (view.filter == "QUATERNION" && view.stride != 8)
+        failGltf("{}.byteStride: expected 8 for filter QUATERNION, found {}", field, view.stride);
+    if (view.filter == "COLOR") // of the extension's later form
+        failGltf("{}.filter: COLOR is not read here; expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", field);
+}
+
+int decode(const MeshoptView& view, std::vector<std::byte>& out)
+{
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(view.bytes.data());
+    if (view.mode == "ATTRIBUTES")
+        return meshopt_decodeVertexBuffer(out.data(), view.count, view.stride, bytes, view.bytes.size());
+    if (view.mode == "TRIANGLES")
+        return meshopt_decodeIndexBuffer(out.data(), view.count, view.stride, bytes, view.bytes.size());
+    return meshopt_decodeIndexSequence(out.data(), view.count, view.stride, bytes, view.bytes.size());
+}
+
+} // namespace
+
+std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string& field)
+{
+    checkSizes(view, field);
+    std::vector<std::byte> out(view.count * view.stride);
+    if (const int code = decode(view, out); code == -1)
+        failGltf("{}: expected a stream that meshoptimizer 0.18 reads (codec version 0), found another", field);
+    else if (code != 0)
+        failGltf("{}: the compressed bytes are damaged, or not {} elements of {} bytes", field, view.count,
+                 view.stride);
+    if (view.filter == "OCTAHEDRAL")
+        meshopt_decodeFilterOct(out.data(), view.count, view.stride);
+    else if (view.filter == "QUATERNION")
+        meshopt_decodeFilterQuat(out.data(), view.count, view.stride);
+    else if (view.filter == "EXPONENTIAL")
+        meshopt_decodeFilterExp(out.data(), view.count, view.stride);
+    return out;
+}
+
+} // namespace cotan::gltf

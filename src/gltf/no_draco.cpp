@@ -1,0 +1,12 @@
+// KHR_draco_mesh_compression where there is no Draco.
+#include "cotan/not_built.hpp"
+#include "draco.hpp"
+
+namespace cotan::gltf {
+
+Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>&)
+{
+    return notBuiltWith("Draco", "libdraco-dev");
+}
+
+} // namespace cotan::gltf

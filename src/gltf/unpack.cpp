@@ -1,0 +1,248 @@
+#include "unpack.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "codes.hpp"
+#include "cotan/gltf/draco.hpp"
+#include "cotan/gltf/views.hpp"
+#include "elements.hpp"
+
+namespace cotan {
+
+using gltf::Json;
+
+namespace {
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kMeshopt[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+void takeOut(Json& object, const std::string& name)
+{
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end())
+        return;
+    extensions->erase(name);
+    if (extensions->empty())
+        object.erase("extensions");
+}
+
+void takeFromList(Json& root, const char* list, const std::string& name)
+{
+    const auto names = root.find(list);
+    if (names == root.end())
+        return;
+    auto& items = names->get_ref<Json::array_t&>();
+    std::erase(items, name);
+    if (items.empty())
+        root.erase(list);
+}
+
+// Attributes of vertices begin at multiples of four bytes.
+std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+
+std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
+{
+    std::vector<std::byte> out(packed.size() / each * aligned(each));
+    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += aligned(each))
+        std::copy_n(packed.begin() + std::ptrdiff_t(from), each, out.begin() + std::ptrdiff_t(to));
+    return out;
+}
+
+class Unpacker {
+public:
+    Unpacker(GltfFile& file, const LoadLimits& limits) : file_(file), limits_(limits) {}
+
+    std::vector<std::string> run()
+    {
+        for (const char* const name : kMeshopt)
+            unpackViews(name);
+        readDracoJobs();
+        unpackPrimitives();
+        for (const std::string name : {kMeshopt[0], kMeshopt[1], kDraco})
+            for (const char* const list : {"extensionsUsed", "extensionsRequired"})
+                takeFromList(file_.json, list, name);
+        return {decoded_.begin(), decoded_.end()};
+    }
+
+private:
+    // Counts bytes before they are decoded. Numbers are below 2^60.
+    void take(std::size_t bytes, const std::string& field)
+    {
+        const std::size_t most = limits_.geometryBytes + 64 * file_.size;
+        if (bytes > most - std::min(file_.unpacked, most))
+            failGltf("{}: decoded geometry takes {} bytes with it, the limit is {} for a file of {}", field,
+                     file_.unpacked + bytes, most, file_.size);
+        file_.unpacked += bytes;
+    }
+
+    // A new buffer and a view of all of it; returns what the JSON of the view has to say.
+    Json viewOf(std::vector<std::byte> bytes)
+    {
+        Json& buffers = file_.json["buffers"];
+        const Json view = {{"buffer", buffers.size()}, {"byteLength", bytes.size()}};
+        buffers.push_back({{"byteLength", bytes.size()}});
+        file_.buffers.push_back(file_.unpackedBytes.emplace_back(std::move(bytes)));
+        return view;
+    }
+
+    std::span<const std::byte> bytesOf(std::size_t buffer, std::size_t offset, std::size_t length,
+                                       const std::string& field) const
+    {
+        const std::span<const std::byte> bytes = file_.buffers[buffer];
+        if (offset > bytes.size() || length > bytes.size() - offset)
+            failGltf("{}: it ends at byte {} of buffers[{}], which has {}", field, offset + length, buffer,
+                     bytes.size());
+        return bytes.subspan(offset, length);
+    }
+
+    void unpackViews(const std::string& name)
+    {
+        const auto views = file_.json.find("bufferViews");
+        for (std::size_t i = 0; views != file_.json.end() && i < views->size(); ++i) {
+            Json& view = (*views)[i];
+            const Json* const packed = gltf::extension(view, name);
+            if (!packed)
+                continue;
+            if (isGltfFallback(file_.json["buffers"][view["buffer"].get<std::size_t>()]))
+                unpackView(view, *packed, fmt::format("bufferViews[{}].extensions.{}", i, name), name);
+            takeOut(view, name);
+        }
+        if (const auto buffers = file_.json.find("buffers"); buffers != file_.json.end())
+            for (Json& buffer : *buffers)
+                takeOut(buffer, name);
+    }
+
+    void unpackView(Json& view, const Json& packed, const std::string& field, const std::string& name)
+    {
+        const std::size_t length = packed["byteLength"].get<std::size_t>();
+        gltf::MeshoptView from{bytesOf(packed["buffer"].get<std::size_t>(),
+                                       gltf::valueOr(packed, "byteOffset", std::size_t(0)), length, field),
+                               packed["count"].get<std::size_t>(), packed["byteStride"].get<std::size_t>(),
+                               packed["mode"].get<std::string>(), gltf::valueOr(packed, "filter", std::string("NONE"))};
+        const std::size_t decoded = from.count * from.stride;
+        if (decoded != view["byteLength"].get<std::size_t>())
+            failGltf("{}: expected {} bytes, as the view has, found {} elements of {} bytes", field,
+                     view["byteLength"].get<std::size_t>(), from.count, from.stride);
+        take(decoded, field);
+        const Json plain = viewOf(gltf::decodeMeshopt(from, field));
+        view["buffer"] = plain["buffer"];
+        view.erase("byteOffset");
+        decoded_.insert(name);
+    }
+
+    // ---- Draco ----------------------------------------------------------------------------------------------------
+
+    Json& accessor(int index) { return file_.json["accessors"][std::size_t(index)]; }
+
+    // The stream of a primitive as it is wanted; nothing where all of it is there as plain numbers.
+    std::optional<DracoJob> jobOf(const Json& primitive, const Json& draco, const std::string& field)
+    {
+        DracoJob job{field + ".extensions." + kDraco, {}, 0, 0, 0, {}};
+        if (gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
+            failGltf("{}: expected mode 4, triangles, found {}", job.field, primitive["mode"].get<int>());
+        std::vector<int>& targets = targets_.emplace_back();
+        bool plain = true;
+        const auto add = [&](int target) {
+            const gltf::Accessor a = gltf::readAccessor(accessor(target));
+            if (a.sparse)
+                failGltf("{}: accessors[{}] has sparse values, which a compressed one must not", job.field, target);
+            plain = plain && a.view >= 0;
+            targets.push_back(target);
+            take(a.count * gltf::elementSize(a), job.field);
+            return a;
+        };
+        for (const auto& [name, id] : draco["attributes"].items()) {
+            const int target = gltf::valueOr(primitive["attributes"], name, -1);
+            if (target < 0 || !id.is_number_unsigned() || id.get<std::uint64_t>() > 0xffffffff)
+                failGltf("{}.attributes.{}: expected the id of an attribute that the primitive has, found {}",
+                         job.field, oneLine(name), oneLine(id.dump()));
+            const gltf::Accessor a = add(target);
+            if (job.attributes.empty())
+                job.vertices = a.count;
+            else if (job.vertices != a.count)
+                failGltf("{}.attributes.{}: expected {} elements, found {}", job.field, oneLine(name), job.vertices,
+                         a.count);
+            job.attributes.push_back(
+                {id.get<std::uint32_t>(), a.componentType, std::uint32_t(gltf::componentCount(a.type))});
+        }
+        if (job.vertices == 0)
+            failGltf("{}.attributes: expected at least one, with vertices", job.field);
+        const int indices = gltf::valueOr(primitive, "indices", -1);
+        if (indices < 0)
+            failGltf("{}.indices: missing; compressed triangles have them", field);
+        const gltf::Accessor a = add(indices);
+        gltf::expectIndices(a, {indices, field + ".indices"});
+        job.indices = a.count;
+        job.indexType = a.componentType;
+        if (plain)
+            return std::nullopt;
+        const gltf::BufferView view =
+            gltf::readBufferView(file_.json["bufferViews"][draco["bufferView"].get<std::size_t>()]);
+        const auto bytes = bytesOf(view.buffer, view.offset, view.length, job.field);
+        job.bytes.assign(bytes.begin(), bytes.end());
+        return job;
+    }
+
+    void readDracoJobs()
+    {
+        const auto meshes = file_.json.find("meshes");
+        for (std::size_t m = 0; meshes != file_.json.end() && m < meshes->size(); ++m)
+            for (std::size_t p = 0; p < (*meshes)[m]["primitives"].size(); ++p) {
+                Json& primitive = (*meshes)[m]["primitives"][p];
+                const Json* const draco = gltf::extension(primitive, kDraco);
+                if (!draco)
+                    continue;
+                auto job = jobOf(primitive, *draco, fmt::format("meshes[{}].primitives[{}]", m, p));
+                takeOut(primitive, kDraco);
+                // Primitives may share a stream and its accessors.
+                if (job && made_.emplace(targets_.back(), jobs_.size()).second)
+                    jobs_.push_back(std::move(*job));
+                else
+                    targets_.pop_back();
+            }
+    }
+
+    void unpackPrimitives()
+    {
+        if (jobs_.empty())
+            return;
+        auto meshes = decodeDraco(jobs_, "KHR_draco_mesh_compression", limits_);
+        if (!meshes)
+            throw GltfProblem{meshes.error().message, meshes.error().kind};
+        std::set<int> filled;
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            std::vector<std::vector<std::byte>>& arrays = (*meshes)[i].attributes;
+            arrays.push_back(std::move((*meshes)[i].indices));
+            for (std::size_t k = 0; k < arrays.size(); ++k) {
+                if (!filled.insert(targets_[i][k]).second)
+                    failGltf("{}: accessors[{}] belongs to another compressed primitive too", jobs_[i].field,
+                             targets_[i][k]);
+                Json& target = accessor(targets_[i][k]);
+                target["bufferView"] = file_.json["bufferViews"].size();
+                target.erase("byteOffset");
+                const std::size_t each = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
+                Json view = viewOf(each % 4 == 0 ? std::move(arrays[k]) : spaced(arrays[k], each));
+                if (each % 4 != 0)
+                    view["byteStride"] = aligned(each);
+                file_.json["bufferViews"].push_back(std::move(view));
+            }
+        }
+        decoded_.insert(kDraco);
+    }
+
+    GltfFile& file_;
+    const LoadLimits& limits_;
+    std::set<std::string> decoded_;
+    std::vector<DracoJob> jobs_;
+    std::vector<std::vector<int>> targets_;        // the accessors of each job: attributes, then indices
+    std::map<std::vector<int>, std::size_t> made_; // jobs by their accessors
+};
+
+} // namespace
+
+std::vector<std::string> unpackGltf(GltfFile& file, const LoadLimits& limits) { return Unpacker(file, limits).run(); }
+
+} // namespace cotan

@@ -1,0 +1,431 @@
+// Geometry compressed with Draco and meshoptimizer, made here by their own encoders, against the plain numbers.
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/mesh.h>
+#include <meshoptimizer.h>
+
+#include "cotan/gltf/edit.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "gltf_edit_maker.hpp"
+#include "gltf_maker.hpp"
+
+namespace {
+
+using namespace cotan;
+using namespace cotan::test;
+
+// ---- Draco ------------------------------------------------------------------------------------
+
+// A sheet of n x n cells that waves, with texture coordinates, and bytes that say which vertex it is.
+struct Sheet {
+    std::vector<float> positions, texcoords;
+    std::vector<std::uint8_t> numbers; // three of a vertex: its column, its row, 7
+    std::vector<std::uint32_t> indices;
+    std::size_t vertices() const { return positions.size() / 3; }
+};
+
+Sheet sheet(std::uint32_t n)
+{
+    Sheet s;
+    for (std::uint32_t j = 0; j <= n; ++j)
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const float x = float(i) / float(n), y = float(j) / float(n);
+            s.positions.insert(s.positions.end(), {x, y, 0.1f * std::sin(5 * x + 3 * y)});
+            s.texcoords.insert(s.texcoords.end(), {x, 1 - y});
+            s.numbers.insert(s.numbers.end(), {std::uint8_t(i), std::uint8_t(j), std::uint8_t(7)});
+        }
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+            s.indices.insert(s.indices.end(), {a, b, c, a, c, d});
+        }
+    return s;
+}
+
+template<class T>
+int addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType stored, int components,
+                 const std::vector<T>& values)
+{
+    draco::GeometryAttribute attribute;
+    attribute.Init(type, nullptr, std::uint8_t(components), stored, false, std::int64_t(sizeof(T)) * components, 0);
+    const int id = mesh.AddAttribute(attribute, true, mesh.num_points());
+    for (std::uint32_t i = 0; i < mesh.num_points(); ++i)
+        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i * std::size_t(components)]);
+    return id;
+}
+
+constexpr int kPositionBits = 14, kTexcoordBits = 12;
+
+std::string dracoStream(const Sheet& s, int method)
+{
+    draco::Mesh mesh;
+    mesh.SetNumFaces(s.indices.size() / 3);
+    mesh.set_num_points(std::uint32_t(s.vertices()));
+    for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
+        mesh.SetFace(draco::FaceIndex(f),
+                     {draco::PointIndex(s.indices[3 * f]), draco::PointIndex(s.indices[3 * f + 1]),
+                      draco::PointIndex(s.indices[3 * f + 2])});
+    const int positions = addAttribute(mesh, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, s.positions);
+    const int texcoords = addAttribute(mesh, draco::GeometryAttribute::TEX_COORD, draco::DT_FLOAT32, 2, s.texcoords);
+    addAttribute(mesh, draco::GeometryAttribute::GENERIC, draco::DT_UINT8, 3, s.numbers);
+    draco::ExpertEncoder encoder(mesh);
+    encoder.SetEncodingMethod(method);
+    encoder.SetAttributeQuantization(positions, kPositionBits);
+    encoder.SetAttributeQuantization(texcoords, kTexcoordBits);
+    draco::EncoderBuffer buffer;
+    EXPECT_TRUE(encoder.EncodeToBuffer(&buffer).ok());
+    return {buffer.data(), buffer.size()};
+}
+
+constexpr std::array<int, 2> kMethods{draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING};
+
+// The model whose only primitive is that stream.
+Gltf dracoModel(const Sheet& s, const std::string& stream)
+{
+    Gltf g;
+    const int view = g.view(std::vector<char>(stream.begin(), stream.end()));
+    const auto attribute = [&](const char* type, int componentType) {
+        return g.accessor(json{{"componentType", componentType}, {"type", type}, {"count", s.vertices()}});
+    };
+    const json attributes = {{"POSITION", attribute("VEC3", kFloat)},
+                             {"TEXCOORD_0", attribute("VEC2", kFloat)},
+                             {"_NUMBERS", attribute("VEC3", kUByte)}};
+    const int indices = g.accessor(json{{"componentType", kUShort}, {"type", "SCALAR"}, {"count", s.indices.size()}});
+    const json draco = {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}, {"_NUMBERS", 2}}}};
+    g.add("meshes",
+          {{"primitives",
+            {{{"attributes", attributes},
+              {"indices", indices},
+              {"extensions", {{"KHR_draco_mesh_compression", draco}}}}}}});
+    g.add("nodes", {{"mesh", 0}});
+    g.add("scenes", {{"nodes", {0}}});
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    return g;
+}
+
+class DracoGeometryIs : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Methods, DracoGeometryIs, testing::ValuesIn(kMethods),
+                         [](const auto& at) { return at.param == 0 ? "sequential" : "edgebreaker"; });
+
+// Draco orders triangles and vertices as it likes: each is found by its place in the sheet.
+TEST_P(DracoGeometryIs, thatOfTheSheetToTheQuantisation)
+{
+    const Sheet s = sheet(20);
+    const auto scene = dracoModel(s, dracoStream(s, GetParam())).load();
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->warnings.size(), 1u); // no normals
+    ASSERT_EQ(scene->meshes.size(), 1u);
+    const Mesh& mesh = scene->meshes[0];
+    ASSERT_EQ(mesh.triangleCount(), 800u);
+    std::vector<int> met(20 * 20, 0);
+    for (std::size_t f = 0; f < mesh.triangleCount(); ++f) {
+        glm::vec3 middle(0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.indices[3 * f + k];
+            const glm::vec3 p = mesh.positions[v];
+            middle += p / 3.0f;
+            // Half a step of the quantisation, of a box of 1: of the texture coordinates and of the place.
+            EXPECT_LT(std::abs(p.z - 0.1f * std::sin(5 * p.x + 3 * p.y)), 1.6f / (1 << kPositionBits));
+            EXPECT_LT(std::abs(mesh.texcoords[0][v].x - p.x), 0.65f / (1 << kTexcoordBits));
+            EXPECT_LT(std::abs(mesh.texcoords[0][v].y - (1 - p.y)), 0.65f / (1 << kTexcoordBits));
+        }
+        ++met[std::size_t(middle.y * 20) * 20 + std::size_t(middle.x * 20)];
+    }
+    for (const int triangles : met)
+        EXPECT_EQ(triangles, 2);
+}
+
+TEST_P(DracoGeometryIs, plainInADocumentThatIsWritten)
+{
+    const TemporaryFolder folder;
+    const Sheet s = sheet(4);
+    const auto document = openGltfDocument(folder.write("in.gltf", dracoModel(s, dracoStream(s, GetParam())).text()));
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_EQ(document->notes.size(), 1u);
+    EXPECT_NE(document->notes[0].find("KHR_draco_mesh_compression"), std::string::npos);
+    ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
+    const ReadBack out = readBack(folder.path / "out.glb");
+    EXPECT_FALSE(out.root.contains("extensionsUsed"));
+    EXPECT_FALSE(out.root.contains("extensionsRequired"));
+    EXPECT_EQ(out.root.dump().find("draco"), std::string::npos);
+    // The numbers of each vertex have its place: three bytes, the next vertex begins behind four.
+    const json& primitive = out.root["meshes"][0]["primitives"][0];
+    const json& numbers = out.root["accessors"][primitive["attributes"]["_NUMBERS"].get<std::size_t>()];
+    const json& view = out.root["bufferViews"][numbers["bufferView"].get<std::size_t>()];
+    EXPECT_EQ(view["byteStride"], 4);
+    const json& places = out.root["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    const json& placesView = out.root["bufferViews"][places["bufferView"].get<std::size_t>()];
+    for (std::size_t v = 0; v < s.vertices(); ++v) {
+        float x = 0, y = 0;
+        const std::size_t at = placesView["byteOffset"].get<std::size_t>() + 12 * v;
+        std::memcpy(&x, out.buffer.data() + at, 4);
+        std::memcpy(&y, out.buffer.data() + at + 4, 4);
+        const std::size_t mine = view["byteOffset"].get<std::size_t>() + 4 * v;
+        EXPECT_EQ(int(out.buffer[mine]), int(std::lround(4 * x)));
+        EXPECT_EQ(int(out.buffer[mine + 1]), int(std::lround(4 * y)));
+        EXPECT_EQ(int(out.buffer[mine + 2]), 7);
+    }
+}
+
+TEST_P(DracoGeometryIs, refusedWhereTheModelSaysSomethingElse)
+{
+    const Sheet s = sheet(4);
+    const std::string stream = dracoStream(s, GetParam());
+    const std::string draco = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression";
+    const std::tuple<std::string, json, const char*> cases[] = {
+        {"/accessors/3/count", 3, "expected 3 indices"},
+        {"/accessors/3/count", 99, "expected 99 indices"},
+        {"/accessors/3/count", 300'000'000, "the limit is"},
+        {"/accessors/0/count", 24, "expected 24 elements, found 25"},
+        {"/accessors/0/type", "VEC4", "expected 4 components"},
+        {"/accessors/3/componentType", kFloat, "expected unsigned integers"},
+        {draco + "/attributes/POSITION", 9, "no attribute of the id 9"},
+        {draco + "/attributes/POSITION", -1, "expected the id"},
+        {draco + "/attributes/COLOR_0", 1, "expected the id of an attribute that the primitive has"},
+        {draco + "/bufferView", 7, "expected an index below 1"},
+        {"/meshes/0/primitives/0/mode", 5, "expected mode 4"},
+    };
+    for (const auto& [where, value, word] : cases) {
+        Gltf g = dracoModel(s, stream);
+        g.root[json::json_pointer(where)] = value;
+        COTAN_REFUSED(g.load(), word);
+    }
+    Gltf fewer = dracoModel(s, stream);
+    for (int i = 0; i < 3; ++i)
+        fewer.root["accessors"][std::size_t(i)]["count"] = 24;
+    COTAN_REFUSED(fewer.load(), "expected 24 vertices");
+    Gltf without = dracoModel(s, stream);
+    primitive(without).erase("indices");
+    COTAN_REFUSED(without.load(), "indices: missing");
+}
+
+TEST_P(DracoGeometryIs, refusedInOneLineOrReadWhereTheStreamIsDamaged)
+{
+    const Sheet s = sheet(6);
+    const std::string stream = dracoStream(s, GetParam());
+    for (std::size_t length = 1; length < stream.size(); length += 1 + stream.size() / 40)
+        COTAN_REFUSED(dracoModel(s, stream.substr(0, length)).load(), "raco");
+    std::mt19937 random(5);
+    int refused = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::string damaged = stream;
+        damaged[random() % damaged.size()] ^= char(1 << random() % 8);
+        const auto scene = dracoModel(s, damaged).load();
+        refused += !scene;
+        if (!scene) {
+            EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
+        }
+    }
+    EXPECT_GT(refused, 30); // flips of coordinates are not noticed
+}
+
+TEST(DracoGeometry, isLeftAloneWherePlainNumbersAreThereToo)
+{
+    Gltf g = square();
+    primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}}; // no Draco stream at all
+    const auto scene = g.load();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].triangleCount(), 2u);
+}
+
+// ---- meshoptimizer ----------------------------------------------------------------------------
+
+struct Packed {
+    std::string mode;
+    std::size_t count = 0, stride = 0;
+    std::string bytes{}, filter = "NONE";
+};
+
+// The square's model; view `view`, of elements of `packed.stride` bytes, is only there compressed.
+std::string packedModel(Gltf g, std::size_t view, const Packed& packed, const char* name = "EXT_meshopt_compression")
+{
+    const std::size_t offset = (g.bytes.size() + 3) / 4 * 4;
+    g.bytes.resize(offset);
+    g.bytes += packed.bytes;
+    json& v = g.root["bufferViews"][view];
+    v["buffer"] = 1;
+    v["byteOffset"] = 0;
+    v["byteLength"] = packed.count * packed.stride;
+    v["extensions"][name] = {{"buffer", 0},
+                             {"byteOffset", offset},
+                             {"byteLength", packed.bytes.size()},
+                             {"byteStride", packed.stride},
+                             {"count", packed.count},
+                             {"mode", packed.mode},
+                             {"filter", packed.filter}};
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {name, "KHR_mesh_quantization"};
+    json whole = json::parse(g.text());
+    whole["buffers"].push_back(
+        {{"byteLength", packed.count * packed.stride}, {"extensions", {{name, {{"fallback", true}}}}}});
+    return whole.dump();
+}
+
+template<class T> Packed packedVertices(const std::vector<T>& values, std::size_t components)
+{
+    Packed p{.mode = "ATTRIBUTES", .count = values.size() / components, .stride = components * sizeof(T)};
+    p.bytes.resize(meshopt_encodeVertexBufferBound(p.count, p.stride));
+    p.bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(p.bytes.data()), p.bytes.size(),
+                                              values.data(), p.count, p.stride));
+    return p;
+}
+
+Packed packedIndices(const std::vector<std::uint32_t>& indices, bool triangles)
+{
+    Packed p{.mode = triangles ? "TRIANGLES" : "INDICES", .count = indices.size(), .stride = 2};
+    p.bytes.resize(1000);
+    auto* const out = reinterpret_cast<unsigned char*>(p.bytes.data());
+    p.bytes.resize(triangles ? meshopt_encodeIndexBuffer(out, p.bytes.size(), indices.data(), indices.size())
+                             : meshopt_encodeIndexSequence(out, p.bytes.size(), indices.data(), indices.size()));
+    return p;
+}
+
+Result<Scene> loadPacked(std::size_t view, const Packed& packed)
+{
+    return loadText(packedModel(square(), view, packed));
+}
+
+const std::vector<std::uint32_t> kTwoTriangles(kSquareIndices.begin(), kSquareIndices.end());
+
+TEST(MeshoptGeometry, ofAttributesAndIndicesIsThatOfThePlainFile)
+{
+    const auto plain = square().load();
+    ASSERT_TRUE(plain);
+    const std::pair<std::size_t, Packed> cases[] = {{0, packedVertices(kSquare, 3)},
+                                                    {2, packedVertices(kSquareUv, 2)},
+                                                    {3, packedIndices(kTwoTriangles, true)},
+                                                    {3, packedIndices(kTwoTriangles, false)}};
+    for (const auto& [view, packed] : cases)
+        for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+            const auto scene = loadText(packedModel(square(), view, packed, name));
+            ASSERT_TRUE(scene) << scene.error().message;
+            EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+            EXPECT_EQ(scene->meshes[0].positions, plain->meshes[0].positions);
+            EXPECT_EQ(scene->meshes[0].texcoords[0], plain->meshes[0].texcoords[0]);
+            ASSERT_EQ(scene->meshes[0].indices.size(), 6u);
+            // The codec may turn a triangle's corners round.
+            for (std::size_t f = 0; f < 6; f += 3) {
+                const auto& there = scene->meshes[0].indices;
+                std::array<std::uint32_t, 3> a{there[f], there[f + 1], there[f + 2]};
+                const std::array<std::uint32_t, 3> b{kTwoTriangles[f], kTwoTriangles[f + 1], kTwoTriangles[f + 2]};
+                std::rotate(a.begin(), std::min_element(a.begin(), a.end()), a.end());
+                EXPECT_EQ(a, b);
+            }
+        }
+}
+
+// Filters against their formulas in the extension: the encoder is the library's, the truth are the numbers given to it.
+TEST(MeshoptGeometry, withFiltersIsWhatWasFiltered)
+{
+    const glm::vec3 n = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
+    std::vector<float> normals;
+    for (int i = 0; i < 4; ++i)
+        normals.insert(normals.end(), {n.x, n.y, i < 2 ? n.z : -n.z, 0.0f});
+    std::vector<std::int16_t> octahedral(16);
+    meshopt_encodeFilterOct(octahedral.data(), 4, 8, 12, normals.data());
+    Packed packed = packedVertices(octahedral, 4);
+    packed.filter = "OCTAHEDRAL";
+    Gltf g = square();
+    g.root["accessors"][1].update({{"componentType", kShort}, {"normalized", true}});
+    g.root["bufferViews"][1]["byteStride"] = 8;
+    const auto scene = loadText(packedModel(g, 1, packed));
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (std::size_t v = 0; v < 4; ++v) // 12 bits: half a step of 1/2047 in each of two numbers
+        EXPECT_LT(glm::length(scene->meshes[0].normals[v] - glm::vec3(n.x, n.y, v < 2 ? n.z : -n.z)), 1.5e-3f) << v;
+
+    std::vector<std::uint32_t> exponential(12);
+    std::vector<float> places = kSquare;
+    for (float& x : places)
+        x = x * 3.7f - 1.1f;
+    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, places.data());
+    packed = packedVertices(exponential, 3);
+    packed.filter = "EXPONENTIAL";
+    const auto moved = loadPacked(0, packed);
+    ASSERT_TRUE(moved) << moved.error().message;
+    for (std::size_t v = 0; v < 4; ++v) // 15 bits, an exponent for each vertex: numbers up to 4
+        EXPECT_LT(
+            glm::length(moved->meshes[0].positions[v] - glm::vec3(places[3 * v], places[3 * v + 1], places[3 * v + 2])),
+            4.0f / (1 << 13))
+            << v;
+}
+
+TEST(MeshoptGeometry, isPlainInADocumentThatIsWritten)
+{
+    const TemporaryFolder folder;
+    const auto document =
+        openGltfDocument(folder.write("in.gltf", packedModel(square(), 0, packedVertices(kSquare, 3))));
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_EQ(document->notes.size(), 1u);
+    ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
+    const ReadBack out = readBack(folder.path / "out.glb");
+    EXPECT_EQ(out.root["extensionsUsed"], json({"KHR_mesh_quantization"}));
+    EXPECT_EQ(out.root["buffers"].size(), 1u);
+    EXPECT_EQ(out.root.dump().find("meshopt"), std::string::npos);
+    const auto scene = loadGltf(folder.path / "out.glb");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].positions, square().load()->meshes[0].positions);
+}
+
+TEST(MeshoptGeometry, isRefusedWhereItsNumbersDoNotFit)
+{
+    const Packed vertices = packedVertices(kSquare, 3), indices = packedIndices(kTwoTriangles, true);
+    const auto with = [](Packed p, const auto& change) {
+        change(p);
+        return p;
+    };
+    const std::tuple<std::size_t, Packed, const char*> cases[] = {
+        {0, with(vertices, [](Packed& p) { p.bytes.resize(p.bytes.size() - 1); }), "damaged"},
+        {0, with(vertices, [](Packed& p) { p.bytes = ""; }), "damaged"},
+        {0, with(vertices, [](Packed& p) { p.bytes[0] = '\xa1'; }), "expected a stream that meshoptimizer 0.18 reads"},
+        {0, with(vertices, [](Packed& p) { p.filter = "OCTAHEDRAL"; }), "expected 4 or 8 for filter OCTAHEDRAL"},
+        {0, with(vertices, [](Packed& p) { p.filter = "QUATERNION"; }), "expected 8 for filter QUATERNION"},
+        {0, with(vertices, [](Packed& p) { p.filter = "COLOR"; }), "COLOR is not read here"},
+        {0, with(vertices, [](Packed& p) { p.filter = "MAGIC"; }), "expected one of NONE"},
+        {0, with(vertices, [](Packed& p) { p.mode = "TRIANGLES"; }), "expected 2 or 4"},
+        {0, with(vertices, [](Packed& p) { p.stride = 6, p.count = 8; }), "expected a multiple of 4 up to 256"},
+        {3, with(indices, [](Packed& p) { p.count = 5; }), "expected a multiple of 3"},
+        {3, with(indices, [](Packed& p) { p.count = 9; }), "damaged"},
+        {3, with(indices, [](Packed& p) { p.filter = "EXPONENTIAL"; }), "expected none for mode TRIANGLES"},
+        {0, with(vertices, [](Packed& p) { p.count = std::size_t(1) << 40; }), "the limit is"},
+    };
+    for (const auto& [view, packed, word] : cases)
+        COTAN_REFUSED(loadPacked(view, packed), word);
+    json wrong = json::parse(packedModel(square(), 0, vertices));
+    wrong["bufferViews"][0]["byteLength"] = 44;
+    COTAN_REFUSED(loadText(wrong.dump()), "expected 44 bytes");
+    wrong = json::parse(packedModel(square(), 0, vertices));
+    wrong["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteOffset"] = 100000;
+    COTAN_REFUSED(loadText(wrong.dump()), "it ends at byte");
+    wrong = json::parse(packedModel(square(), 0, vertices));
+    wrong["bufferViews"][0].erase("extensions"); // the fallback has no bytes
+    COTAN_REFUSED(loadText(wrong.dump()), "which has 0");
+}
+
+TEST(MeshoptGeometry, isRefusedInOneLineOrReadWhereBytesAreFlipped)
+{
+    std::mt19937 random(5);
+    const Packed vertices = packedVertices(kSquare, 3), indices = packedIndices(kTwoTriangles, true);
+    for (int i = 0; i < 300; ++i) {
+        Packed p = i % 2 ? vertices : indices;
+        p.bytes[random() % p.bytes.size()] ^= char(1 << random() % 8);
+        const auto scene = loadPacked(i % 2 ? 0 : 3, p);
+        if (!scene) {
+            EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
+        }
+    }
+}
+
+TEST(MeshoptGeometry, isLeftAloneWherePlainBytesAreThereToo)
+{
+    json whole = json::parse(packedModel(square(), 0, packedVertices(kSquare, 3)));
+    whole["bufferViews"][0]["buffer"] = 0; // whose first bytes are the positions
+    whole["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["mode"] = "INDICES"; // would be refused
+    const auto scene = loadText(whole.dump());
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].positions, square().load()->meshes[0].positions);
+}
+
+} // namespace
