@@ -67,6 +67,7 @@ TEST(CostNavi21, fusedFormsKeepTheirBars)
 {
     COTAN_NEEDS_NAVI21();
     EXPECT_LE(overFloor("cotangent-fused"), 66);
+    EXPECT_LE(overFloor("cotangent-seen"), 50);
     EXPECT_LE(overFloor("gradient-fused"), 50);
     EXPECT_LE(overFloor("orthonormal-fused"), 78);
     EXPECT_LT(overFloor("cotangent-area-fused"),

@@ -45,6 +45,7 @@ constexpr RowFunction kRows[] = {
     {"triangle-scaled", counted::cost_triangle_scaled},
     {"triangle", counted::cost_triangle},
     {"cotangent-fused", counted::cost_cotangent_fused},
+    {"cotangent-seen", counted::cost_cotangent_seen},
     {"cotangent-area-fused", counted::cost_cotangent_area_fused},
     {"gradient-fused", counted::cost_gradient_fused},
     {"orthonormal-fused", counted::cost_orthonormal_fused},
