@@ -32,7 +32,7 @@ const std::vector<Stage>& otherStages()
     constexpr int kAdjacency = 2 * kIndices + 6 * 4 + 4 + 4 + 4;
     constexpr int kSmoothBytes = kAdjacency + kVertex + 8, kNormalBytes = kAdjacency + kPosition + kNormal;
     // A pixel: its triangle, and three vertices.
-    constexpr int kPixel = 8 + kIndices + 3 * kVertex;
+    constexpr int kPixel = 4 + kIndices + 3 * kVertex;
     static const std::vector<Stage> list = {
         {K::mesh, "no tangent", 0, 0, 0, mesh_plain, mesh_varyings_plain},
         {K::mesh, "tangent", 16, 0, 0, mesh_tangent, mesh_varyings_tangent},
