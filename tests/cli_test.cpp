@@ -1,4 +1,7 @@
 // The command line as a user meets it: right words, wrong words, exit codes, files.
+#include <fstream>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -47,6 +50,13 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
         {"render", "-o", "a.png", "--camera", "7"},
         {"render", "-o", "a.png", "--view", "colour"},
         {"render", "-o", "a.png", "--samples", "3"},
+        {"render", "-o", "a.png", "--animation", "walk"}, // the built-in scene has none
+        {"render", "-o", "a.png", "--time", "2"},
+        {"render", "-o", "a.png", "--frames", "0..2"},
+        {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "2..1"},
+        {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0-3"},
+        {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..1000000"},
+        {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..3", "--time", "1"},
         {"render", "-o", "a.png", "--threads", "-1"},
         {"render", "-o", "a.png", "--exposure", "nan"},
         {"render", "-o", "a.xyz"},
@@ -152,6 +162,47 @@ TEST(CommandLine, exrKeepsUnitNormalsAsFloats)
         EXPECT_NEAR(p[0] * p[0] + p[1] * p[1] + p[2] * p[2], 1, 1e-4); // float normalisation
     }
     EXPECT_GT(covered, 96 * 64 / 4);
+}
+
+// A triangle that moves by 1 along x in a second. Read as glTF's JSON stands in the specification.
+TEST(CommandLine, framesOfAnAnimationAreNumberedPicturesOfItsMoments)
+{
+    TemporaryFolder folder;
+    const std::vector<float> numbers = {0, 0, 0, 1, 0, 0, 0, 1, 0, /*times*/ 0, 1, /*moves*/ 0, 0, 0, 1, 0, 0};
+    std::ofstream(folder / "m.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(numbers.data()), std::streamsize(numbers.size() * 4));
+    std::ofstream(folder / "m.gltf") << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+        "nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "buffers":[{"uri":"m.bin","byteLength":68}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":8},
+                       {"buffer":0,"byteOffset":44,"byteLength":24}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                     {"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+                     {"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],
+        "animations":[{"name":"go","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+                       "samplers":[{"input":1,"output":2}]}]})";
+    const Words draw = with({"render", "m.gltf", "--camera", "0.5,0.5,3,0.5,0.5,0", "--view", "depth"}, kSmall);
+    ASSERT_EQ(
+        runTool(with(draw, {"--animation", "go", "--frames", "1..3", "--rate", "4", "-o", "m.png"}), folder.path())
+            .code,
+        0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "m.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "m-0000.png"));
+    std::set<std::string> different;
+    for (int i = 1; i <= 3; ++i) {
+        const std::string single = "t" + std::to_string(i) + ".png";
+        ASSERT_EQ(
+            runTool(with(draw, {"--animation", "0", "--time", std::to_string(i / 4.0), "-o", single}), folder.path())
+                .code,
+            0);
+        const std::string bytes = readWhole(folder / ("m-000" + std::to_string(i) + ".png"));
+        EXPECT_EQ(bytes, readWhole(folder / single)) << i;
+        different.insert(bytes);
+    }
+    EXPECT_EQ(different.size(), 3u);
+    const ToolRun none = runTool(with(draw, {"--animation", "run", "-o", "n.png"}), folder.path());
+    EXPECT_EQ(none.code, 1);
+    EXPECT_NE(none.err.find("(go)"), std::string::npos) << none.err;
 }
 
 TEST(CommandLine, everyFrameAndViewDraws)

@@ -7,7 +7,7 @@
 #include "cotan/terminal/command_words.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
-#include "normal_map_option.hpp"
+#include "own_maps.hpp"
 
 namespace cotan::app {
 
@@ -17,7 +17,7 @@ struct LintCommandOptions : CommonOptions {
     std::string model;
     int memory = kDefaultMemory;
     bool details = false;
-    NormalMapOption normalMap;
+    OwnMaps maps;
     double distance = 0;
     bool strict = false;
     LintLimits limits;
@@ -26,7 +26,7 @@ struct LintCommandOptions : CommonOptions {
 // What does what is advised; empty where that would do nothing.
 std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
-    if (report.advice == Advice::nothing || !o.normalMap.file.empty()) // convert reads the model's own maps
+    if (report.advice == Advice::nothing || !o.maps.normal.empty()) // convert reads the model's own maps
         return {};
     const std::string to(name(frameOf(report.advice)));
     const std::string stem = std::filesystem::path(o.model).stem().string();
@@ -60,10 +60,10 @@ Status run(const LintCommandOptions& o)
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadTold(o, o.memory, o.model, Pixels::whereReadable);
+    auto scene = loadTold(o, limitsFor(o.memory, Pixels::whereReadable), o.model);
     if (!scene)
         return scene.error();
-    if (Status applied = applyNormalMap(o.normalMap, o.memory, *scene); !applied)
+    if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
         return applied;
     for (const std::string& line : scene->warnings)
         warn(o, line);
@@ -119,7 +119,7 @@ void declare(Arguments& a, LintCommandOptions& o)
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required();
     addMemoryOption(a, o.memory);
     a.flag("--details", o.details, "print the figures of each primitive and map, too");
-    addNormalMapOption(a, o.normalMap);
+    addOwnNormalMap(a, o.maps);
     a.option("--distance", o.distance,
              "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "
              "fills it")

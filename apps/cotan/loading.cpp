@@ -52,10 +52,15 @@ Error inWords(const Error& error)
     return {error.kind, text + (memory ? " (--memory raises it)" : "")};
 }
 
+Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file)
+{
+    auto scene = loadScene(file, limits);
+    return scene ? std::move(scene) : Result<Scene>(inWords(scene.error()));
+}
+
 Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels)
 {
-    auto scene = loadScene(file, limitsFor(memory, pixels));
-    return scene ? std::move(scene) : Result<Scene>(inWords(scene.error()));
+    return loadSceneWithin(limitsFor(memory, pixels), file);
 }
 
 Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
@@ -64,10 +69,10 @@ Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
     return image ? std::move(image) : Result<Image>(inWords(image.error()));
 }
 
-Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels)
+Result<Scene> loadTold(const CommonOptions& common, const LoadLimits& limits, const std::string& file)
 {
     const ProgressLine loading(common.quiet, 0, "loading " + file);
-    return loadSceneWithin(memory, file, pixels);
+    return loadSceneWithin(limits, file);
 }
 
 Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)

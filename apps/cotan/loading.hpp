@@ -32,11 +32,12 @@ LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
 Error inWords(const Error& error);
 
 // A model and a picture read within so many MiB a picture. Errors: as loadScene and readImage, in words.
+Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file);
 Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels = Pixels::all);
 Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
 
 // loadSceneWithin under a line of progress.
-Result<Scene> loadTold(const CommonOptions& common, int memory, const std::string& file, Pixels pixels = Pixels::all);
+Result<Scene> loadTold(const CommonOptions& common, const LoadLimits& limits, const std::string& file);
 
 // Opens the device of that name, as openPainter does; where "auto" falls back to the reference renderer, a warning
 // says why. Errors: those of openPainter.

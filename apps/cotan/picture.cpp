@@ -48,7 +48,11 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
 {
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
     addMemoryOption(a, o.memory);
-    addNormalMapOption(a, o.normalMap);
+    addOwnMaps(a, o.maps);
+    a.option("--animation", o.animation,
+             "animation of a glTF model, by name or number; the pose of the file if left out")
+        .in("NAME|N");
+    a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
     a.option("--size", o.size, "width and height in pixels").in("WxH");
     a.option("--camera", o.camera,
              "fit, the number of a camera of the file, or eye and target "
@@ -83,17 +87,22 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
         return size.error();
     Picture picture;
+    if (options.animation.empty() ? options.time > 0 : options.model.empty())
+        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
+                                                    : "--animation: expected a model; found the built-in scene");
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {
-        auto scene = loadTold(common, options.memory, options.model);
+        LoadLimits limits = limitsFor(options.memory);
+        limits.pose = {options.animation, options.time};
+        auto scene = loadTold(common, limits, options.model);
         if (!scene)
             return scene.error();
         picture.scene = std::move(*scene);
     }
     if (const Status ok = checkTrianglesDrawn(picture.scene); !ok) // before anything is said of the rest
         return ok.error();
-    if (Status applied = applyNormalMap(options.normalMap, options.memory, picture.scene); !applied)
+    if (Status applied = applyOwnMaps(options.maps, options.memory, picture.scene); !applied)
         return applied.error();
     for (Frame frame : frames)
         deriveVertexFrames(picture.scene, frame,
@@ -134,6 +143,8 @@ Json describeScene(const PictureOptions& options, const Picture& picture)
 {
     Json report = {{"model", options.model.empty() ? "built-in" : options.model},
                    {"size", {picture.view.width, picture.view.height}}};
+    if (!options.animation.empty())
+        report["pose"] = {{"animation", options.animation}, {"seconds", options.time}};
     report.update(countsOf(picture.scene));
     return report;
 }

@@ -8,13 +8,15 @@
 #include "cotan/frame.hpp"
 #include "cotan/scene/view.hpp"
 #include "loading.hpp"
-#include "normal_map_option.hpp"
+#include "own_maps.hpp"
 
 namespace cotan::app {
 
 struct PictureOptions {
     std::string model; // empty: the built-in scene
-    NormalMapOption normalMap;
+    OwnMaps maps;
+    std::string animation;
+    double time = 0;
     std::string size = "1280x720";
     std::string camera; // empty: the built-in scene's own, fit for a model
     std::string device = "auto";

@@ -1,10 +1,13 @@
 #include "commands.hpp"
 
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cotan/image/file.hpp"
+#include "cotan/parse_number.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/verify/frames.hpp"
@@ -19,6 +22,8 @@ struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame = "cotangent";
     std::string show = "shaded";
+    std::string frames; // "A..B"
+    double rate = 24;
 };
 
 const std::map<std::string, Output> kShows = {
@@ -51,22 +56,16 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     return image;
 }
 
-Status run(const RenderCommandOptions& o)
+// Draws one picture into o.output. Several of a sequence share the camera that is found for the first: `camera`.
+Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<Camera>& camera)
 {
     Stopwatch total;
-    if (o.output.empty())
-        return usageError("render: expected -o FILE; found none");
-    const auto frame = parseFrame(o.frame);
-    if (!frame)
-        return frame.error();
-    if (Status fits = checkLighting(o.picture, *frame); !fits)
-        return fits;
-    if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
-        return planned;
-    auto picture = openPicture(o.picture, o, {*frame, Frame::exact});
+    auto picture = openPicture(o.picture, o, {frame, Frame::exact});
     if (!picture)
         return picture.error();
-    picture->view.frame = *frame;
+    camera = camera.value_or(picture->view.camera);
+    picture->view.camera = *camera;
+    picture->view.frame = frame;
     picture->view.output = kShows.at(o.show);
 
     Stopwatch watch;
@@ -100,6 +99,69 @@ Status run(const RenderCommandOptions& o)
     return writeReport(o, report);
 }
 
+constexpr int kMostFrames = 100000;
+
+// The pictures of --frames: their numbers, none where it was not given.
+Result<std::vector<int>> parseFrames(const RenderCommandOptions& o)
+{
+    std::vector<int> frames;
+    if (o.frames.empty())
+        return frames;
+    const std::size_t dots = o.frames.find("..");
+    int first = 0, last = 0;
+    const std::string_view text = o.frames;
+    if (dots == std::string::npos || !parseNumber(text.substr(0, dots), first)
+        || !parseNumber(text.substr(dots + 2), last) || first < 0 || last < first || last - first >= kMostFrames)
+        return usageError(fmt::format("--frames: expected A..B, numbers from 0 up, at most {} pictures; found '{}'",
+                                      kMostFrames, o.frames));
+    if (o.picture.animation.empty() || o.picture.time > 0 || !o.json.empty())
+        return usageError("--frames: expected --animation with it, and neither --time nor --json");
+    frames.resize(std::size_t(last - first + 1));
+    std::iota(frames.begin(), frames.end(), first);
+    return frames;
+}
+
+// out.png of number 7: out-0007.png.
+std::filesystem::path numbered(std::filesystem::path file, int number)
+{
+    const std::string name = fmt::format("{}-{:04}{}", file.stem().string(), number, file.extension().string());
+    return file.replace_filename(name);
+}
+
+Status run(const RenderCommandOptions& o)
+{
+    if (o.output.empty())
+        return usageError("render: expected -o FILE; found none");
+    const auto frame = parseFrame(o.frame);
+    if (!frame)
+        return frame.error();
+    if (Status fits = checkLighting(o.picture, *frame); !fits)
+        return fits;
+    const auto numbers = parseFrames(o);
+    if (!numbers)
+        return numbers.error();
+    std::vector<PlannedOutput> outputs;
+    for (const int number : *numbers)
+        outputs.push_back({"-o", numbered(o.output, number)});
+    if (outputs.empty())
+        outputs.push_back({"-o", o.output});
+    if (Status planned = planOutputs(o, outputs); !planned)
+        return planned;
+    std::optional<Camera> camera;
+    if (numbers->empty())
+        return renderOne(o, *frame, camera);
+    RenderCommandOptions one = o;
+    for (const int number : *numbers) {
+        one.output = numbered(o.output, number);
+        one.picture.time = number / o.rate;
+        if (Status drawn = renderOne(one, *frame, camera); !drawn)
+            return drawn;
+        one.quiet = true; // what is to be warned of was said for the first
+        say(o, "{}", one.output.string());
+    }
+    return Done{};
+}
+
 void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
@@ -108,6 +170,10 @@ void declare(Arguments& a, RenderCommandOptions& o)
              "what to draw: shaded, normal, tangent, bitangent, uv, depth, or error (degrees from the frame exact)")
         .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
         .in("NAME");
+    a.option("--frames", o.frames,
+             "pictures A to B of --animation, written as NAME-0000.png and so on with the camera of the first")
+        .in("A..B");
+    a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/scene/check.hpp"
-#include "cotan/scene/put_normal_map.hpp"
+#include "cotan/scene/put_picture.hpp"
 
 namespace cotan {
 

@@ -263,4 +263,6 @@ void checkGltfShape(const Json& root, const LoadLimits& limits, GltfWarnings& wa
         failGltf("nodes: the limit is {}, found {}", limits.nodes, nodes->size());
 }
 
+void checkGltfAnimations(const Json& root) { Checker(root).fields(root, kAnimated, Place()); }
+
 } // namespace cotan

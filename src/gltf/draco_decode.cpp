@@ -12,6 +12,7 @@
 #include "codes.hpp"
 #include "cotan/gltf/views.hpp"
 #include "draco.hpp"
+#include "elements.hpp"
 #include "problem.hpp"
 
 namespace cotan::gltf {

@@ -64,4 +64,7 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
 // required extensions.
 void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
 
+// The same for what poseGltf reads.
+void checkGltfAnimations(const gltf::Json& root);
+
 } // namespace cotan

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "animate.hpp"
 #include "unpack.hpp"
 
 namespace cotan {
@@ -13,6 +14,7 @@ std::vector<std::string> readGltfModel(GltfModel& model)
     std::vector<std::string> unpacked = unpackGltf(model.file, model.limits);
     model.structure = gltf::readStructure(model.file.json);
     findGltfAccessors(model);
+    poseGltf(model);
     return unpacked;
 }
 

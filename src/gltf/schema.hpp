@@ -219,6 +219,17 @@ inline constexpr std::array kLight{text("name"),        required(text("type", kL
 inline constexpr std::array kLights{required(objects("lights", kLight))};
 inline constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
 
+// Animations are looked at where one is asked for.
+inline constexpr std::array kInterpolations{string_view("LINEAR"), string_view("STEP"), string_view("CUBICSPLINE")};
+inline constexpr std::array kAnimationSampler{required(index("input", "accessors")),
+                                              required(index("output", "accessors")),
+                                              text("interpolation", kInterpolations)};
+inline constexpr std::array kTarget{index("node", "nodes"), required(text("path"))};
+inline constexpr std::array kChannel{required(integer("sampler")), required(object("target", kTarget))};
+inline constexpr std::array kAnimation{text("name"), required(objects("channels", kChannel)),
+                                       required(objects("samplers", kAnimationSampler))};
+inline constexpr std::array kAnimated{objects("animations", kAnimation)};
+
 inline constexpr std::array kRoot{required(object("asset", kAsset)),
                                   index("scene", "scenes"),
                                   objects("scenes", kScene),

@@ -27,6 +27,8 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
+    if (!limits.pose.animation.empty())
+        return usageError(fmt::format("{}: animations are read from glTF alone", file.string()));
     const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
     if (assimp || extension == ".obj") {
         if (!limits.sandbox.program.empty())

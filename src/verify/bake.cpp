@@ -4,7 +4,7 @@
 
 #include "compare.hpp"
 #include "cotan/scene/geometry.hpp"
-#include "cotan/scene/put_normal_map.hpp"
+#include "cotan/scene/put_picture.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan {

@@ -24,6 +24,12 @@ enum class Pixels {
     none,          // no image
 };
 
+// Which moment of a glTF model is read.
+struct Pose {
+    std::string animation; // its name, or its number in the file; empty: the pose that the file's nodes have
+    double seconds = 0;    // from the animation's start; its first and last key hold before and after
+};
+
 // Limits on what a file may ask for. Over a limit the file is refused before memory is taken.
 struct LoadLimits {
     std::size_t fileBytes = std::size_t(2) << 30; // of the model file or one of its buffers
@@ -39,6 +45,7 @@ struct LoadLimits {
     std::size_t allImageBytes =
         std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
     Pixels pixels = Pixels::all;                                   // of a glTF model
+    Pose pose;                                                     // likewise; other models have none
     Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
     // a process of its own is given room for them. May be empty.

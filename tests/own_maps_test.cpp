@@ -1,4 +1,5 @@
-// --normal-map: a picture on a model, read as the convention says; and bake -o MODEL, which puts it there for good.
+// --normal-map, --base-color and so on: pictures on a model, read as the words say; and bake -o MODEL, which puts it
+// there for good.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +58,7 @@ std::vector<std::string> drawn(std::vector<std::string> words)
 
 // The texel (0.6, 0.48, 0.64): x to the right, y up where green points up, down where it points down. A byte's step is
 // 0.0079, half of it in each of three components moves a unit vector by at most 0.007; the picture rounds once more.
-TEST(NormalMapOption, readsTheMapAsTheConventionSays)
+TEST(OwnMaps, readsTheMapAsTheConventionSays)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -81,7 +82,7 @@ TEST(NormalMapOption, readsTheMapAsTheConventionSays)
     }
 }
 
-TEST(NormalMapOption, saysWhatIsWrongWithItInOneLine)
+TEST(OwnMaps, saysWhatIsWrongWithItInOneLine)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -98,6 +99,10 @@ TEST(NormalMapOption, saysWhatIsWrongWithItInOneLine)
         {{"render", "square.obj", "--normal-map", "map.png", "--convention", "gltf,object"}, 1, "tangent space"},
         {{"render", "square.obj", "--normal-map", "map.png", "--convention", "left"}, 1, "found 'left'"},
         {{"render", "square.obj", "--normal-map", "map.png", "--material", "7"}, 1, "found 7"},
+        {{"render", "square.obj", "--base-color", "map.png", "--material", "7"}, 1, "found 7"},
+        {{"render", "square.obj", "--occlusion", "map.png", "--convention", "directx"}, 1, "expected --normal-map"},
+        {{"render", "bare.obj", "--base-color", "map.png"}, 2, "expected a mesh with texture coordinates"},
+        {{"render", "square.obj", "--metallic-roughness", "none.png"}, 2, "none.png"},
         {{"render", "bare.obj", "--normal-map", "map.png"}, 2, "expected a mesh with texture coordinates"},
         {{"render", "square.obj", "--normal-map", "none.png"}, 2, "none.png"},
         {{"render", "square.obj", "--normal-map", "text.png"}, 2, "text.png"}};
@@ -110,8 +115,64 @@ TEST(NormalMapOption, saysWhatIsWrongWithItInOneLine)
     }
 }
 
+double meanOf(const std::filesystem::path& file)
+{
+    const auto image = readImage(file);
+    EXPECT_TRUE(image);
+    double sum = 0;
+    for (std::size_t i = 0; image && i < image->data.size(); ++i)
+        sum += i % 4 < 3 ? image->bytes8()[i] : 0;
+    return sum;
+}
+
+TEST(OwnMaps, ofColourIsWhatTheMaterialFileSaysWithIt)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "plain.obj");
+    std::ofstream(folder / "named.obj") << "mtllib m.mtl\nusemtl m\n" << readWhole(folder / "plain.obj");
+    std::ofstream(folder / "m.mtl") << "newmtl m\nKd 1 1 1\nNs 0\nmap_Kd red.png\n";
+    writeMap(folder / "red.png", {230, 20, 60, 255});
+    const std::vector<std::string> seen = {"--size",   "64x64",    "--camera", "0.5,0.5,2,0.5,0.5,0",
+                                           "--device", "reference"};
+    const auto draw = [&](std::vector<std::string> words) {
+        words.insert(words.end(), seen.begin(), seen.end());
+        const ToolRun r = runTool(words, folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+    };
+    // The same material but for its colour: the picture's takes the place of Kd and of map_Kd.
+    draw({"render", "named.obj", "-o", "file.png"});
+    std::ofstream(folder / "m.mtl") << "newmtl m\nKd 0.2 0.3 0.9\nNs 0\nmap_Kd blue.png\n";
+    writeMap(folder / "blue.png", {0, 0, 255, 255});
+    draw({"render", "named.obj", "-o", "other.png"});
+    draw({"render", "named.obj", "--base-color", "red.png", "-o", "own.png"});
+    EXPECT_NE(readWhole(folder / "file.png"), readWhole(folder / "other.png"));
+    EXPECT_EQ(readWhole(folder / "file.png"), readWhole(folder / "own.png"));
+}
+
+TEST(OwnMaps, ofRoughnessAndOcclusionChangeLight)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeMap(folder / "black.png", {0, 0, 0, 255});
+    writeMap(folder / "white.png", {255, 255, 255, 255});
+    writeMap(folder / "dielectric.png", {0, 255, 0, 255}); // rough, not metallic
+    const auto mean = [&](std::vector<std::string> words) {
+        words.insert(words.begin(),
+                     {"render", "square.obj", "--size", "64x64", "--camera", "0.5,0.5,2,0.5,0.5,0", "--device",
+                      "reference", "-o", "n.png", "--overwrite"});
+        const ToolRun r = runTool(words, folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+        return meanOf(folder / "n.png");
+    };
+    const double plain = mean({});
+    EXPECT_EQ(mean({"--occlusion", "white.png"}), plain);
+    EXPECT_LT(mean({"--occlusion", "black.png"}), plain);
+    // Metal has no diffuse light.
+    EXPECT_LT(mean({"--metallic-roughness", "white.png"}), mean({"--metallic-roughness", "dielectric.png"}));
+}
+
 // A map that leans to one side everywhere is no relief; what lint says of it has to be about this file.
-TEST(NormalMapOption, lintAndCompareTakeIt)
+TEST(OwnMaps, lintAndCompareTakeIt)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");

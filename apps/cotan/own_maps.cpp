@@ -1,0 +1,109 @@
+#include "own_maps.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cotan/maps/texels.hpp"
+#include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/put_picture.hpp"
+#include "loading.hpp"
+#include "map_options.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+const OwnMaps kDefaults;
+
+// Whether a mesh with one of the chosen materials has the uv set that the picture is read with.
+bool anyMeshShows(const Scene& scene, Texture Material::*slot, int material)
+{
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
+        const Texture& map = scene.materials[std::size_t(mesh.material)].*slot;
+        return (material < 0 || mesh.material == material)
+            && !mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)].empty();
+    });
+}
+
+Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Material::*slot, int memory,
+                      const Scene& scene)
+{
+    if (!anyMeshShows(scene, slot, maps.material))
+        return inputError(
+            fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
+    return readImageWithin(memory, file);
+}
+
+Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
+{
+    const auto convention = parseConvention(maps.convention, "--convention");
+    if (!convention)
+        return convention.error();
+    if (convention->kind != MapKind::tangentSpace)
+        return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
+    auto image = readFor(maps, maps.normal, &Material::normalMap, memory, scene);
+    if (!image)
+        return image.error();
+    if (convention->channels != Channels::xyz)
+        maps::unswizzle(*image, maps::swizzleOf(*image));
+    putNormalMap(scene, std::move(*image), inScene(*convention), maps.material);
+    return Done{};
+}
+
+} // namespace
+
+void addOwnNormalMap(Arguments& a, OwnMaps& maps)
+{
+    a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
+        .in("FILE");
+    a.option("--convention", maps.convention, "how that image is stored: " + conventionWords()).in("WORDS");
+    a.option("--material", maps.material, "number of the material that gets this image; -1: all")
+        .within(-1, 100000)
+        .in("N");
+}
+
+void addOwnMaps(Arguments& a, OwnMaps& maps)
+{
+    addOwnNormalMap(a, maps);
+    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB").in("FILE");
+    a.option("--metallic-roughness", maps.metallicRoughness,
+             "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
+        .in("FILE");
+    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's").in("FILE");
+}
+
+Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
+{
+    const bool any =
+        !(maps.normal.empty() && maps.baseColor.empty() && maps.metallicRoughness.empty() && maps.occlusion.empty());
+    if (maps.normal.empty() && maps.convention != kDefaults.convention)
+        return usageError("--convention: expected --normal-map FILE with it; found none");
+    if (!any && maps.material != kDefaults.material)
+        return usageError("--material: expected --normal-map FILE or another map with it; found none");
+    if (any && maps.material >= int(scene.materials.size()))
+        return usageError(
+            fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, maps.material));
+    if (!maps.normal.empty())
+        if (Status applied = applyNormalMap(maps, memory, scene); !applied)
+            return applied;
+    const auto put = [&](const std::string& file, Texture Material::*slot, const auto& change) -> Status {
+        if (file.empty())
+            return Done{};
+        auto image = readFor(maps, file, slot, memory, scene);
+        if (!image)
+            return image.error();
+        putPicture(scene, std::move(*image), slot, maps.material, change);
+        return Done{};
+    };
+    if (Status done = put(maps.baseColor, &Material::baseColorMap, [](Material& m) { m.baseColor = glm::vec4(1); });
+        !done)
+        return done;
+    if (Status done = put(maps.metallicRoughness, &Material::metallicRoughnessMap,
+                          [](Material& m) { m.metallic = m.roughness = 1; });
+        !done)
+        return done;
+    return put(maps.occlusion, &Material::occlusionMap, [](Material& m) { m.occlusionStrength = 1; });
+}
+
+} // namespace cotan::app

@@ -1,0 +1,201 @@
+#include "animate.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "cotan/parse_number.hpp"
+
+namespace cotan {
+
+namespace {
+
+using gltf::Accessor, gltf::Choice, gltf::ElementType, gltf::Json;
+
+enum class Interpolation { step, linear, cubic };
+
+// Where a time lies among the keys of a channel.
+struct Moment {
+    std::size_t key = 0, next = 0; // the same one at the ends
+    double part = 0;               // 0 to 1 between them
+    double seconds = 0;            // from key to next
+};
+
+// The values that a channel has at a moment, `width` numbers: of one key, of the next, and their tangents.
+struct Around {
+    std::vector<double> value, next, outTangent, inTangent;
+};
+
+class Poser {
+public:
+    Poser(GltfModel& model, std::size_t animation) : model_(model), number_(animation) {}
+
+    void run()
+    {
+        const Json& animation = model_.file.json["animations"][number_];
+        for (std::size_t c = 0; c < animation["channels"].size(); ++c) {
+            const Json& channel = animation["channels"][c];
+            const Json& target = channel["target"];
+            field_ = fmt::format("animations[{}].channels[{}]", number_, c);
+            const int node = gltf::valueOr(target, "node", -1);
+            const auto sampler = channel["sampler"].get<std::size_t>();
+            if (sampler >= animation["samplers"].size())
+                failGltf("{}.sampler: expected an index below {}, the number of samplers, found {}", field_,
+                         animation["samplers"].size(), sampler);
+            if (node >= 0)
+                pose(model_.structure.nodes[std::size_t(node)], target["path"].get_ref<const std::string&>(),
+                     animation["samplers"][sampler]);
+        }
+    }
+
+private:
+    void pose(gltf::Node& node, std::string_view path, const Json& sampler)
+    {
+        if (path == "weights") {
+            node.weights = values(sampler, ElementType::scalar, targetsOf(node), false);
+            return;
+        }
+        const bool rotation = path == "rotation";
+        if (!rotation && path != "translation" && path != "scale") {
+            model_.warnings.add(field_,
+                                fmt::format("the path \"{}\" is not animated here", oneLine(std::string(path))));
+            return;
+        }
+        if (node.matrix)
+            failGltf("{}.target: the node has a matrix, which cannot be animated", field_);
+        const std::vector<double> v = values(sampler, rotation ? ElementType::vec4 : ElementType::vec3, 1, rotation);
+        if (rotation)
+            node.rotation = {v[0], v[1], v[2], v[3]};
+        else
+            (path == "scale" ? node.scale : node.translation) = {v[0], v[1], v[2]};
+    }
+
+    std::size_t targetsOf(const gltf::Node& node) const
+    {
+        if (node.mesh < 0 || model_.structure.meshes[std::size_t(node.mesh)].primitives.empty())
+            return 0;
+        return model_.structure.meshes[std::size_t(node.mesh)].primitives[0].targets.size();
+    }
+
+    std::vector<float> read(int accessor, const Choice& choice, std::size_t width)
+    {
+        takeGltfBytes(model_, choice.size() * width * sizeof(float), field_);
+        std::vector<float> numbers(choice.size() * width);
+        if (!numbers.empty())
+            gltf::readFloats(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
+        return numbers;
+    }
+
+    Moment momentOf(int input)
+    {
+        const Accessor& a = model_.accessors[std::size_t(input)].accessor;
+        if (a.type != ElementType::scalar || a.componentType != gltf::kFloat || a.count == 0)
+            failGltf("{}: expected floats in accessors[{}], the times of its keys", field_, input);
+        const std::vector<float> times = read(input, a.count, 1);
+        for (std::size_t i = 1; i < times.size(); ++i)
+            if (!(times[i] > times[i - 1]))
+                failGltf("{}: expected rising times in accessors[{}], found {} behind {}", field_, input, times[i],
+                         times[i - 1]);
+        const double now = model_.limits.pose.seconds;
+        const auto after = std::upper_bound(times.begin(), times.end(), now);
+        if (after == times.begin())
+            return {};
+        const std::size_t key = std::size_t(after - times.begin()) - 1;
+        if (after == times.end())
+            return {key, key, 0, 0};
+        const double seconds = double(*after) - double(times[key]);
+        return {key, key + 1, (now - double(times[key])) / seconds, seconds};
+    }
+
+    // each: elements of a key.
+    Around around(int output, const Moment& at, std::size_t keys, std::size_t each, ElementType type, bool cubic)
+    {
+        const Accessor& a = model_.accessors[std::size_t(output)].accessor;
+        const std::size_t parts = cubic ? 3 : 1, width = gltf::componentCount(type);
+        gltf::expectElements(a, type, keys * each * parts, {output, field_});
+        if (a.componentType == gltf::kUnsignedInt || (a.componentType != gltf::kFloat && !a.normalized))
+            failGltf("{}: expected floats or normalized integers in accessors[{}], found {}", field_, output,
+                     gltf::nameOfComponent(a.componentType));
+        // In-tangent, value and out-tangent of one key, then of the next.
+        const auto elements = [&](std::size_t key, std::size_t part) {
+            std::vector<std::uint32_t> chosen(each);
+            for (std::size_t i = 0; i < each; ++i)
+                chosen[i] = std::uint32_t((key * parts + part) * each + i);
+            const std::vector<float> read4 = read(output, Choice(a.count, chosen), width);
+            return std::vector<double>(read4.begin(), read4.end());
+        };
+        if (!cubic)
+            return {elements(at.key, 0), elements(at.next, 0), {}, {}};
+        return {elements(at.key, 1), elements(at.next, 1), elements(at.key, 2), elements(at.next, 0)};
+    }
+
+    std::vector<double> values(const Json& sampler, ElementType type, std::size_t each, bool rotation)
+    {
+        const std::string word = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
+        const Interpolation way = word == "STEP" ? Interpolation::step
+            : word == "CUBICSPLINE"              ? Interpolation::cubic
+                                                 : Interpolation::linear;
+        const int input = sampler["input"].get<int>();
+        const Moment at = momentOf(input);
+        const Around v = around(sampler["output"].get<int>(), at, model_.accessors[std::size_t(input)].accessor.count,
+                                each, type, way == Interpolation::cubic);
+        if (at.key == at.next || way == Interpolation::step)
+            return v.value;
+        if (rotation && way == Interpolation::linear)
+            return turned(v.value, v.next, at.part);
+        std::vector<double> now(v.value.size());
+        const double t = at.part, t2 = t * t, t3 = t2 * t;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            now[i] = way == Interpolation::linear
+                ? v.value[i] + (v.next[i] - v.value[i]) * t
+                : (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
+                    + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
+        return now; // a rotation is normalised where it is used
+    }
+
+    static std::vector<double> turned(const std::vector<double>& from, const std::vector<double>& to, double part)
+    {
+        const glm::dquat a = glm::normalize(glm::dquat(from[3], from[0], from[1], from[2]));
+        const glm::dquat b = glm::normalize(glm::dquat(to[3], to[0], to[1], to[2]));
+        const glm::dquat q = glm::slerp(a, b, part); // the short way
+        return {q.x, q.y, q.z, q.w};
+    }
+
+    GltfModel& model_;
+    std::size_t number_;
+    std::string field_;
+};
+
+// By number or by name, of several the first.
+std::size_t findAnimation(const Json& root, const std::string& wanted)
+{
+    std::vector<std::string> names;
+    if (const Json* const animations = gltf::member(root, "animations"))
+        for (const Json& animation : *animations)
+            names.push_back(gltf::valueOr(animation, "name", std::string()));
+    if (const auto found = std::find(names.begin(), names.end(), wanted); found != names.end())
+        return std::size_t(found - names.begin());
+    std::size_t number = 0;
+    if (parseNumber(std::string_view(wanted), number) && number < names.size())
+        return number;
+    throw GltfProblem{names.empty()
+                          ? fmt::format("expected a model with animations for \"{}\", it has none", wanted)
+                          : fmt::format("expected one of its {} animations by number or name ({}), found "
+                                        "\"{}\"",
+                                        names.size(), oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted),
+                      ErrorKind::usage};
+}
+
+} // namespace
+
+void poseGltf(GltfModel& model)
+{
+    if (model.limits.pose.animation.empty())
+        return;
+    const std::size_t animation = findAnimation(model.file.json, model.limits.pose.animation);
+    checkGltfAnimations(model.file.json);
+    Poser(model, animation).run();
+}
+
+} // namespace cotan

@@ -1,0 +1,15 @@
+// A model at a moment of one of its animations.
+#pragma once
+
+#include "model.hpp"
+
+namespace cotan {
+
+// Sets translation, rotation, scale and weights of the nodes that limits.pose moves; everything that is read from the
+// structure afterwards follows. Nothing where no animation is asked for. The accessors must have been found. Times
+// before the first and behind the last key of a channel give that key.
+// Throws GltfProblem: ErrorKind::usage where the model has no such animation; damaged channels. Source: glTF 2.0,
+// section 3.11 and appendix C.
+void poseGltf(GltfModel& model);
+
+} // namespace cotan

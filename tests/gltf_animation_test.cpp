@@ -1,0 +1,218 @@
+// A model at a moment of an animation, against the formulas of glTF 2.0, section 3.11 and appendix C.
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "gltf_maker.hpp"
+
+namespace {
+
+using namespace cotan;
+using namespace cotan::test;
+
+struct Track {
+    std::string path;
+    std::vector<float> times, values;
+    std::string type;
+    std::string interpolation = "LINEAR";
+};
+
+// The square, whose node the tracks move.
+Gltf moved(const std::vector<Track>& tracks)
+{
+    Gltf g = square();
+    json animation = {{"name", "go"}, {"channels", json::array()}, {"samplers", json::array()}};
+    for (const Track& t : tracks) {
+        animation["channels"].push_back(
+            {{"sampler", animation["samplers"].size()}, {"target", {{"node", 0}, {"path", t.path}}}});
+        animation["samplers"].push_back({{"input", g.floats(t.times, "SCALAR")},
+                                         {"output", g.floats(t.values, t.type)},
+                                         {"interpolation", t.interpolation}});
+    }
+    g.add("animations", {{"name", "rest"}, {"channels", json::array()}, {"samplers", json::array()}});
+    g.add("animations", animation);
+    return g;
+}
+
+LoadLimits at(double seconds, const std::string& animation = "go")
+{
+    LoadLimits limits;
+    limits.pose = {animation, seconds};
+    return limits;
+}
+
+// Where the node puts a point at a moment.
+glm::vec3 placed(const Gltf& g, double seconds, glm::vec3 p = glm::vec3(0))
+{
+    const auto scene = g.load(at(seconds));
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
+    return scene ? glm::vec3(scene->instances[0].toWorld * glm::vec4(p, 1)) : glm::vec3(NAN);
+}
+
+TEST(GltfAnimation, goesStraightBetweenKeysAndStaysAtTheEnds)
+{
+    const Gltf g = moved({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
+    expectNear(placed(g, 0), {0, 0, 0});
+    expectNear(placed(g, 1), {0, 0, 0});
+    expectNear(placed(g, 1.5), {1, 2, -0.5f});
+    expectNear(placed(g, 3), {4, 8, -2});
+    expectNear(placed(g, 100), {4, 8, -2});
+    const auto rest = g.load(); // the pose of the file
+    ASSERT_TRUE(rest);
+    expectNear(glm::vec3(rest->instances[0].toWorld[3]), {0, 0, 0});
+}
+
+TEST(GltfAnimation, stepsAtKeys)
+{
+    const Gltf g = moved({{"translation", {0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", "STEP"}});
+    expectNear(placed(g, 0.99), {1, 0, 0});
+    expectNear(placed(g, 1), {2, 0, 0});
+    expectNear(placed(g, 1.99), {2, 0, 0});
+}
+
+// A cubic through values and slopes at two keys is that cubic: x = s^3 - 2s + 1, its derivative 3s^2 - 2.
+TEST(GltfAnimation, splineIsTheCubicWithItsSlopes)
+{
+    const auto x = [](float s) { return s * s * s - 2 * s + 1; };
+    const auto slope = [](float s) { return 3 * s * s - 2; };
+    std::vector<float> values;
+    for (const float s : {0.5f, 2.5f})
+        for (const float part : {slope(s), x(s), slope(s)}) // in-tangent, value, out-tangent
+            values.insert(values.end(), {part, 2 * part, 0});
+    // Foreign slopes, that must not count: into the first key and out of the last.
+    values[0] = values[15] = 77;
+    const Gltf g = moved({{"translation", {0.5f, 2.5f}, values, "VEC3", "CUBICSPLINE"}});
+    for (const float s : {0.5f, 0.9f, 1.5f, 2.2f, 2.5f})
+        EXPECT_LT(glm::length(placed(g, double(s)) - glm::vec3(x(s), 2 * x(s), 0)), 1e-5f) << s;
+}
+
+TEST(GltfAnimation, turnsEvenlyAlongTheShorterWay)
+{
+    // From 0 to 90 degrees around z; the second quaternion is negated, which is the same rotation.
+    const float half = std::numbers::sqrt2_v<float> / 2;
+    for (const float sign : {1.0f, -1.0f}) {
+        const Gltf g = moved({{"rotation", {0, 3}, {0, 0, 0, 1, 0, 0, sign * half, sign * half}, "VEC4"}});
+        for (const double part : {0.0, 1.0 / 3, 0.5, 1.0}) {
+            const float angle = float(part * std::numbers::pi / 2);
+            expectNear(placed(g, 3 * part, {1, 0, 0}), {std::cos(angle), std::sin(angle), 0});
+        }
+    }
+}
+
+TEST(GltfAnimation, readsRotationsOfIntegers)
+{
+    Gltf g = moved({{"rotation", {0}, {0, 0, 0, 1}, "VEC4"}});
+    const int half = g.accessor(std::vector<std::int16_t>{0, 0, 23170, 23170}, "VEC4", kShort, true);
+    g.root["animations"][1]["samplers"][0]["output"] = half;
+    EXPECT_LT(glm::length(placed(g, 0, {1, 0, 0}) - glm::vec3(0, 1, 0)), 1e-4f); // 15 bits
+    g.root["accessors"][std::size_t(half)]["normalized"] = false;
+    COTAN_REFUSED(g.load(at(0)), "expected floats or normalized integers");
+}
+
+TEST(GltfAnimation, movesAllOfANodeTogether)
+{
+    const float half = std::numbers::sqrt2_v<float> / 2;
+    const Gltf g = moved({{"translation", {0}, {5, 6, 7}, "VEC3"},
+                          {"rotation", {0}, {0, 0, half, half}, "VEC4"},
+                          {"scale", {0}, {2, 3, 4}, "VEC3"}});
+    expectNear(placed(g, 0, {1, 1, 1}), {5 - 3, 6 + 2, 7 + 4}); // scaled, turned by 90 degrees, moved
+}
+
+TEST(GltfAnimation, morphsByWeightsOfAMoment)
+{
+    const auto withTargets = [](Gltf g) {
+        const int up = g.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+        const int aside = g.floats({2, 0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0}, "VEC3");
+        primitive(g)["targets"] = {{{"POSITION", up}}, {{"POSITION", aside}}};
+        return g;
+    };
+    const Gltf g = withTargets(moved({{"weights", {0, 2}, {0, 1, 1, 0.5f}, "SCALAR"}}));
+    const auto scene = g.load(at(0.5)); // 0.25 of the first, 0.875 of the second
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (std::size_t v = 0; v < 4; ++v)
+        expectNear(scene->meshes[0].positions[v],
+                   glm::vec3(kSquare[3 * v], kSquare[3 * v + 1], kSquare[3 * v + 2]) + glm::vec3(1.75f, 0, 0.25f));
+    COTAN_REFUSED(withTargets(moved({{"weights", {0, 2}, {0, 1, 1}, "SCALAR"}})).load(at(0)), "4 elements, found 3");
+}
+
+// Two joints: the second turns by 90 degrees around z; half of the vertices follow it, normals with them.
+TEST(GltfAnimation, skinsFollowTheirJoints)
+{
+    const float half = std::numbers::sqrt2_v<float> / 2;
+    Gltf g = square();
+    primitive(g)["attributes"]["JOINTS_0"] =
+        g.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
+    primitive(g)["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    g.add("skins", {{"joints", {1, 2}}});
+    g.root["nodes"][0]["skin"] = 0;
+    g.add("nodes", json::object());
+    g.add("nodes", json::object());
+    g.root["scenes"][0]["nodes"] = {0, 1, 2};
+    g.add("animations",
+          {{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}}}},
+           {"samplers", {{{"input", g.floats({0}, "SCALAR")}, {"output", g.floats({half, 0, 0, half}, "VEC4")}}}}});
+    const auto scene = g.load(at(0, "0"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Mesh& mesh = scene->meshes[0];
+    expectNear(mesh.positions[0], {0, 0, 0});
+    expectNear(mesh.positions[1], {1, 0, 0});
+    expectNear(mesh.positions[2], {1, 0, 1}); // y turned to z
+    expectNear(mesh.normals[3], {0, 0, 1});
+    expectNear(mesh.normals[2], {0, -1, 0});
+}
+
+TEST(GltfAnimation, isFoundByNameOrNumber)
+{
+    const Gltf g = moved({{"translation", {0}, {1, 2, 3}, "VEC3"}});
+    for (const char* const word : {"go", "1"}) {
+        const auto scene = g.load(at(0, word));
+        ASSERT_TRUE(scene) << scene.error().message;
+        expectNear(glm::vec3(scene->instances[0].toWorld[3]), {1, 2, 3});
+    }
+    for (const char* const word : {"2", "-1", "Go"}) {
+        const auto none = g.load(at(0, word));
+        ASSERT_FALSE(none) << word;
+        EXPECT_EQ(none.error().kind, ErrorKind::usage);
+        EXPECT_NE(none.error().message.find("expected one of its 2 animations by number or name (rest, go)"),
+                  std::string::npos)
+            << none.error().message;
+    }
+    const auto still = square().load(at(0));
+    ASSERT_FALSE(still);
+    EXPECT_NE(still.error().message.find("it has none"), std::string::npos);
+}
+
+TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
+{
+    const std::tuple<std::string, json, const char*> cases[] = {
+        {"/channels/0/sampler", 1, "channels[0].sampler: expected an index below 1"},
+        {"/channels/0/target/node", 9, "target.node: expected an index below 1"},
+        {"/channels/0/target/path", 3, "target.path: expected a string"},
+        {"/samplers/0/input", 99, "samplers[0].input: expected an index below"},
+        {"/samplers/0/input", 0, "expected floats in accessors[0], the times of its keys"},
+        {"/samplers/0/output", 0, "expected accessors[0] with 2 elements"},
+        {"/samplers/0/interpolation", "FAST", "expected one of LINEAR, STEP, CUBICSPLINE"},
+        {"/samplers/0/interpolation", "CUBICSPLINE", "with 6 elements, found 2"},
+        {"/channels", 3, "channels: expected an array"},
+    };
+    const Gltf good = moved({{"translation", {0, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}});
+    ASSERT_TRUE(good.load(at(0)));
+    for (const auto& [where, value, word] : cases) {
+        Gltf g = good;
+        g.root["animations"][1][json::json_pointer(where)] = value;
+        COTAN_REFUSED(g.load(at(0)), word);
+        EXPECT_TRUE(g.load()) << where;
+    }
+    COTAN_REFUSED(moved({{"translation", {1, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}}).load(at(0)), "expected rising times");
+    Gltf fixed = good;
+    fixed.root["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    COTAN_REFUSED(fixed.load(at(0)), "has a matrix");
+    Gltf pointer = good;
+    pointer.root["animations"][1]["channels"][0]["target"]["path"] = "pointer";
+    const auto scene = pointer.load(at(0));
+    ASSERT_TRUE(scene);
+    EXPECT_TRUE(warns(*scene, "the path \"pointer\" is not animated here"));
+}
+
+} // namespace
