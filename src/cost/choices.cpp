@@ -12,6 +12,7 @@ const std::vector<Choice>& choices()
         {"triangle, read", "triangle-read", Stored::nothing, kVerticesPerTriangle},
         {"smooth, 8 bytes a vertex", "smooth-fused", Stored::cotangents8, kVerticesPerTriangle},
         {"cotangent, derivatives", "cotangent-fused", Stored::nothing, kVerticesPerTriangle},
+        {"cotangent, n as seen", "cotangent-seen", Stored::nothing, kVerticesPerTriangle},
     };
     return list;
 }

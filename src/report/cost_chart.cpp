@@ -193,6 +193,7 @@ text { font: 13px system-ui, sans-serif; fill: #1f2328 }
 .c2 { stroke: #1a7f37 } .n2 { fill: #1a7f37 } .s2 { fill: #1a7f37 }
 .c3 { stroke: #8250df } .n3 { fill: #8250df } .s3 { fill: #8250df }
 .c4 { stroke: #bc4c00 } .n4 { fill: #bc4c00 } .s4 { fill: #bc4c00 }
+.c5 { stroke: #bf3989 } .n5 { fill: #bf3989 } .s5 { fill: #bf3989 }
 @media (prefers-color-scheme: dark) {
 text { fill: #f0f6fc }
 .tick { fill: #9198a1 }
@@ -204,6 +205,7 @@ text { fill: #f0f6fc }
 .c2 { stroke: #3fb950 } .n2 { fill: #3fb950 } .s2 { fill: #3fb950 }
 .c3 { stroke: #bc8cff } .n3 { fill: #bc8cff } .s3 { fill: #bc8cff }
 .c4 { stroke: #f0883e } .n4 { fill: #f0883e } .s4 { fill: #f0883e }
+.c5 { stroke: #f778ba } .n5 { fill: #f778ba } .s5 { fill: #f778ba }
 }
 </style>
 )";
