@@ -1,4 +1,5 @@
-// The committed docs/cost.md and its chart: the bars, and that what they say of triangles follows from their own numbers.
+// The committed docs/cost.md and its chart: the bars, and that what they say of triangles follows from their own
+// numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -131,15 +131,15 @@ double shadedByRasterising(double leg, int steps)
 
 TEST(CostBreakEven, shadedPixelsAreThoseOfRasterisedTriangles)
 {
-    // The formula is a mean over all places, this one over a grid with steps of 1/32 pixel. Points on a hypotenuse count,
-    // so each is half a step too far out; there are four, one for each centre.
+    // The formula is a mean over all places, this one over a grid with steps of 1/32 pixel. Points on a hypotenuse
+    // count, so each is half a step too far out; there are four, one for each centre.
     for (const double pixels : {0.2, 0.5, 1.0, 1.7, 2.0, 3.3, 8.0, 50.0, 300.0}) {
         const double leg = std::sqrt(2 * pixels);
         EXPECT_NEAR(shadedPixels(pixels), shadedByRasterising(leg, 64), 4 * leg / 64 + 1e-9) << pixels;
     }
     EXPECT_EQ(shadedPixels(0), 0);
     EXPECT_DOUBLE_EQ(shadedPixels(50), 50 + 2 * std::sqrt(2 * 50.0)); // 10 to a leg: 70
-    EXPECT_DOUBLE_EQ(shadedPixels(0.25), 1);                         // four copies that do not meet
+    EXPECT_DOUBLE_EQ(shadedPixels(0.25), 1);                          // four copies that do not meet
 }
 
 TEST(CostBreakEven, aRangeEndsWhereBothCostTheSame)
@@ -197,7 +197,8 @@ TEST(CostStages, everyOtherStageHasInstructionsAndTheFrameAddsSome)
             first = &s;
         EXPECT_GT(spirvInstructions(s.words), 10) << s.name;
         EXPECT_EQ(s.consumer.empty(), s.kind != StageKind::mesh) << s.name;
-        EXPECT_GT(s.perVertex + s.perTriangle + s.perPixel, s.kind == StageKind::mesh && &s == first ? -1 : 0) << s.name;
+        EXPECT_GT(s.perVertex + s.perTriangle + s.perPixel, s.kind == StageKind::mesh && &s == first ? -1 : 0)
+            << s.name;
         if (&s != first && s.kind != StageKind::pass) {
             EXPECT_GT(spirvInstructions(s.words), spirvInstructions(first->words)) << s.name;
         }

@@ -7,10 +7,10 @@
 // interpolated normal and need not be unit: its length cancels, which is cheaper than normalising
 // it. m is the decoded texel. The result is unit.
 //
-// All but cotan_perturb_cotangent_seen carry the sign of n . (dpdx x dpdy) and need no front-face flag. None of them gives a NaN for
-// constant uv, zero differences, a footprint without area or an empty texel (m = 0). They are not
-// total like the frames they stand for. In float they give what the frames give in double, to 0.01
-// degrees, where
+// All but cotan_perturb_cotangent_seen carry the sign of n . (dpdx x dpdy) and need no front-face
+// flag. None of them gives a NaN for constant uv, zero differences, a footprint without area or an
+// empty texel (m = 0). They are not total like the frames they stand for. In float they give what the
+// frames give in double, to 0.01 degrees, where
 // - the input is finite and n between 0.01 and 100 long;
 // - the longest position difference and the longest uv difference lie between 1e-9 and 1e6, and
 //   their product between 1e-12 and 1e5. With metres and a map repeated every millimetre to every

@@ -88,7 +88,7 @@ std::string byTriangle(const CostReport& report)
 
 std::string pixelsText(double pixels)
 {
-    return pixels < 1 ? fmt::format("{:.2f}", pixels)
+    return pixels < 1  ? fmt::format("{:.2f}", pixels)
         : pixels < 100 ? fmt::format("{:.1f}", pixels)
                        : fmt::format("{:.0f}", pixels);
 }

@@ -33,10 +33,7 @@ struct Chart {
     {
         return kLeft + (kRight - kLeft) * std::log(pixels / kFewest) / std::log(kMost / kFewest);
     }
-    double y(double ratio) const
-    {
-        return kBottom - (kBottom - kTop) * std::log(ratio / low) / std::log(high / low);
-    }
+    double y(double ratio) const { return kBottom - (kBottom - kTop) * std::log(ratio / low) / std::log(high / low); }
     double ratio(std::size_t curve, double pixels) const
     {
         return curves[curve].price.of(pixels) / curves[0].price.of(pixels);

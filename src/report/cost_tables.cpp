@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "cost_markdown.hpp"
 #include "cotan/cost/scalar_count.hpp"
 #include "cotan/cost/spirv_count.hpp"
 #include "cotan/files/output.hpp"
-#include "cost_markdown.hpp"
 
 namespace cotan {
 
@@ -134,9 +134,10 @@ std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
     const auto devices = devicesWithCode(report);
     const bool mesh = kind == StageKind::mesh, pass = kind == StageKind::pass;
-    Table table = tableOf(mesh || pass ? std::vector<std::string>{kindName(kind), "bytes a vertex", "a triangle", "SPIR-V"}
-                                       : std::vector<std::string>{kindName(kind), "bytes read a pixel", "SPIR-V"},
-                          devices);
+    Table table =
+        tableOf(mesh || pass ? std::vector<std::string>{kindName(kind), "bytes a vertex", "a triangle", "SPIR-V"}
+                             : std::vector<std::string>{kindName(kind), "bytes read a pixel", "SPIR-V"},
+                devices);
     const auto& stages = otherStages();
     const auto first = std::ranges::find(stages, kind, &Stage::kind);
     const auto firstAt = std::size_t(first - stages.begin());
@@ -150,8 +151,7 @@ std::string otherStagesOf(StageKind kind, const CostReport& report)
             line.push_back(std::to_string(bytes));
         line.push_back(over(spirvInstructions(s.words), spirvInstructions(first->words), whole));
         for (const DeviceCode* d : devices)
-            line.push_back(
-                over(d->others[i].code.instructions, d->others[firstAt].code.instructions, whole));
+            line.push_back(over(d->others[i].code.instructions, d->others[firstAt].code.instructions, whole));
         table.push_back(std::move(line));
     }
     return aligned(table);

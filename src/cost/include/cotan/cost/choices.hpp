@@ -23,7 +23,8 @@ struct Choice {
 // Stored MikkTSpace tangents come first.
 const std::vector<Choice>& choices();
 
-// By the driver's estimate of inverse throughput, whole stages. Nothing where it has none, or the row was not asked for.
+// By the driver's estimate of inverse throughput, whole stages. Nothing where it has none, or the row was not asked
+// for.
 std::optional<TrianglePrice> trianglePrice(const DeviceCode& device, const Choice& choice);
 
 } // namespace cotan::cost
