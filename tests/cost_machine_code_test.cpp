@@ -143,7 +143,7 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
                                           rowFromName("smooth"),         rowFromName("exact"),
                                           rowFromName("triangle-halfs"), rowFromName("triangle-read"),
                                           rowFromName("cotangent-fused")};
-    const auto timed = timeRows(some, {{}, true, 1});
+    const auto timed = timeRows(some, {{}, true, 1, usualCases()});
     if (!timed || timed->empty())
         GTEST_SKIP() << "no Vulkan device";
     for (const DeviceTiming& d : *timed) {
@@ -165,6 +165,36 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
             EXPECT_LE(row("triangle-halfs").vertices[i], 2 * cells * cells + 2 * cells + 1);
         }
     }
+}
+
+TEST(CostTiming, aCaseThatTheDeviceCannotDrawOrThatComesTooLateIsNamed)
+{
+    const std::vector<const Row*> some = {rowFromName("mikktspace"), rowFromName("triangle-halfs")};
+    TimingOptions options{{}, true, 3, {{8, 1, 1, 64}, {8, 4, 1, 64}, {1, 1, 3, 64}, {8, 64, 1, 64}}};
+    const auto timed = timeRows(some, options);
+    if (!timed || timed->empty() || !timed->front().silence.empty())
+        GTEST_SKIP() << "no Vulkan device with timestamps";
+    const DeviceTiming& d = timed->front();
+    ASSERT_EQ(d.cases.size() + d.skipped.size(), 4u);
+    ASSERT_GE(d.skipped.size(), 1u); // few devices have 64 samples
+    EXPECT_EQ(d.skipped.back().what.samples, 64);
+    EXPECT_NE(d.skipped.back().why.find("samples"), std::string::npos) << d.skipped.back().why;
+    for (const TimedRow& r : d.rows) {
+        ASSERT_EQ(r.repeats.size(), d.cases.size());
+        for (const std::vector<double>& turns : r.repeats)
+            EXPECT_EQ(turns.size(), 3u);
+    }
+    // The first turn takes milliseconds, a million take longer than ten seconds.
+    options.cases = {{8, 1, 1, 64}, {8, 4, 1, 64}};
+    options.seconds = 10;
+    options.repeats = 1000000;
+    const auto endless = timeRows(some, options);
+    ASSERT_TRUE(endless);
+    EXPECT_EQ(endless->front().silence, "no time was left");
+    options.seconds = -1;
+    const auto late = timeRows(some, options);
+    ASSERT_TRUE(late);
+    EXPECT_EQ(late->front().silence, "no time was left");
 }
 
 TEST(CostCommand, withoutAnyDriverTheCountsAreReportedAndTheExitCodeIsThree)

@@ -66,6 +66,7 @@ std::vector<Device> listDevices(const Instance& instance)
     std::vector<Device> devices;
     for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance.instance))
         devices.push_back(describe(std::move(physical)));
+    std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.cpu; });
     return devices;
 }
 
@@ -75,6 +76,7 @@ void open(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
+    use13.maintenance4 = VK_TRUE; // sizes of work groups, as SPIR-V for 1.3 states them
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
     vk::PhysicalDeviceMeshShaderFeaturesEXT mesh(VK_FALSE, VK_TRUE);
     vk::PhysicalDeviceVulkan12Features use12;

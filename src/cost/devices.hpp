@@ -32,7 +32,7 @@ struct Device {
     double nanoseconds = 0;   // per tick of its timestamps; 0: it has none
 };
 
-// All devices, not opened.
+// All devices, not opened; those that draw on the processor last.
 std::vector<Device> listDevices(const Instance& instance);
 
 // Makes the logical device. Throws.

@@ -57,7 +57,7 @@ namespace {
 vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::ShaderStageFlagBits first,
                                 const vk::PipelineVertexInputStateCreateInfo& input,
                                 std::span<const std::uint32_t> words, std::span<const std::uint32_t> fragment,
-                                bool capture)
+                                bool capture, int samplesAPixel = 1)
 {
     const vk::raii::ShaderModule firstModule = makeModule(device, words);
     const vk::raii::ShaderModule fragmentModule = makeModule(device, fragment);
@@ -68,7 +68,7 @@ vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
-    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
+    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits(samplesAPixel));
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState attachment;
     attachment.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
@@ -96,12 +96,12 @@ vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::
 
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
                                 std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                bool capture)
+                                bool capture, int samples)
 {
     const vk::VertexInputBindingDescription binding(0, vertexFloats(stored) * 4);
     const auto attributes = attributesOf(stored);
     return makeGraphics(device, layout, vk::ShaderStageFlagBits::eVertex, {{}, binding, attributes}, vertex, fragment,
-                        capture);
+                        capture, samples);
 }
 
 vk::raii::Pipeline makeMeshPipeline(const Device& device, const Layout& layout, std::span<const std::uint32_t> mesh,

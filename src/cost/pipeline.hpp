@@ -20,10 +20,10 @@ struct Layout {
 Layout makeLayout(const Device& device);
 
 // Vertices: one binding; position, normal, uv, then what is stored, all as 32-bit floats, packed.
-// capture: ask the driver for statistics. Throws vk::SystemError.
+// capture: ask the driver for statistics. samples: a pixel. Throws vk::SystemError.
 vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
                                 std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                bool capture);
+                                bool capture, int samples = 1);
 
 // A mesh stage in place of the vertex stage; needs device.meshShaders. And a compute stage. Both capture.
 vk::raii::Pipeline makeMeshPipeline(const Device& device, const Layout& layout, std::span<const std::uint32_t> mesh,

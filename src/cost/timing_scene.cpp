@@ -23,28 +23,52 @@ std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::Memory
 
 } // namespace
 
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+static Buffer emptyBuffer(const Device& device, vk::BufferUsageFlags usage, std::size_t bytes,
+                          vk::MemoryPropertyFlags memory)
 {
     Buffer b;
     b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
     const auto needs = b.buffer.getMemoryRequirements();
-    using M = vk::MemoryPropertyFlagBits;
-    b.memory = vk::raii::DeviceMemory(
-        device.device, {needs.size, memoryType(device, needs.memoryTypeBits, M::eHostVisible | M::eHostCoherent)});
+    b.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, memory)});
     b.buffer.bindMemory(*b.memory, 0);
+    return b;
+}
+
+Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+{
+    using M = vk::MemoryPropertyFlagBits;
+    Buffer b = emptyBuffer(device, usage, bytes, M::eHostVisible | M::eHostCoherent);
     std::memcpy(b.memory.mapMemory(0, bytes), data, bytes);
     b.memory.unmapMemory();
     return b;
 }
 
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage)
+Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes)
+{
+    using U = vk::BufferUsageFlagBits;
+    const Buffer staging = makeBuffer(device, U::eTransferSrc, data, bytes);
+    Buffer b = emptyBuffer(device, usage | U::eTransferDst, bytes, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    const vk::raii::CommandPool pool(device.device, {{}, device.queueFamily});
+    const vk::raii::CommandBuffers list(device.device, {*pool, vk::CommandBufferLevel::ePrimary, 1});
+    list[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    list[0].copyBuffer(*staging.buffer, *b.buffer, vk::BufferCopy(0, 0, bytes));
+    list[0].end();
+    const vk::raii::Queue queue = device.device.getQueue(device.queueFamily, 0);
+    queue.submit(vk::SubmitInfo({}, {}, *list[0]));
+    queue.waitIdle();
+    return b;
+}
+
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage, int samples)
 {
     Picture p;
-    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits::e1,
+    vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits(samples),
                              vk::ImageTiling::eOptimal, usage);
     p.image = vk::raii::Image(device.device, info);
     const auto needs = p.image.getMemoryRequirements();
-    p.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(device, needs.memoryTypeBits, {})});
+    p.memory = vk::raii::DeviceMemory(
+        device.device,
+        {needs.size, memoryType(device, needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal)});
     p.image.bindMemory(*p.memory, 0);
     p.view = vk::raii::ImageView(device.device,
                                  vk::ImageViewCreateInfo({}, *p.image, vk::ImageViewType::e2D, format, {},
@@ -54,9 +78,9 @@ Picture makePicture(const Device& device, vk::Format format, std::uint32_t size,
 
 bool provokes(Stored stored) { return stored == Stored::triangle || stored == Stored::triangleHalfs; }
 
-Grid makeGrid(const Device& device, int leg)
+Grid makeGrid(const Device& device, int leg, int side)
 {
-    const std::uint32_t cells = kTargetSize / static_cast<std::uint32_t>(leg);
+    const std::uint32_t cells = static_cast<std::uint32_t>(side / leg);
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> texcoords;
     for (std::uint32_t y = 0; y <= cells; ++y)
@@ -81,7 +105,7 @@ Grid makeGrid(const Device& device, int leg)
 
     using U = vk::BufferUsageFlagBits;
     const auto buffer = [&](vk::BufferUsageFlags usage, const auto& list) {
-        return makeBuffer(device, usage, list.data(), list.size() * sizeof(list[0]));
+        return makeDeviceBuffer(device, usage, list.data(), list.size() * sizeof(list[0]));
     };
     Grid grid;
     for (const VertexStage& stage : vertexStages()) {

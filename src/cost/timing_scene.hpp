@@ -5,8 +5,6 @@
 
 namespace cotan::cost {
 
-inline constexpr std::uint32_t kTargetSize = 1024; // pixels, both ways
-
 struct Buffer {
     vk::raii::Buffer buffer{nullptr};
     vk::raii::DeviceMemory memory{nullptr};
@@ -35,10 +33,13 @@ struct Grid {
 
 bool provokes(Stored stored);
 
-// Host-visible memory everywhere: the data is read once per draw. All throw vk::SystemError.
+// All throw vk::SystemError. In memory that the host sees:
 Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage);
-Grid makeGrid(const Device& device, int leg);
+// In the device's own, so that what is timed does not cross the bus. Waits for the copy.
+Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
+Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage,
+                    int samples = 1);
+Grid makeGrid(const Device& device, int leg, int side);
 
 // A commands buffer's image barrier, all stages.
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to);

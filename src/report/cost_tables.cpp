@@ -191,15 +191,15 @@ std::string timings(const DeviceTiming& d)
     std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n", d.name,
                                    d.cpu ? " (draws on the processor)" : "", d.driver);
     Table table = {{"legs of the triangles"}};
-    for (const int leg : triangleLegs()) {
-        table[0].push_back(fmt::format("{} px", leg));
+    for (const TimingCase& c : d.cases) {
+        table[0].push_back(fmt::format("{} px", c.leg));
         table[0].push_back("ratio");
     }
     const auto base =
         std::find_if(d.rows.begin(), d.rows.end(), [](const TimedRow& r) { return r.row == "mikktspace"; });
     for (const TimedRow& r : d.rows) {
         std::vector<std::string> line = {std::string(r.row)};
-        for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
+        for (std::size_t i = 0; i < d.cases.size(); ++i) {
             const double t = r.nanosecondsPerMillionPixels[i];
             line.push_back(fmt::format("{:.0f}", t));
             line.push_back(base == d.rows.end() ? "-"
@@ -207,6 +207,8 @@ std::string timings(const DeviceTiming& d)
         }
         table.push_back(std::move(line));
     }
+    for (const SkippedCase& s : d.skipped)
+        text += fmt::format("Left out, legs of {} px: {}.\n\n", s.what.leg, s.why);
     return text + "Ratio: to `mikktspace` in the same run.\n\n" + aligned(table);
 }
 
@@ -276,8 +278,10 @@ Json toJson(const CostReport& report)
     }
     json["timing"] = Json::array();
     for (const DeviceTiming& d : report.timing) {
-        Json device = {
-            {"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}, {"legs", triangleLegs()}};
+        Json device = {{"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}};
+        device["legs"] = Json::array();
+        for (const TimingCase& c : d.cases)
+            device["legs"].push_back(c.leg);
         for (const TimedRow& r : d.rows) {
             device["nanoseconds_per_million_pixels"][std::string(r.row)] = r.nanosecondsPerMillionPixels;
             device["vertices"][std::string(r.row)] = r.vertices;
@@ -319,7 +323,7 @@ std::string toCsv(const CostReport& report)
             for (std::size_t i = 0; i < r.nanosecondsPerMillionPixels.size(); ++i)
                 text +=
                     fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
-                                quoted(d.name), quoted(d.driver), triangleLegs()[i], r.nanosecondsPerMillionPixels[i]);
+                                quoted(d.name), quoted(d.driver), d.cases[i].leg, r.nanosecondsPerMillionPixels[i]);
     return text;
 }
 
