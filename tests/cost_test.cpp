@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "cotan/cost/break_even.hpp"
+#include "cotan/cost/choices.hpp"
 #include "cotan/cost/rows.hpp"
 #include "cotan/cost/scalar_count.hpp"
 #include "cotan/cost/spirv_count.hpp"
+#include "cotan/cost/stages.hpp"
 
 namespace cotan::cost {
 namespace {
@@ -103,6 +105,113 @@ TEST(CostBreakEven, isWhereBothCostTheSame)
     EXPECT_DOUBLE_EQ(pixelsPerVertex(12, 48), 0.25);
     EXPECT_TRUE(std::isinf(pixelsPerVertex(16, 0)));
     EXPECT_EQ(pixelsPerVertex(0, 48), 0);
+}
+
+// Pixels in quads of which one centre at least is inside of a right-angled triangle with legs along the axes, in the
+// mean over places on a grid of steps x steps within a quad.
+double shadedByRasterising(double leg, int steps)
+{
+    double quads = 0;
+    const int most = int(leg) + 4;
+    for (int sy = 0; sy < steps; ++sy)
+        for (int sx = 0; sx < steps; ++sx) {
+            const double x0 = 2 * (sx + 0.5) / steps, y0 = 2 * (sy + 0.5) / steps; // the corner at the right angle
+            for (int qy = -2; qy < most; qy += 2)
+                for (int qx = -2; qx < most; qx += 2)
+                    for (int k = 0; k < 4; ++k) {
+                        const double x = qx + k % 2 + 0.5 - x0, y = qy + k / 2 + 0.5 - y0;
+                        if (x >= 0 && y >= 0 && x + y <= leg) {
+                            ++quads;
+                            break;
+                        }
+                    }
+        }
+    return 4 * quads / (double(steps) * steps);
+}
+
+TEST(CostBreakEven, shadedPixelsAreThoseOfRasterisedTriangles)
+{
+    // The formula is a mean over all places, this one over a grid with steps of 1/32 pixel. Points on a hypotenuse
+    // count, so each is half a step too far out; there are four, one for each centre.
+    for (const double pixels : {0.2, 0.5, 1.0, 1.7, 2.0, 3.3, 8.0, 50.0, 300.0}) {
+        const double leg = std::sqrt(2 * pixels);
+        EXPECT_NEAR(shadedPixels(pixels), shadedByRasterising(leg, 64), 4 * leg / 64 + 1e-9) << pixels;
+    }
+    EXPECT_EQ(shadedPixels(0), 0);
+    EXPECT_DOUBLE_EQ(shadedPixels(50), 50 + 2 * std::sqrt(2 * 50.0)); // 10 to a leg: 70
+    EXPECT_DOUBLE_EQ(shadedPixels(0.25), 1);                          // four copies that do not meet
+}
+
+TEST(CostBreakEven, aRangeEndsWhereBothCostTheSame)
+{
+    const TrianglePrice stored{60, 100}, early{120, 90}, late{20, 140};
+    const PixelRange large = cheaperRange(early, stored), small = cheaperRange(late, stored);
+    EXPECT_TRUE(std::isinf(large.below));
+    EXPECT_NEAR(shadedPixels(large.above), 6, 1e-9); // 60 more for each triangle, 10 less for each pixel
+    EXPECT_NEAR(large.above, 2, 1e-9);               // legs of 2 pixels
+    EXPECT_NEAR(early.of(large.above), stored.of(large.above), 1e-6);
+    EXPECT_EQ(small.above, 0);
+    EXPECT_NEAR(shadedPixels(small.below), 1, 1e-9);
+    EXPECT_NEAR(small.below, 0.25, 1e-9);
+    EXPECT_TRUE(std::isinf(cheaperRange({1, 2}, {2, 2}).below));
+    EXPECT_EQ(cheaperRange({2, 2}, {1, 2}).below, 0);
+    EXPECT_EQ(cheaperRange({2, 2}, {2, 2}).below, 0);
+}
+
+TEST(CostChoices, pricesAreThoseOfTheirStages)
+{
+    DeviceCode device;
+    const auto estimated = [](double estimate) {
+        StageCode code;
+        code.inverseThroughput = estimate;
+        return code;
+    };
+    double next = 100;
+    for (const Row& row : rows())
+        device.rows.push_back({row.name, estimated(next++)});
+    for (const VertexStage& stage : vertexStages())
+        device.vertices.push_back({stage.stored, estimated(next++)});
+    for (const Choice& choice : choices()) {
+        const Row* row = rowFromName(choice.row);
+        ASSERT_NE(row, nullptr) << choice.name;
+        const auto price = trianglePrice(device, choice);
+        ASSERT_TRUE(price) << choice.name;
+        EXPECT_EQ(price->perPixel, 100 + double(row - rows().data())) << choice.name;
+        EXPECT_DOUBLE_EQ(price->fixed,
+                         choice.verticesPerTriangle * (100 + double(rows().size()) + double(choice.vertex)))
+            << choice.name;
+        // Every stage hands on what the row takes: the same, or unpacked from a smaller form.
+        EXPECT_TRUE(row->stored == choice.vertex
+                    || (row->stored == Stored::cotangents && choice.vertex == Stored::cotangents8))
+            << choice.name;
+    }
+    device.rows.clear();
+    EXPECT_FALSE(trianglePrice(device, choices()[0]));
+}
+
+TEST(CostStages, everyOtherStageHasInstructionsAndTheFrameAddsSome)
+{
+    const Stage* first = nullptr;
+    for (const Stage& s : otherStages()) {
+        if (!first || first->kind != s.kind)
+            first = &s;
+        EXPECT_GT(spirvInstructions(s.words), 10) << s.name;
+        EXPECT_EQ(s.consumer.empty(), s.kind != StageKind::mesh) << s.name;
+        EXPECT_GT(s.perVertex + s.perTriangle + s.perPixel, s.kind == StageKind::mesh && &s == first ? -1 : 0)
+            << s.name;
+        if (&s != first && s.kind != StageKind::pass) {
+            EXPECT_GT(spirvInstructions(s.words), spirvInstructions(first->words)) << s.name;
+        }
+    }
+    // U and V of sound edges: 12 products and 6 sums; the longer of two lengths, 6, 4 and a maximum, and a guard; its
+    // root, and the side: 9 and 5, a sign; 6 to scale. (In the total form guards are added.)
+    const Operations sound = operationsOfTriangleVectors(false);
+    EXPECT_EQ(sound.multiply, 12 + 6 + 9 + 6);
+    EXPECT_EQ(sound.add, 6 + 4 + 5);
+    EXPECT_EQ(sound.inverseRoot, 1);
+    EXPECT_EQ(sound.maximum, 2);
+    EXPECT_EQ(sound.total(), 33 + 15 + 1 + 2 + 1);
+    EXPECT_GT(operationsOfTriangleVectors(true).total(), sound.total());
 }
 
 } // namespace

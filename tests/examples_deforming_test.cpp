@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "examples_sheets.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {
@@ -23,8 +24,8 @@ DeformingRun runDeforming(const std::string& words)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
-    const int status = std::system(
-        (std::string(COTAN_DEFORMING_EXAMPLE) + " " + words + " >'" + f + "/out' 2>'" + f + "/err'").c_str());
+    const int status =
+        std::system((programAt(COTAN_DEFORMING_EXAMPLE) + " " + words + " >'" + f + "/out' 2>'" + f + "/err'").c_str());
     return {WEXITSTATUS(status), readWhole(folder / "out"), readWhole(folder / "err")};
 }
 

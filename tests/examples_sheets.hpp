@@ -14,6 +14,13 @@
 
 namespace cotan::test {
 
+// A program that was built, or that of its name in the folder COTAN_PROGRAMS: where bench/on-gpu has carried it.
+inline std::string programAt(const std::filesystem::path& built)
+{
+    const char* folder = std::getenv("COTAN_PROGRAMS");
+    return (folder ? folder / built.filename() : built).string();
+}
+
 using Vec = std::array<double, 3>;
 
 inline double dot(Vec a, Vec b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -13,7 +13,7 @@ namespace cotan::test {
 namespace {
 
 #ifdef COTAN_TRIANGLE_EXAMPLE
-std::string way(const std::string& name) { return std::string(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
+std::string way(const std::string& name) { return programAt(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
 
 // All normals of the teapot or a file, empty pixels being zero.
 std::vector<Vec> drawn(const std::string& name, const std::string& what)

@@ -181,6 +181,7 @@ TEST(Figures, curvedMeshesConvergeWithTheFramesThatFollowTheTexture)
     // cotangents up to sixteen (second order), and an orthonormal frame next to nothing where the
     // latitudes squeeze the texture. Half of each for coarse meshes, where other terms count.
     EXPECT_GT(gain("cotangent"), 2);
+    EXPECT_GT(gain("triangle"), 2);
     EXPECT_GT(gain("smooth"), 8);
     EXPECT_LT(gain("mikktspace"), 2);
     // Reversed on half of the sphere, where domes tilt by tens of degrees; right on both.

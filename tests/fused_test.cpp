@@ -21,6 +21,13 @@ f64::cotan_frame areaFrame(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::
     return f;
 }
 
+// With the side that makes n the one that is seen.
+glm::vec3 seen(glm::vec3 n, glm::vec3 dpdx, glm::vec3 dpdy, glm::vec2 duvdx, glm::vec2 duvdy, glm::vec3 m)
+{
+    const float side = glm::dot(glm::dvec3(n), glm::cross(glm::dvec3(dpdx), glm::dvec3(dpdy))) < 0 ? -1.0f : 1.0f;
+    return f32::cotan_perturb_cotangent_seen(n, dpdx, dpdy, duvdx, duvdy, m, side);
+}
+
 struct Pair {
     const char* name;
     Fused fused;
@@ -30,6 +37,7 @@ struct Pair {
 const std::array kPairs = {
     Pair{"cotangent", f32::cotan_perturb_cotangent, f64::cotan_frame_cotangent},
     Pair{"cotangent-area", f32::cotan_perturb_cotangent_area, areaFrame},
+    Pair{"cotangent-seen", seen, f64::cotan_frame_triangle},
     Pair{"gradient", f32::cotan_perturb_gradient, f64::cotan_frame_gradient},
     Pair{"orthonormal", f32::cotan_perturb_orthonormal, f64::cotan_frame_orthonormal},
 };
@@ -197,10 +205,10 @@ TEST(Fused, orthonormalLeansNothingWhereUvHaveNoArea)
 
 TEST(Fused, theLimitsOfScaleAreInside)
 {
-    // Products of the differences of 1e-12 and 1e5, as fused.h promises; gradient has its own
-    // limit.
+    // Products of the differences of 1e-12 and 1e5, as fused.h promises; cotangent-seen and gradient
+    // have their own limits.
     Random random(20);
-    for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[3]})
+    for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[4]})
         for (const auto& [p, uv] :
              {std::pair(1e-6f, 1e-6f), std::pair(1e-9f, 1e-3f), std::pair(1e5f, 1.0f), std::pair(1e-1f, 1e6f)})
             for (int k = 0; k < 500; ++k) {

@@ -93,6 +93,8 @@ Gltf dracoModel(const Sheet& s, const std::string& stream)
     const json attributes = {{"POSITION", attribute("VEC3", kFloat)},
                              {"TEXCOORD_0", attribute("VEC2", kFloat)},
                              {"_NUMBERS", attribute("VEC3", kUByte)}};
+    g.root["accessors"][0]["min"] = {0, 0, -0.1};
+    g.root["accessors"][0]["max"] = {1, 1, 0.1};
     const int indices = g.accessor(json{{"componentType", kUShort}, {"type", "SCALAR"}, {"count", s.indices.size()}});
     const json draco = {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}, {"_NUMBERS", 2}}}};
     g.add("meshes",
@@ -151,6 +153,15 @@ TEST_P(DracoGeometryIs, plainInADocumentThatIsWritten)
     EXPECT_FALSE(out.root.contains("extensionsUsed"));
     EXPECT_FALSE(out.root.contains("extensionsRequired"));
     EXPECT_EQ(out.root.dump().find("draco"), std::string::npos);
+    const json& bounds =
+        out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+    float lowest = 1; // of z, as it was quantised
+    const auto again = loadGltf(folder.path / "out.glb");
+    ASSERT_TRUE(again) << again.error().message;
+    for (const glm::vec3& p : again->meshes[0].positions)
+        lowest = std::min(lowest, p.z);
+    EXPECT_EQ(bounds["min"][2].get<float>(), lowest);
+    EXPECT_EQ(bounds["max"][0], 1.0f);
     // The numbers of each vertex have its place: three bytes, the next vertex begins behind four.
     const json& primitive = out.root["meshes"][0]["primitives"][0];
     const json& numbers = out.root["accessors"][primitive["attributes"]["_NUMBERS"].get<std::size_t>()];
@@ -220,6 +231,18 @@ TEST_P(DracoGeometryIs, refusedInOneLineOrReadWhereTheStreamIsDamaged)
         }
     }
     EXPECT_GT(refused, 30); // flips of coordinates are not noticed
+}
+
+// As exporters write it that found equal uv sets: one accessor by two names, with an id for each.
+TEST(DracoGeometry, mayHaveOneAccessorByTwoNames)
+{
+    const Sheet s = sheet(4);
+    Gltf g = dracoModel(s, dracoStream(s, draco::MESH_EDGEBREAKER_ENCODING));
+    primitive(g)["attributes"]["TEXCOORD_1"] = primitive(g)["attributes"]["TEXCOORD_0"];
+    primitive(g)["extensions"]["KHR_draco_mesh_compression"]["attributes"]["TEXCOORD_1"] = 2;
+    const auto scene = g.load();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].texcoords[0], scene->meshes[0].texcoords[1]);
 }
 
 TEST(DracoGeometry, isLeftAloneWherePlainNumbersAreThereToo)

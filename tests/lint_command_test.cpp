@@ -163,6 +163,7 @@ TEST(LintCommand, whatItPredictsForModelsIsWhatCompareMeasures)
         double factor;
     } cases[] = {{"models/FlightHelmet/FlightHelmet.gltf", "orthonormal", 2},
                  {"models/BoomBox/BoomBox.gltf", "cotangent", 2},
+                 {"models/BoomBox/BoomBox.gltf", "triangle", 2},
                  {"models/SketchfabCat/scene.gltf", "cotangent", 2},
                  {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "cotangent", 3}};
     for (const auto& [file, frame, factor] : cases) {

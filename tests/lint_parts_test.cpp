@@ -252,9 +252,11 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const Image map = floatMap(4, 4, [&](int, int) { return m; });
     const auto read = lint::readings(tall(2), material, map);
-    ASSERT_EQ(read.size(), 4u);
+    ASSERT_EQ(read.size(), 5u);
     EXPECT_EQ(read[0].name, "cotangent");
     EXPECT_NEAR(read[0].error.mean, angleBetween(m, {0.4, 0.15, 1}), 1e-4);
+    EXPECT_EQ(read[4].name, "triangle");
+    EXPECT_NEAR(read[4].error.mean, angleBetween(m, {0.4, 0.15, 1}), 1e-4);
     EXPECT_EQ(read[1].name, "orthonormal");
     EXPECT_NEAR(read[1].error.maximum, 0, 1e-4);
     EXPECT_EQ(read[1].error.count, 4096u);
@@ -270,9 +272,9 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const auto read = lint::readings(makeSurface(mesh, Texture{}), material,
                                      floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
-    ASSERT_EQ(read.size(), 5u);
-    EXPECT_EQ(read[4].name, "stored");
-    EXPECT_NEAR(read[4].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
+    ASSERT_EQ(read.size(), 6u);
+    EXPECT_EQ(read[5].name, "stored");
+    EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
 }
 
 // ---- overlap --------------------------------------------------------------------------------

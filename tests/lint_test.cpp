@@ -181,7 +181,7 @@ TEST(Lint, readingAStretchedPatchIsOffByTheAngleOfHalvedSlopes)
     const glm::dvec3 halved = glm::normalize(glm::dvec3(0.2, 0.3, 1));
     const double expected = glm::degrees(std::acos(glm::dot(m, halved)));
     const PrimitiveLint p = lintOf(makePatch(2, 0, false, 4), constantMap(m));
-    for (const char* frame : {"cotangent", "smooth", "exact"}) {
+    for (const char* frame : {"cotangent", "smooth", "exact", "triangle"}) {
         EXPECT_NEAR(errorOf(p, frame).mean, expected, kFloat) << frame;
         EXPECT_NEAR(errorOf(p, frame).maximum, expected, kFloat) << frame;
     }

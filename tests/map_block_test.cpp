@@ -70,6 +70,14 @@ std::vector<glm::dvec3> tilted(double tilt, double spread, std::mt19937& random)
     return normals;
 }
 
+Half codesOf(const std::vector<glm::dvec3>& normals, int axis)
+{
+    Half codes{};
+    for (std::size_t i = 0; i < 16; ++i)
+        codes[i] = 128 + 127 * normals[i][axis];
+    return codes;
+}
+
 // What fits each channel best by itself, of all ends: the sum of squares of codes.
 Half bestChannel(const Half& values)
 {
@@ -117,11 +125,7 @@ TEST(Block, anglesAreSmallerThanThoseOfTheClosestCodes)
     for (int block = 0; block < 12; ++block) {
         const auto normals = tilted(65, 0.2, random);
         const auto bytes = encodeBc5(blockOf(normals, 4), {});
-        Half x{}, y{};
-        for (std::size_t i = 0; i < 16; ++i) {
-            x[i] = 128 + 127 * normals[i].x;
-            y[i] = 128 + 127 * normals[i].y;
-        }
+        const Half x = codesOf(normals, 0), y = codesOf(normals, 1);
         const Half ourX = decodedHalf(bytes.data()), ourY = decodedHalf(bytes.data() + 8), bestX = bestChannel(x),
                    bestY = bestChannel(y);
         for (std::size_t i = 0; i < 16; ++i) {
@@ -140,9 +144,7 @@ TEST(Block, ofGentleNormalsTheEndsAreNearlyTheBestThatThereAre)
     for (int block = 0; block < 12; ++block) {
         const auto normals = tilted(10, 0.1, random);
         const auto bytes = encodeBc5(blockOf(normals, 4), {});
-        Half x{};
-        for (std::size_t i = 0; i < 16; ++i)
-            x[i] = 128 + 127 * normals[i].x;
+        const Half x = codesOf(normals, 0);
         const Half got = decodedHalf(bytes.data()), all = bestChannel(x);
         for (std::size_t i = 0; i < 16; ++i) {
             ours += (got[i] - x[i]) * (got[i] - x[i]);

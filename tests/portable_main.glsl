@@ -25,6 +25,7 @@ void main()
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
     sum += cotan_perturb_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_perturb_cotangent_area(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
+    sum += cotan_perturb_cotangent_seen(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m, -1.0);
     sum += cotan_perturb_gradient(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_perturb_orthonormal(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     cotan_triangle flat_pair = cotan_triangle_of_vertices(n, p, m, uv, uv, uv, n, n, n);

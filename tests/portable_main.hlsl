@@ -24,6 +24,7 @@ float4 main(float3 n : TEXCOORD0, float3 p : TEXCOORD1, float2 uv : TEXCOORD2) :
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
     sum += cotan_perturb_cotangent(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_cotangent_area(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
+    sum += cotan_perturb_cotangent_seen(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m, -1.0);
     sum += cotan_perturb_gradient(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_orthonormal(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     cotan_triangle flat_pair = cotan_triangle_of_vertices(n, p, m, uv, uv, uv, n, n, n);

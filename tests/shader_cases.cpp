@@ -202,6 +202,10 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE("triangle, scaled",
                                   cotan_perturb_triangle_scaled(n, cotan_triangle_of_sound_edges(COTAN_EDGES).u,
                                                                 cotan_triangle_of_sound_edges(COTAN_EDGES).v, m)));
+    all.push_back(COTAN_LINE_CASE(
+        "cotangent, seen",
+        cotan_perturb_cotangent_seen(n, dpdx, dpdy, cotan_vec2(cotan_real(0.3), cotan_real(0.1)),
+                                     cotan_vec2(cotan_real(-0.2), cotan_real(0.4)), m, cotan_real(-1.0))));
     all.push_back(COTAN_LINE_CASE("triangle, transformed",
                                   cotan_perturb_triangle(n, COTAN_TRANSFORMED.u, COTAN_TRANSFORMED.v, m)));
     all.push_back(

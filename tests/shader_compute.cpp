@@ -35,6 +35,12 @@ std::string shaderOf(const Case& c, bool hlsl)
 
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label)
 {
+    const char* keep = std::getenv("COTAN_SPIRV");
+    const std::string kept = keep ? std::string(keep) + "/"
+            + std::to_string(std::hash<std::string>()((hlsl ? "hlsl " : "glsl ") + stage + shader))
+                                  : "";
+    if (std::filesystem::exists(kept))
+        return readWhole(kept);
     TemporaryFolder folder;
     const std::string f = folder.path().string();
     writeText(folder / "a", shader);
@@ -42,7 +48,10 @@ std::string toSpirv(const std::string& shader, const std::string& stage, bool hl
                    + "/spv' '" + f + "/a'",
                folder / "log"))
         throw std::runtime_error(label + ": " + readWhole(folder / "log"));
-    return readWhole(folder / "spv");
+    const std::string spirv = readWhole(folder / "spv");
+    if (keep)
+        writeText(kept, spirv);
+    return spirv;
 }
 
 std::string computeSpirv(const Case& c, bool hlsl) { return toSpirv(shaderOf(c, hlsl), "comp", hlsl, c.name); }

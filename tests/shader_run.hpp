@@ -38,7 +38,8 @@ inline bool shell(const std::string& line, const std::filesystem::path& log)
     return std::system(("(" + line + ") > '" + log.string() + "' 2>&1").c_str()) == 0;
 }
 
-// SPIR-V's bytes by glslang. stage: as it calls it, `comp`. label: for what is thrown.
+// SPIR-V's bytes by glslang. stage: as it calls it, `comp`. label: for what is thrown. Kept in the folder COTAN_SPIRV,
+// where that names one, and read from there: for a machine without glslang to which bench/on-gpu has carried them.
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label);
 
 // A case as a compute shader: inputs at binding 0, outputs at binding 1.

@@ -1,5 +1,8 @@
 #include "commands.hpp"
 
+#include <filesystem>
+#include <optional>
+
 #include "cotan/files/output.hpp"
 #include "cotan/report/cost_tables.hpp"
 #include "loading.hpp"
@@ -20,7 +23,11 @@ struct CostCommandOptions : CommonOptions {
 
 Status run(const CostCommandOptions& o)
 {
-    if (Status planned = planOutputs(o, {{"-o", o.output}, {"--csv", o.csv}}); !planned)
+    std::filesystem::path chart = o.output;
+    if (!o.output.empty())
+        chart.replace_extension(".svg");
+    if (Status planned = planOutputs(o, {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}});
+        !planned)
         return planned;
     const auto report = withProgress(o, 1, "pricing", [&](Progress progress) {
         return cost::price({.frames = o.frames,
@@ -33,7 +40,11 @@ Status run(const CostCommandOptions& o)
     });
     if (!report)
         return inWords(report.error());
-    const std::string tables = toMarkdown(*report);
+    const auto picture = o.output.empty() ? std::nullopt : costChart(*report);
+    const std::string tables = toMarkdown(*report, picture ? chart.filename().string() : "");
+    if (picture)
+        if (Status written = writeFileWhole(chart, *picture); !written)
+            return written;
     if (!o.output.empty()) {
         if (Status written = writeTables(o.output, tables); !written)
             return written;
@@ -73,8 +84,8 @@ void addCostCommand(Arguments& tool)
         tool,
         {"cost",
          "what each frame costs: operations, SPIR-V, machine code, time",
-         "file for the tables instead of standard output; where it has the marks of docs/cost.md, "
-         "only what is between them is replaced",
+         "file for the tables instead of standard output, and beside it a chart, .svg; where it has the marks of "
+         "docs/cost.md, only what is between them is replaced",
          {"cotan cost --frames cotangent --no-timing", "cotan cost --family NAVI21 --csv cost.csv"}},
         declare, run);
 }

@@ -134,8 +134,9 @@ void declare(Arguments& a, LintCommandOptions& o)
              "% of a primitive's area")
         .in("PERCENT")
         .withoutDefault();
-    a.option("--frame", o.limits.frame, "frame that --limit judges: cotangent, orthonormal, smooth, exact or stored")
-        .from({"cotangent", "orthonormal", "smooth", "exact", "stored"})
+    a.option("--frame", o.limits.frame,
+             "frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored")
+        .from({"cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"})
         .in("NAME");
 }
 

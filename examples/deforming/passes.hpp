@@ -23,7 +23,7 @@ public:
     // The pose for the passes that follow, in the order of the rest mesh. Pass::normals writes over the normals.
     void pose(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals);
 
-    // Runs a pass and waits for it. Milliseconds from submission to the end.
+    // Runs a pass and waits for it. Milliseconds by the device's clock; NaN where it has none.
     double run(Pass pass);
 
     // What the last run has written.
@@ -43,5 +43,6 @@ private:
     Groups frameGroups_, normalGroups_;
     Buffer positions_, normals_, texcoords_, indices_, frames_, triangles_;
     vk::raii::PipelineLayout layout_{nullptr};
+    vk::raii::QueryPool times_{nullptr};
     std::vector<vk::raii::Pipeline> pipelines_;
 };

@@ -1,5 +1,6 @@
 #include "gpu.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -12,7 +13,11 @@ Gpu openGpu()
     const auto all = gpu.instance.enumeratePhysicalDevices();
     if (all.empty())
         throw std::runtime_error("no Vulkan device");
-    gpu.physical = all.front();
+    const auto draws = [](const auto& device) {
+        return device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu;
+    };
+    const auto best = std::find_if(all.begin(), all.end(), draws);
+    gpu.physical = best != all.end() ? *best : all.front(); // on the processor where nothing else draws
     for (const auto& extension : gpu.physical.enumerateDeviceExtensionProperties())
         gpu.meshShaders =
             gpu.meshShaders || std::string(extension.extensionName.data()) == VK_EXT_MESH_SHADER_EXTENSION_NAME;
@@ -20,7 +25,7 @@ Gpu openGpu()
     vk::PhysicalDeviceMeshShaderFeaturesEXT meshShader;
     meshShader.meshShader = VK_TRUE;
     vk::PhysicalDeviceVulkan13Features v13;
-    v13.dynamicRendering = v13.synchronization2 = VK_TRUE;
+    v13.dynamicRendering = v13.synchronization2 = v13.maintenance4 = VK_TRUE; // the last: sizes of work groups
     v13.pNext = gpu.meshShaders ? &meshShader : nullptr;
     vk::PhysicalDeviceVulkan12Features v12;
     v12.bufferDeviceAddress = VK_TRUE;
@@ -39,12 +44,14 @@ Gpu openGpu()
     return gpu;
 }
 
+// Of the device's own, where it has such.
 static std::uint32_t memoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPropertyFlags wanted)
 {
     const auto memory = gpu.physical.getMemoryProperties();
-    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-        if ((allowed >> i & 1u) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
-            return i;
+    for (const vk::MemoryPropertyFlags all : {wanted | vk::MemoryPropertyFlagBits::eDeviceLocal, wanted})
+        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            if ((allowed >> i & 1u) && (memory.memoryTypes[i].propertyFlags & all) == all)
+                return i;
     throw std::runtime_error("the device has no memory of the kind that is needed");
 }
 

@@ -1,5 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#ifdef COST_MESH
+#extension GL_EXT_mesh_shader : require
+#define COST_FLAT perprimitiveEXT flat
+#else
+#define COST_FLAT flat
+#endif
 // The fragment shader that `cotan cost` prices: differences, one texel, one row of rows.h (named by
 // COST_ROW), a colour. Interpolated inputs that the row does not use are not declared.
 #define COTAN_LANG_GLSL
@@ -22,24 +28,17 @@ layout(location = 3) in vec3 cotangentU;
 layout(location = 4) in vec3 cotangentV;
 #endif
 #ifdef COST_TRIANGLE
-layout(location = 3) flat in vec3 triangleU;
-layout(location = 4) flat in vec3 triangleV;
+layout(location = 3) COST_FLAT in vec3 triangleU;
+layout(location = 4) COST_FLAT in vec3 triangleV;
 #endif
 #ifdef COST_TRIANGLE_HALFS
-layout(location = 3) flat in uvec3 triangleHalfs;
+layout(location = 3) COST_FLAT in uvec3 triangleHalfs;
 #endif
 #ifdef COST_TRIANGLE_READ
-layout(std430, set = 0, binding = 2) readonly buffer Triangles { uint triangles[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Triangles { uint triangles[]; };
 #endif
 #ifdef COST_EDGES
-layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Texcoords { float texcoords[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Indices { uint indices[]; };
-vec3 positionOf(uint v)
-{
-    return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
-}
-vec2 texcoordOf(uint v) { return vec2(texcoords[2u * v], texcoords[2u * v + 1u]); }
+#include "cost/draw.glsl"
 #endif
 
 layout(set = 0, binding = 1) uniform sampler2D normalMap;

@@ -153,6 +153,11 @@ COTAN_FUNCTION cotan_vec3 cost_cotangent_area_fused(cost_inputs i)
 {
     return cotan_perturb_cotangent_area(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
 }
+COTAN_FUNCTION cotan_vec3 cost_cotangent_seen(cost_inputs i)
+{
+    return cotan_perturb_cotangent_seen(
+        i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m, cotan_real(-1.0));
+}
 COTAN_FUNCTION cotan_vec3 cost_gradient_fused(cost_inputs i)
 {
     return cotan_perturb_gradient(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);

@@ -44,37 +44,10 @@ layout(location = 4) flat out vec3 triangleV;
 #ifdef COST_TRIANGLE_HALFS
 layout(location = 3) flat out uvec3 triangleHalfs;
 #endif
+
+#include "cost/draw.glsl"
+
 #if defined(COST_TRIANGLE) || defined(COST_TRIANGLE_HALFS)
-#define COST_PULL
-layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Texcoords { float texcoords[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Indices { uint indices[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Normals { float normals[]; };
-vec3 positionOf(uint v)
-{
-    return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
-}
-vec3 normalOf(uint v) { return vec3(normals[3u * v], normals[3u * v + 1u], normals[3u * v + 2u]); }
-vec2 texcoordOf(uint v) { return vec2(texcoords[2u * v], texcoords[2u * v + 1u]); }
-#endif
-
-layout(std140, set = 0, binding = 0) uniform Draw {
-    mat4 projection;   // camera-relative to clip
-    vec4 model[3];     // rows: object to camera-relative
-    vec4 covectors[3]; // rows: the inverse transpose of model's 3x3
-};
-
-vec3 covectorOf(vec3 c)
-{
-    return vec3(dot(covectors[0].xyz, c), dot(covectors[1].xyz, c), dot(covectors[2].xyz, c));
-}
-
-#ifdef COST_PULL
-vec3 directionOf(vec3 d)
-{
-    return vec3(dot(model[0].xyz, d), dot(model[1].xyz, d), dot(model[2].xyz, d));
-}
-
 // U and V of the triangle that this vertex provokes, from its edges in the space of the frame.
 cotan_triangle triangleOfVertex()
 {
@@ -97,9 +70,7 @@ void main()
 #ifdef COST_PACKED2
     vec4 inTangent = cotan_unpack_tangent2(inNormal, inPacked);
 #endif
-    vec3 t = inTangent.xyz;
-    tangent =
-        vec4(dot(model[0].xyz, t), dot(model[1].xyz, t), dot(model[2].xyz, t), inTangent.w);
+    tangent = vec4(directionOf(inTangent.xyz), inTangent.w);
 #endif
 #ifdef COST_COTANGENTS
 #if defined(COST_PACKED8) || defined(COST_PACKED4)

@@ -7,10 +7,10 @@
 // interpolated normal and need not be unit: its length cancels, which is cheaper than normalising
 // it. m is the decoded texel. The result is unit.
 //
-// All carry the sign of n . (dpdx x dpdy) and need no front-face flag. None of them gives a NaN for
-// constant uv, zero differences, a footprint without area or an empty texel (m = 0). They are not
-// total like the frames they stand for. In float they give what the frames give in double, to 0.01
-// degrees, where
+// All but cotan_perturb_cotangent_seen carry the sign of n . (dpdx x dpdy) and need no front-face
+// flag. None of them gives a NaN for constant uv, zero differences, a footprint without area or an
+// empty texel (m = 0). They are not total like the frames they stand for. In float they give what the
+// frames give in double, to 0.01 degrees, where
 // - the input is finite and n between 0.01 and 100 long;
 // - the longest position difference and the longest uv difference lie between 1e-9 and 1e6, and
 //   their product between 1e-12 and 1e5. With metres and a map repeated every millimetre to every
@@ -76,6 +76,29 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_area(
     cotan_vec3 v = dpdy_perp * (m_x * scale) + dpdx_perp * (m_y * scale)
         + n * (m.z + COTAN_FUSED_REST);
     return v * cotan_inversesqrt(dot(v, v));
+}
+
+// `cotangent` without its sign and with the scale of `triangle`: the cheapest of those that follow stretch and
+// shear. n must be on the side of the surface that is seen: turned on back faces, as for lighting.
+//   side   +1 or -1, one constant for all that is drawn: whether cross(dpdx, dpdy) of what is seen points
+//          towards the viewer. In right-handed spaces -1 where rows of pixels run down (Vulkan, Direct3D,
+//          Metal, WebGPU), +1 where they run up (OpenGL, WebGL); the other way round in left-handed spaces,
+//          and in views that mirror
+// Equal to the frame of triangle.h with that n: cotan_frame_triangle(n, dpdx, dpdy, duvdx, duvdy). So where n
+// leans from the triangle's own normal by an angle a, slopes are those of `cotangent` times a factor
+// between cos(a) and 1. n on the other side: bumps come out as dents.
+// How: n x U and n x V are taken as one product, of the sum, and the length of n cancels. m.z is multiplied
+// by the scale instead of dividing m.x and m.y by it, so nothing has to be guarded. Besides the limits
+// above: the longest position difference times the longest uv difference times m.z at least 1e-11.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_cotangent_seen(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy,
+    cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m, cotan_real side)
+{
+    cotan_vec3 u = dpdx * duvdy.x - dpdy * duvdx.x;
+    cotan_vec3 v = dpdx * duvdy.y - dpdy * duvdx.y;
+    cotan_real longest = sqrt(max(dot(u, u), dot(v, v)));
+    cotan_vec3 r = n * (m.z * longest + cotan_real(2e-17)) // as COTAN_FUSED_REST, for smaller sums
+        + cross(n, u * (m.x * side) + v * (m.y * side));
+    return r * cotan_inversesqrt(dot(r, r));
 }
 
 // `gradient`, fused; the division by the determinant is left to the final normalisation. A footprint

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <utility>
 
 namespace cotan::cost {
 
@@ -35,6 +36,7 @@ Device describe(vk::raii::PhysicalDevice physical)
     d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
     d.radv = driver.driverID == vk::DriverId::eMesaRadv;
     d.reports = hasExtension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    d.meshShaders = hasExtension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
     d.missing = core.apiVersion < VK_API_VERSION_1_3 ? "needs Vulkan 1.3" : "has no graphics queue";
     const auto families = physical.getQueueFamilyProperties();
     for (std::size_t i = 0; i < families.size() && core.apiVersion >= VK_API_VERSION_1_3; ++i)
@@ -64,6 +66,7 @@ std::vector<Device> listDevices(const Instance& instance)
     std::vector<Device> devices;
     for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance.instance))
         devices.push_back(describe(std::move(physical)));
+    std::stable_partition(devices.begin(), devices.end(), [](const Device& d) { return !d.cpu; });
     return devices;
 }
 
@@ -73,15 +76,24 @@ void open(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
+    use13.maintenance4 = VK_TRUE; // sizes of work groups, as SPIR-V for 1.3 states them
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
-    if (d.reports)
-        use13.pNext = &report;
+    vk::PhysicalDeviceMeshShaderFeaturesEXT mesh(VK_FALSE, VK_TRUE);
+    vk::PhysicalDeviceVulkan12Features use12;
+    use12.bufferDeviceAddress = VK_TRUE; // every device of Vulkan 1.3 has it
+    use12.pNext = &use13;
     vk::PhysicalDeviceFeatures2 use;
     use.features.geometryShader = has.geometryShader; // what reading gl_PrimitiveID asks for
-    use.pNext = &use13;
+    use.pNext = &use12;
     std::vector<const char*> extensions;
-    if (d.reports)
+    if (d.reports) {
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        report.pNext = std::exchange(use.pNext, &report);
+    }
+    if (d.meshShaders) {
+        extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
+        mesh.pNext = std::exchange(use.pNext, &mesh);
+    }
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
     d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));

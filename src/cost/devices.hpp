@@ -26,12 +26,13 @@ struct Device {
     std::string driver;
     bool cpu = false;
     bool radv = false;
-    bool reports = false;   // machine code
-    std::string missing;    // empty: it can be opened
-    double nanoseconds = 0; // per tick of its timestamps; 0: it has none
+    bool reports = false;     // machine code
+    bool meshShaders = false; // VK_EXT_mesh_shader
+    std::string missing;      // empty: it can be opened
+    double nanoseconds = 0;   // per tick of its timestamps; 0: it has none
 };
 
-// All devices, not opened.
+// All devices, not opened; those that draw on the processor last.
 std::vector<Device> listDevices(const Instance& instance);
 
 // Makes the logical device. Throws.

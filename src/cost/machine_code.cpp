@@ -96,6 +96,15 @@ void compileAll(Device& device, const std::vector<const Row*>& rows, DeviceCode&
         const auto pipeline = makePipeline(device, layout, v.stored, v.vertex, v.consumer, true);
         result.vertices.push_back({v.stored, readStage(device, pipeline, vk::ShaderStageFlagBits::eVertex)});
     }
+    for (const Stage& s : otherStages()) {
+        using F = vk::ShaderStageFlagBits;
+        result.others.push_back({&s, {}});
+        if (s.kind != StageKind::mesh)
+            result.others.back().code = readStage(device, makePassPipeline(device, layout, s.words), F::eCompute);
+        else if (device.meshShaders)
+            result.others.back().code =
+                readStage(device, makeMeshPipeline(device, layout, s.words, s.consumer), F::eMeshEXT);
+    }
     if (!result.rows.empty() && result.rows.front().fragment.all.empty())
         result.silence = "the driver offers the extension but reports nothing";
 }

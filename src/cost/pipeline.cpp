@@ -38,34 +38,37 @@ std::uint32_t vertexFloats(Stored stored) { return 8 + static_cast<std::uint32_t
 Layout makeLayout(const Device& device)
 {
     using T = vk::DescriptorType;
-    using S = vk::ShaderStageFlagBits;
-    std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, T::eUniformBuffer, 1, S::eVertex},
-                                                            {1, T::eCombinedImageSampler, 1, S::eFragment}};
+    constexpr auto kAll = vk::ShaderStageFlagBits::eAll;
+    std::vector<vk::DescriptorSetLayoutBinding> bindings = {{0, T::eUniformBuffer, 1, kAll},
+                                                            {1, T::eCombinedImageSampler, 1, kAll}};
     for (std::uint32_t i = 0; i < kBuffers; ++i)
-        bindings.emplace_back(2 + i, T::eStorageBuffer, 1, S::eVertex | S::eFragment);
+        bindings.emplace_back(2 + i, T::eStorageBuffer, 1, kAll);
     Layout layout;
     layout.set = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
     layout.pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
+    const vk::PushConstantRange constants(vk::ShaderStageFlagBits::eCompute, 0, kPassConstants);
+    layout.pass = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set, constants));
     return layout;
 }
 
-vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
-                                std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
-                                bool capture)
+namespace {
+
+// first: the vertex stage, with what it is fed, or the mesh stage.
+vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::ShaderStageFlagBits first,
+                                const vk::PipelineVertexInputStateCreateInfo& input,
+                                std::span<const std::uint32_t> words, std::span<const std::uint32_t> fragment,
+                                bool capture, int samplesAPixel = 1)
 {
-    const vk::raii::ShaderModule vertexModule = makeModule(device, vertex);
+    const vk::raii::ShaderModule firstModule = makeModule(device, words);
     const vk::raii::ShaderModule fragmentModule = makeModule(device, fragment);
     const std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertexModule, "main"),
+        vk::PipelineShaderStageCreateInfo({}, first, *firstModule, "main"),
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragmentModule, "main")};
-    const vk::VertexInputBindingDescription binding(0, vertexFloats(stored) * 4);
-    const auto attributes = attributesOf(stored);
-    const vk::PipelineVertexInputStateCreateInfo input({}, binding, attributes);
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     vk::PipelineRasterizationStateCreateInfo raster;
     raster.lineWidth = 1;
-    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
+    const vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits(samplesAPixel));
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState attachment;
     attachment.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
@@ -86,6 +89,33 @@ vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stor
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = *layout.pipeline;
+    return vk::raii::Pipeline(device.device, nullptr, info);
+}
+
+} // namespace
+
+vk::raii::Pipeline makePipeline(const Device& device, const Layout& layout, Stored stored,
+                                std::span<const std::uint32_t> vertex, std::span<const std::uint32_t> fragment,
+                                bool capture, int samples)
+{
+    const vk::VertexInputBindingDescription binding(0, vertexFloats(stored) * 4);
+    const auto attributes = attributesOf(stored);
+    return makeGraphics(device, layout, vk::ShaderStageFlagBits::eVertex, {{}, binding, attributes}, vertex, fragment,
+                        capture, samples);
+}
+
+vk::raii::Pipeline makeMeshPipeline(const Device& device, const Layout& layout, std::span<const std::uint32_t> mesh,
+                                    std::span<const std::uint32_t> fragment)
+{
+    return makeGraphics(device, layout, vk::ShaderStageFlagBits::eMeshEXT, {}, mesh, fragment, true);
+}
+
+vk::raii::Pipeline makePassPipeline(const Device& device, const Layout& layout, std::span<const std::uint32_t> compute)
+{
+    const vk::raii::ShaderModule module = makeModule(device, compute);
+    const vk::ComputePipelineCreateInfo info(
+        vk::PipelineCreateFlagBits::eCaptureStatisticsKHR,
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eCompute, *module, "main"), *layout.pass);
     return vk::raii::Pipeline(device.device, nullptr, info);
 }
 

@@ -79,7 +79,7 @@ Status measure(const PriceOptions& o, CostReport& report)
     }
     if (!o.families.empty() && o.devices.empty())
         return usable; // only cards that are not here were asked for
-    auto timing = timeRows(report.rows, {o.devices, o.timeCpuDevices, o.repeats});
+    auto timing = timeRows(report.rows, {o.devices, o.timeCpuDevices, o.repeats, usualCases()});
     if (timing)
         report.timing = std::move(*timing);
     else

@@ -6,6 +6,7 @@
 #include "frag_cotangent_facing.h"
 #include "frag_cotangent_fused.h"
 #include "frag_cotangent_plain.h"
+#include "frag_cotangent_seen.h"
 #include "frag_exact.h"
 #include "frag_floor.h"
 #include "frag_gradient.h"
@@ -67,6 +68,7 @@ const std::vector<Row>& rows()
         {"triangle-scaled", G::triangle, S::triangle, 0, 0, "with the scale of cotangent", frag_triangle_scaled},
         {"triangle", G::triangle, S::triangle, 0, 0, "no input gives NaN", frag_triangle},
         {"cotangent-fused", G::fused, S::nothing, 0, 0, "sign and guard", frag_cotangent_fused},
+        {"cotangent-seen", G::fused, S::nothing, 0, 0, "n on the side that is seen", frag_cotangent_seen},
         {"cotangent-area-fused", G::fused, S::nothing, 0, 0, "area-normalised scale", frag_cotangent_area_fused},
         {"gradient-fused", G::fused, S::nothing, 0, 0, "surface gradient, metric", frag_gradient_fused},
         {"orthonormal-fused", G::fused, S::nothing, 0, 0, "orthonormal basis", frag_orthonormal_fused},

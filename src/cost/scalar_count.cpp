@@ -45,6 +45,7 @@ constexpr RowFunction kRows[] = {
     {"triangle-scaled", counted::cost_triangle_scaled},
     {"triangle", counted::cost_triangle},
     {"cotangent-fused", counted::cost_cotangent_fused},
+    {"cotangent-seen", counted::cost_cotangent_seen},
     {"cotangent-area-fused", counted::cost_cotangent_area_fused},
     {"gradient-fused", counted::cost_gradient_fused},
     {"orthonormal-fused", counted::cost_orthonormal_fused},
@@ -126,6 +127,13 @@ Operations operationsOfFrame(std::string_view frame)
         if (f.name == frame)
             return count([&] { f.run(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy); });
     return {};
+}
+
+Operations operationsOfTriangleVectors(bool total)
+{
+    const counted::cost_inputs i = exampleInputs();
+    const auto run = total ? counted::cotan_triangle_of_edges : counted::cotan_triangle_of_sound_edges;
+    return count([&] { run(i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.n); });
 }
 
 Operations operationsOfSafeNormal()

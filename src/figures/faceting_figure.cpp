@@ -20,9 +20,10 @@ Figure makeFacetingFigure(Studio& studio)
     figure.title = "Faceting on coarse meshes";
     figure.text = {fmt::format(
         "A sphere of {} by {} segments. The gradients of u and v are constant in a triangle, so the frame "
-        "cotangent jumps at edges: facets. Cotangents averaged at the vertices (smooth) do not, and keep stretch "
-        "and skew. MikkTSpace is smooth too, but orthonormal: wrong wherever the latitudes shrink the texture. The "
-        "facets halve with each doubling of the mesh; the orthonormal error stays.",
+        "cotangent jumps at edges: facets. So does triangle, which has the same directions without screen "
+        "derivatives. Cotangents averaged at the vertices (smooth) do not, and keep stretch and skew. MikkTSpace is "
+        "smooth too, but orthonormal: wrong wherever the latitudes shrink the texture. The facets halve with each "
+        "doubling of the mesh; the orthonormal error stays.",
         kSegments, kSegments / 2)};
     figure.measured =
         "Angles to the analytic normals of the round sphere at the same texture coordinates, within 75 degrees "
@@ -31,7 +32,7 @@ Figure makeFacetingFigure(Studio& studio)
     const Height waves = [](double u, double v) { return relief(Relief::waves, u, v); };
     const Image map = heightMap16(waves, 512);
     std::vector<Panel> heats;
-    for (Frame frame : {Frame::cotangent, Frame::smooth, Frame::mikktspace}) {
+    for (Frame frame : {Frame::cotangent, Frame::smooth, Frame::mikktspace, Frame::triangle}) {
         for (int segments : {kSegments, 4 * kSegments}) {
             Mesh mesh = makeSphere(1, segments);
             scaleTexcoords(mesh, kRepeatU, kRepeatV);
@@ -53,7 +54,7 @@ Figure makeFacetingFigure(Studio& studio)
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
         addError(figure, i, fmt::format("{}, {} segments", figure.panels[i].label, kSegments));
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
-    figure.sliders = {{0, 1}, {2, 1}};
+    figure.sliders = {{0, 1}, {2, 1}, {3, 0}};
     figure.overview = {0, 1};
     return figure;
 }

@@ -98,33 +98,6 @@ bool allAmong(std::size_t count, Sources sources)
     return std::find(among.begin(), among.end(), false) == among.end();
 }
 
-// min and max of the elements that it has now; none where they are no floats or small integers.
-void renewBounds(const GltfDocument& document, Json& accessor)
-{
-    if (!accessor.contains("min") && !accessor.contains("max"))
-        return;
-    gltf::Elements elements = elementsOf(document, accessor);
-    accessor.erase("min");
-    accessor.erase("max");
-    gltf::Accessor& a = elements.accessor;
-    if (a.type > gltf::ElementType::vec4 || a.componentType == gltf::kUnsignedInt || a.count == 0)
-        return;
-    a.normalized = false; // bounds are of the numbers that are stored
-    const std::size_t width = gltf::componentCount(a.type);
-    std::vector<float> values(a.count * width);
-    gltf::readFloats(elements, a.count, width, values.data());
-    for (std::size_t c = 0; c < width; ++c) {
-        float low = values[c], high = values[c];
-        for (std::size_t i = c; i < values.size(); i += width) {
-            low = std::min(low, values[i]);
-            high = std::max(high, values[i]);
-        }
-        const auto number = [&](float x) { return a.componentType == gltf::kFloat ? Json(x) : Json(int(x)); };
-        accessor["min"].push_back(number(low));
-        accessor["max"].push_back(number(high));
-    }
-}
-
 std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sources)
 {
     Json accessor = document.root["accessors"][index]; // a copy: adding moves the original
@@ -137,7 +110,7 @@ std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sou
     }
     accessor["count"] = sources.size();
     if (!allAmong(old.accessor.count, sources))
-        renewBounds(document, accessor);
+        gltf::renewBounds(accessor, elementsOf(document, accessor));
     return addAccessor(document, std::move(accessor));
 }
 

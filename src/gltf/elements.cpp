@@ -243,4 +243,29 @@ template std::vector<glm::vec2> readVectors(const Elements&, const Choice&, cons
 template std::vector<glm::vec3> readVectors(const Elements&, const Choice&, const Role&);
 template std::vector<glm::vec4> readVectors(const Elements&, const Choice&, const Role&);
 
+void renewBounds(Json& accessor, Elements elements)
+{
+    if (!accessor.contains("min") && !accessor.contains("max"))
+        return;
+    accessor.erase("min");
+    accessor.erase("max");
+    Accessor& a = elements.accessor;
+    if (a.type > ElementType::vec4 || a.componentType == kUnsignedInt || a.count == 0)
+        return;
+    a.normalized = false; // bounds are of the numbers that are stored
+    const std::size_t width = componentCount(a.type);
+    std::vector<float> values(a.count * width);
+    readFloats(elements, a.count, width, values.data());
+    for (std::size_t c = 0; c < width; ++c) {
+        float low = values[c], high = values[c];
+        for (std::size_t i = c; i < values.size(); i += width) {
+            low = std::min(low, values[i]);
+            high = std::max(high, values[i]);
+        }
+        const auto number = [&](float x) { return a.componentType == kFloat ? Json(x) : Json(int(x)); };
+        accessor["min"].push_back(number(low));
+        accessor["max"].push_back(number(high));
+    }
+}
+
 } // namespace cotan::gltf

@@ -48,6 +48,10 @@ void checkSparse(const Elements& elements, const std::string& field);
 // Throws GltfProblem where a float is not finite.
 void checkFinite(const Elements& elements, const std::string& field);
 
+// Makes min and max of an accessor's JSON anew, where it has them, from the elements that it has now; takes them out
+// where those are no floats or small integers.
+void renewBounds(Json& accessor, Elements elements);
+
 // ---- reading --------------------------------------------------------------------------------
 
 // Which elements are read.

@@ -148,6 +148,8 @@ private:
             if (target < 0 || !id.is_number_unsigned() || id.get<std::uint64_t>() > 0xffffffff)
                 failGltf("{}.attributes.{}: expected the id of an attribute that the primitive has, found {}",
                          job.field, oneLine(name), oneLine(id.dump()));
+            if (std::find(targets.begin(), targets.end(), target) != targets.end())
+                continue; // several names of one accessor: the first says which numbers they are
             const gltf::Accessor a = add(target);
             if (job.attributes.empty())
                 job.vertices = a.count;
@@ -217,6 +219,11 @@ private:
                 if (each % 4 != 0)
                     view["byteStride"] = aligned(each);
                 file_.json["bufferViews"].push_back(std::move(view));
+                // Quantised numbers have other bounds than those that were compressed.
+                const gltf::Accessor a = gltf::readAccessor(target);
+                const std::vector<std::byte>& bytes = file_.unpackedBytes.back();
+                if (a.count > 0)
+                    gltf::renewBounds(target, {a, {bytes.data(), bytes.size() / a.count, a.count}, {}, {}});
             }
         }
         decoded_.insert(kDraco);

@@ -19,7 +19,7 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
         std::vector<std::pair<double, double>> errors;
     };
     std::vector<Reader> readers;
-    for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact})
+    for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact, Frame::triangle})
         readers.push_back({std::string(name(f)), f, TangentOrigin::generated, {}});
     if (!s.stored.empty())
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});

@@ -7,17 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "cotan/cost/break_even.hpp"
+#include "cost_markdown.hpp"
 #include "cotan/cost/scalar_count.hpp"
 #include "cotan/cost/spirv_count.hpp"
 #include "cotan/files/output.hpp"
 
 namespace cotan {
 
-namespace {
-
 using namespace cost;
-using Table = std::vector<std::vector<std::string>>; // the first row is the header
 
 std::string aligned(const Table& table)
 {
@@ -39,6 +36,26 @@ std::string aligned(const Table& table)
     return text + '\n';
 }
 
+std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
+
+std::vector<const DeviceCode*> devicesWithCode(const CostReport& report)
+{
+    std::vector<const DeviceCode*> list;
+    for (const DeviceCode& d : report.code)
+        if (d.silence.empty())
+            list.push_back(&d);
+    return list;
+}
+
+Table tableOf(std::vector<std::string> header, const std::vector<const DeviceCode*>& devices)
+{
+    for (const DeviceCode* d : devices)
+        header.push_back(title(*d));
+    return {std::move(header)};
+}
+
+namespace {
+
 std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
 
 // The floor as it is; other rows as what they add to it.
@@ -49,14 +66,10 @@ std::string over(std::optional<double> value, std::optional<double> floor, bool 
     return isFloor ? plain(value) : fmt::format("{:+.0f}", *value - *floor);
 }
 
-std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
-
 std::string overview(const CostReport& report)
 {
-    Table table = {{"over the floor", "scalar", "with fma", "SPIR-V"}};
-    for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
-            table[0].push_back(title(d));
+    const auto devices = devicesWithCode(report);
+    Table table = tableOf({"over the floor", "scalar", "with fma", "SPIR-V"}, devices);
     table[0].push_back("2006");
     const Row& floor = *report.rows.front();
     const Operations floorOps = operationsOfRow(floor.name);
@@ -67,89 +80,90 @@ std::string overview(const CostReport& report)
             std::string(row.name), over(ops.total(), floorOps.total(), i == 0),
             over(ops.totalFused(), floorOps.totalFused(), i == 0),
             over(spirvInstructions(row.fragment), spirvInstructions(floor.fragment), i == 0)};
-        for (const DeviceCode& d : report.code)
-            if (d.silence.empty())
-                line.push_back(over(d.rows[i].fragment.instructions, d.rows[0].fragment.instructions, i == 0));
+        for (const DeviceCode* d : devices)
+            line.push_back(over(d->rows[i].fragment.instructions, d->rows[0].fragment.instructions, i == 0));
         line.push_back(row.instructionsOf2006 ? std::to_string(row.instructionsOf2006) : "");
         table.push_back(std::move(line));
     }
     return "### What perturbing the normal adds, in instructions\n\n" + aligned(table);
 }
 
+std::vector<std::string> lineOf(std::string name, const StageCode& code)
+{
+    return {std::move(name),   plain(code.instructions),      plain(code.registers),
+            plain(code.bytes), plain(code.inverseThroughput), plain(code.latency)};
+}
+
+std::string kindName(StageKind kind)
+{
+    return kind == StageKind::mesh ? "mesh" : kind == StageKind::pass ? "pass" : "resolve";
+}
+
 std::string details(const DeviceCode& d)
 {
     Table table = {{"fragment shader", "instructions", "registers", "code bytes", "inverse throughput", "latency"}};
+    Table others = table;
+    others[0][0] = "stage";
     for (const RowCode& r : d.rows)
-        table.push_back({std::string(r.row), plain(r.fragment.instructions), plain(r.fragment.registers),
-                         plain(r.fragment.bytes), plain(r.fragment.inverseThroughput), plain(r.fragment.latency)});
-    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver) + aligned(table);
-}
-
-std::string ratio(double pixels)
-{
-    return std::isinf(pixels) ? "always" : pixels <= 0 ? "never" : fmt::format("{:.2f}", pixels);
-}
-
-const RowCode* find(const DeviceCode& d, std::string_view row)
-{
-    for (const RowCode& r : d.rows)
-        if (r.row == row)
-            return &r;
-    return nullptr;
-}
-
-// Extra instructions of the vertex stage with a stored tangent.
-std::optional<double> tangentAtVertex(const DeviceCode& d)
-{
-    const auto with = d.vertices[std::size_t(Stored::tangent)].vertex.instructions;
-    const auto without = d.vertices[std::size_t(Stored::nothing)].vertex.instructions;
-    return with && without ? std::optional(*with - *without) : std::nullopt;
+        table.push_back(lineOf(std::string(r.row), r.fragment));
+    for (const VertexCode& v : d.vertices)
+        others.push_back(lineOf(fmt::format("vertex: {}", vertexStage(v.stored).name), v.vertex));
+    for (const OtherCode& o : d.others)
+        if (o.code.instructions)
+            others.push_back(lineOf(fmt::format("{}: {}", kindName(o.stage->kind), o.stage->name), o.code));
+    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver) + aligned(table)
+        + fmt::format("### {}: whole other stages\n\n", title(d)) + aligned(others);
 }
 
 std::string vertexStages(const CostReport& report)
 {
-    Table table = {{"vertex stage", "bytes a vertex"}};
-    for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
-            table[0].push_back(title(d));
+    const auto devices = devicesWithCode(report);
+    Table table = tableOf({"vertex stage", "bytes a vertex"}, devices);
     for (const VertexStage& v : cost::vertexStages()) {
         std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
-        for (const DeviceCode& d : report.code)
-            if (d.silence.empty())
-                line.push_back(over(d.vertices[std::size_t(v.stored)].vertex.instructions,
-                                    d.vertices[0].vertex.instructions, v.stored == Stored::nothing));
+        for (const DeviceCode* d : devices)
+            line.push_back(over(d->vertices[std::size_t(v.stored)].vertex.instructions,
+                                d->vertices[0].vertex.instructions, v.stored == Stored::nothing));
         table.push_back(std::move(line));
     }
     return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
 }
 
-std::string breakEven(const CostReport& report)
+// Mesh stages and resolves over the first of their kind, passes whole.
+std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
-    Table table = {{"wins below ... pixels a vertex", "in bytes"}};
-    for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
-            table[0].push_back(title(d));
-    const int tangentBytes = vertexStage(Stored::tangent).bytes;
-    for (const Row* row : report.rows) {
-        if (row->stored != Stored::nothing || row->group == Group::floor || row->group == Group::papers)
+    const auto devices = devicesWithCode(report);
+    const bool mesh = kind == StageKind::mesh, pass = kind == StageKind::pass;
+    Table table =
+        tableOf(mesh || pass ? std::vector<std::string>{kindName(kind), "bytes a vertex", "a triangle", "SPIR-V"}
+                             : std::vector<std::string>{kindName(kind), "bytes read a pixel", "SPIR-V"},
+                devices);
+    const auto& stages = otherStages();
+    const auto first = std::ranges::find(stages, kind, &Stage::kind);
+    const auto firstAt = std::size_t(first - stages.begin());
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const Stage& s = stages[i];
+        if (s.kind != kind)
             continue;
-        std::vector<std::string> line = {std::string(row->name),
-                                         ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};
-        for (const DeviceCode& d : report.code) {
-            if (!d.silence.empty())
-                continue;
-            const RowCode* mine = find(d, row->name);
-            const RowCode* mikktspace = find(d, "mikktspace");
-            const auto vertex = tangentAtVertex(d);
-            const bool known =
-                mine && mikktspace && vertex && mine->fragment.instructions && mikktspace->fragment.instructions;
-            line.push_back(known ? ratio(pixelsPerVertex(
-                               *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
-                                 : "-");
-        }
+        const bool whole = pass || i == firstAt;
+        std::vector<std::string> line = {std::string(s.name)};
+        for (const int bytes : mesh || pass ? std::vector{s.perVertex, s.perTriangle} : std::vector{s.perPixel})
+            line.push_back(std::to_string(bytes));
+        line.push_back(over(spirvInstructions(s.words), spirvInstructions(first->words), whole));
+        for (const DeviceCode* d : devices)
+            line.push_back(over(d->others[i].code.instructions, d->others[firstAt].code.instructions, whole));
         table.push_back(std::move(line));
     }
-    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
+    return aligned(table);
+}
+
+std::string stagesBesides(const CostReport& report)
+{
+    return "### What the mesh stage adds, in instructions\n\n" + otherStagesOf(StageKind::mesh, report)
+        + "### Passes that derive frames from positions, in instructions; loops counted once\n\n"
+        + otherStagesOf(StageKind::pass, report)
+        + "### What a frame adds where a visibility buffer is resolved, in instructions\n\n"
+        + otherStagesOf(StageKind::resolve, report);
 }
 
 std::string frameOperations()
@@ -167,6 +181,8 @@ std::string frameOperations()
           "paper-orthogonal", "cotangent", "gradient", "orthonormal", "exact"})
         line(frame, operationsOfFrame(frame));
     line("(their safe normal)", operationsOfSafeNormal());
+    line("(U and V, sound edges)", operationsOfTriangleVectors(false));
+    line("(U and V, any edges)", operationsOfTriangleVectors(true));
     return "### Scalar operations of building a frame\n\n" + aligned(table);
 }
 
@@ -175,15 +191,15 @@ std::string timings(const DeviceTiming& d)
     std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n", d.name,
                                    d.cpu ? " (draws on the processor)" : "", d.driver);
     Table table = {{"legs of the triangles"}};
-    for (const int leg : triangleLegs()) {
-        table[0].push_back(fmt::format("{} px", leg));
+    for (const TimingCase& c : d.cases) {
+        table[0].push_back(fmt::format("{} px", c.leg));
         table[0].push_back("ratio");
     }
     const auto base =
         std::find_if(d.rows.begin(), d.rows.end(), [](const TimedRow& r) { return r.row == "mikktspace"; });
     for (const TimedRow& r : d.rows) {
         std::vector<std::string> line = {std::string(r.row)};
-        for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
+        for (std::size_t i = 0; i < d.cases.size(); ++i) {
             const double t = r.nanosecondsPerMillionPixels[i];
             line.push_back(fmt::format("{:.0f}", t));
             line.push_back(base == d.rows.end() ? "-"
@@ -191,6 +207,8 @@ std::string timings(const DeviceTiming& d)
         }
         table.push_back(std::move(line));
     }
+    for (const SkippedCase& s : d.skipped)
+        text += fmt::format("Left out, legs of {} px: {}.\n\n", s.what.leg, s.why);
     return text + "Ratio: to `mikktspace` in the same run.\n\n" + aligned(table);
 }
 
@@ -211,21 +229,21 @@ Json operationsJson(const Operations& o)
 
 } // namespace
 
-std::string toMarkdown(const CostReport& report)
+std::string toMarkdown(const CostReport& report, const std::string& chart)
 {
     std::string text = fmt::format("Machine: {}. SPIR-V: {}.\n", report.machine, spirvCompiler());
-    bool silent = true;
-    for (const DeviceCode& d : report.code) {
-        silent = silent && !d.silence.empty();
+    for (const DeviceCode& d : report.code)
         text += d.silence.empty() ? fmt::format("{}: {}, {}.\n", title(d), d.name, d.driver)
                                   : fmt::format("{}: no machine code: {}.\n", title(d), d.silence);
-    }
     text += '\n' + overview(report);
-    if (!silent)
+    const auto devices = devicesWithCode(report);
+    if (!devices.empty())
         text += vertexStages(report) + breakEven(report);
-    for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
-            text += details(d);
+    if (!chart.empty())
+        text += fmt::format("![Cost of a triangle against `mikktspace`, by the pixels it covers]({})\n\n", chart);
+    text += stagesBesides(report);
+    for (const DeviceCode* d : devices)
+        text += details(*d);
     text += frameOperations();
     if (!report.timingSilence.empty())
         text += "No timing: " + report.timingSilence + ".\n\n";
@@ -254,14 +272,20 @@ Json toJson(const CostReport& report)
             device["fragment"][std::string(r.row)] = stageJson(r.fragment);
         for (const VertexCode& v : d.vertices)
             device["vertex"][std::string(vertexStage(v.stored).name)] = stageJson(v.vertex);
+        for (const OtherCode& o : d.others)
+            device[kindName(o.stage->kind)][std::string(o.stage->name)] = stageJson(o.code);
         json["devices"].push_back(std::move(device));
     }
     json["timing"] = Json::array();
     for (const DeviceTiming& d : report.timing) {
-        Json device = {
-            {"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}, {"legs", triangleLegs()}};
-        for (const TimedRow& r : d.rows)
+        Json device = {{"name", d.name}, {"driver", d.driver}, {"cpu", d.cpu}, {"silence", d.silence}};
+        device["legs"] = Json::array();
+        for (const TimingCase& c : d.cases)
+            device["legs"].push_back(c.leg);
+        for (const TimedRow& r : d.rows) {
             device["nanoseconds_per_million_pixels"][std::string(r.row)] = r.nanosecondsPerMillionPixels;
+            device["vertices"][std::string(r.row)] = r.vertices;
+        }
         json["timing"].push_back(std::move(device));
     }
     return json;
@@ -278,22 +302,28 @@ std::string toCsv(const CostReport& report)
         text += fmt::format("{},SPIR-V,,{},instructions,{}\n", row->name, quoted(spirvCompiler()),
                             spirvInstructions(row->fragment));
     }
-    for (const DeviceCode& d : report.code) {
-        for (const RowCode& r : d.rows)
-            for (const auto& [measure, value] : r.fragment.all)
-                text += fmt::format("{},fragment,{},{},{},{:.0f}\n", r.row, quoted(title(d)), quoted(d.driver),
+    for (const Stage& s : otherStages())
+        text += fmt::format("{},SPIR-V {},,{},instructions,{}\n", quoted(s.name), kindName(s.kind),
+                            quoted(spirvCompiler()), spirvInstructions(s.words));
+    for (const DeviceCode* d : devicesWithCode(report)) {
+        const auto lines = [&](const std::string& name, std::string_view source, const StageCode& code) {
+            for (const auto& [measure, value] : code.all)
+                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(*d)), quoted(d->driver),
                                     quoted(measure), value);
-        for (const VertexCode& v : d.vertices)
-            for (const auto& [measure, value] : v.vertex.all)
-                text += fmt::format("{},vertex,{},{},{},{:.0f}\n", vertexStage(v.stored).name, quoted(title(d)),
-                                    quoted(d.driver), quoted(measure), value);
+        };
+        for (const RowCode& r : d->rows)
+            lines(std::string(r.row), "fragment", r.fragment);
+        for (const VertexCode& v : d->vertices)
+            lines(quoted(vertexStage(v.stored).name), "vertex", v.vertex);
+        for (const OtherCode& o : d->others)
+            lines(quoted(o.stage->name), kindName(o.stage->kind), o.code);
     }
     for (const DeviceTiming& d : report.timing)
         for (const TimedRow& r : d.rows)
             for (std::size_t i = 0; i < r.nanosecondsPerMillionPixels.size(); ++i)
                 text +=
                     fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
-                                quoted(d.name), quoted(d.driver), triangleLegs()[i], r.nanosecondsPerMillionPixels[i]);
+                                quoted(d.name), quoted(d.driver), d.cases[i].leg, r.nanosecondsPerMillionPixels[i]);
     return text;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cotan/cost/rows.hpp"
+#include "cotan/cost/stages.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan::cost {
@@ -31,6 +32,11 @@ struct VertexCode {
     StageCode vertex;
 };
 
+struct OtherCode {
+    const Stage* stage;
+    StageCode code; // empty for mesh stages where the device has none
+};
+
 struct DeviceCode {
     std::string name;
     std::string driver;  // name and version
@@ -38,6 +44,7 @@ struct DeviceCode {
     std::string silence; // why there are no numbers; empty where there are
     std::vector<RowCode> rows;
     std::vector<VertexCode> vertices; // each with a fragment stage that uses all it hands on
+    std::vector<OtherCode> others;    // all of otherStages()
 };
 
 // The families that are asked for when nothing else is said.

@@ -29,6 +29,10 @@ Operations operationsOfRow(std::string_view row);
 // gradient, orthonormal and exact with their guards. All zero for other names.
 Operations operationsOfFrame(std::string_view frame);
 
+// U and V of a triangle from its edges, for the vertex, mesh or compute stage: cotan_triangle_of_edges, or
+// cotan_triangle_of_sound_edges.
+Operations operationsOfTriangleVectors(bool total);
+
 // cotan_safe_normal, which the total frames contain.
 Operations operationsOfSafeNormal();
 

@@ -70,9 +70,10 @@ struct PrimitiveLint {
     UvQuality uv;
     EdgeSteps steps;
     StoredTangents stored;
-    std::vector<Reading> readings; // cotangent, orthonormal, smooth, exact and, if present, stored; empty without a map
-    double precision = 0;          // degrees by rounding of float derivatives at LintOptions::distance
-    double closest = 0;            // the distance at which that is half a degree; both 0 where uv have no gradient
+    // cotangent, orthonormal, smooth, exact, triangle and, if present, stored; empty without a map
+    std::vector<Reading> readings;
+    double precision = 0; // degrees by rounding of float derivatives at LintOptions::distance
+    double closest = 0;   // the distance at which that is half a degree; both 0 where uv have no gradient
 };
 
 // Which way green points, from the map alone, and which way the material reads it. `cotan map detect` gives
