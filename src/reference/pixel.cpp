@@ -93,8 +93,8 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
     if (m.coat.strength > 0) {
         f32::cotan_coat coat;
         coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, quad, lane).x);
-        coat.roughness = f32::cotan_saturate(
-            m.coat.roughness * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
+        coat.roughness = f32::cotan_saturate(m.coat.roughness
+                                             * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
         coat.n = coatNormalOf(in, quad, lane, normal);
         layers.coat = coat;
     }

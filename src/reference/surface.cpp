@@ -73,9 +73,8 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(in.view->frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]),
-                    in.draw->vectors * (p[v[2]] - p[v[0]]), transformedEdge(texture, uv[v[1]] - uv[v[0]]),
-                    transformedEdge(texture, uv[v[2]] - uv[v[0]]));
+    return evaluate(in.view->frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+                    transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
 // The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
@@ -202,10 +201,7 @@ f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Sm
     return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
 }
 
-bool sameUv(const Texture& a, const Texture& b)
-{
-    return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow;
-}
+bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
 
 } // namespace
 
@@ -260,8 +256,8 @@ glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
                 : frameOver(in, map, smooth, uv, quad.weights[std::size_t(lane)]);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
-        const auto format = toFormat<f32::cotan_normal_format>(Convention{}, chain->image->type,
-                                                               double(in.material->coat.normalScale));
+        const auto format =
+            toFormat<f32::cotan_normal_format>(Convention{}, chain->image->type, double(in.material->coat.normalScale));
         n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), n);
     }
     return in.triangle->front ? n : -n;
