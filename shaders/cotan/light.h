@@ -126,10 +126,9 @@ COTAN_FUNCTION cotan_vec3 cotan_direction_on_surface(
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_vec3 u = cotan_normalize_or(cross(b, smooth_n), zero);
-    cotan_vec3 across = cross(smooth_n, u);
-    cotan_real side =
-        dot(u, t) < cotan_real(0.0) ? cotan_real(-1.0) : cotan_real(1.0); // mirrored
-    cotan_vec3 d = (u * direction.x + across * direction.y) * side;
+    cotan_vec3 across = cross(smooth_n, u); // on b's side
+    cotan_real along = dot(u, t) < cotan_real(0.0) ? -direction.x : direction.x; // mirrored uv
+    cotan_vec3 d = u * along + across * direction.y;
     return cotan_normalize_or(d - n * dot(n, d), zero);
 }
 
