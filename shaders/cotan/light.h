@@ -107,9 +107,9 @@ COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, c
 {
     cotan_real ratio = (ior - cotan_real(1.0)) / (ior + cotan_real(1.0));
     cotan_vec3 f0 = color * (ratio * ratio);
-    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
     cotan_gloss g;
-    g.f0 = min(f0, one) * strength;
+    g.f0 = cotan_vec3(min(f0.x, cotan_real(1.0)), min(f0.y, cotan_real(1.0)),
+        min(f0.z, cotan_real(1.0))) * strength;
     g.f90 = strength;
     g.anisotropy = cotan_real(0.0);
     g.t = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
