@@ -3,6 +3,7 @@
 // The environment behind the scene, a little out of focus.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
+#include "cotan/frame.h"
 #include "cotan/light.h"
 #include "bindings.glsl"
 #include "constants.glsl"

@@ -42,7 +42,7 @@ struct PipelineKey {
     bool environment = true;
     bool shadows = true;
     bool toneMap = true;
-    std::uint32_t maps = 0; // COTAN_MAP_...: what the materials drawn with it may have
+    std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
 
