@@ -56,6 +56,6 @@ vec3 lit(cotan_surface s, vec3 p, vec3 n)
     for (uint i = 0u; i < view.counts.x; ++i)
         sum += litBy(lights[i], s, p, n);
     if (ENVIRONMENT)
-        sum += cotan_reflect_environment(s);
+        sum += ENVIRONMENT_MAP ? reflectedOfImage(s) : cotan_reflect_environment(s);
     return sum;
 }

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/environment.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {
@@ -74,7 +75,8 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, c
                        : reflected(surface, arrival.toLight, view.shading));
     }
     if (view.environment)
-        radiance += f32::cotan_reflect_environment(surface);
+        radiance += view.environmentMap ? reflectedOf(*view.environmentMap, surface)
+                                        : f32::cotan_reflect_environment(surface);
     return radiance;
 }
 
