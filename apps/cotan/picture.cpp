@@ -114,7 +114,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
     a.option("--size", o.size, "width and height in pixels").in("WxH");
     a.option("--camera", o.camera,
-             "fit, the number of a camera of the file, or eye and target "
+             "fit, front (nearer: filling the picture), the number of a camera of the file, or eye and target "
              "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
         .in("CAMERA");
     addDeviceOption(a, o.device);

@@ -5,13 +5,13 @@
 //   tile  9      irradiance of a surface divided by pi
 //   tile  10     what GGX reflects of white light: x to be multiplied by f0, y to be added; by n.v and roughness
 // Tiles of directions are octahedral maps (Meyer et al., On Floating-Point Normal Vectors, 2010) with y up and a border
-// of one texel, so that no filter sees an edge. The split in two factors is B. Karis's (Real Shading in Unreal
+// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The split in two factors is B. Karis's (Real Shading in Unreal
 // Engine 4, 2013). World space, y up.
 
 #ifndef COTAN_ENVIRONMENT_H
 #define COTAN_ENVIRONMENT_H
 
-#define COTAN_ENVIRONMENT_WIDTH 904
+#define COTAN_ENVIRONMENT_WIDTH 970
 #define COTAN_ENVIRONMENT_HEIGHT 524
 #define COTAN_ENVIRONMENT_STEPS cotan_real(8.0)       // tiles from roughness 0 to 1
 #define COTAN_ENVIRONMENT_IRRADIANCE cotan_real(9.0)  // tiles
@@ -28,11 +28,15 @@ COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
     if (tile < cotan_real(4.5))
         return cotan_vec3(cotan_real(773.0), cotan_real(1.0) + cotan_real(130.0) * (tile - cotan_real(3.0)),
             cotan_real(128.0));
-    if (tile < cotan_real(8.5))
-        return cotan_vec3(cotan_real(773.0), cotan_real(261.0) + cotan_real(66.0) * (tile - cotan_real(5.0)),
+    if (tile < cotan_real(8.5)) {
+        cotan_real row = tile < cotan_real(6.5) ? cotan_real(0.0) : cotan_real(1.0);
+        cotan_real column = tile - cotan_real(5.0) - cotan_real(2.0) * row;
+        return cotan_vec3(cotan_real(773.0) + cotan_real(66.0) * column, cotan_real(391.0) + cotan_real(66.0) * row,
             cotan_real(64.0));
-    return cotan_vec3(cotan_real(839.0), cotan_real(261.0) + cotan_real(66.0) * (tile - cotan_real(9.0)),
-        cotan_real(64.0));
+    }
+    if (tile < cotan_real(9.5))
+        return cotan_vec3(cotan_real(773.0), cotan_real(261.0), cotan_real(128.0));
+    return cotan_vec3(cotan_real(905.0), cotan_real(1.0), cotan_real(64.0));
 }
 
 // A direction of any length but zero, as a place in [0,1]^2: up in the middle, down in the corners.

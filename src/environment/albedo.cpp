@@ -11,7 +11,7 @@ namespace cotan::environment {
 
 namespace {
 
-constexpr unsigned kSamples = 512;
+constexpr unsigned kSamples = 256;
 
 // A microfacet normal as often as it is seen along v; n = z.
 glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)

@@ -116,7 +116,7 @@ Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned 
             for (const LobeSample& s : samples) {
                 const glm::vec3 l = basis.x * s.direction.x + basis.y * s.direction.y + n * s.direction.z;
                 const float texel = solidAngleOfPlace(l) / texelsOfAll;
-                sum += readLevel(pyramid, l, 0.5f * std::log2(s.solidAngle / texel) + 0.5f) * s.weight;
+                sum += readLevel(pyramid, l, 0.5f * std::log2(s.solidAngle / texel) + 0.25f) * s.weight;
             }
             map.at(x, y) = sum;
         }
@@ -193,7 +193,7 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, pyramid[0]);
     for (int tile = 1; tile <= 8; ++tile) {
         const int size = sizeOfTile(tile);
-        const unsigned count = size == 256 ? 64 : size == 128 ? 128 : 512;
+        const unsigned count = size == 256 ? 64 : size == 128 ? 128 : 256;
         putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / 8, count));
     }
     const auto coarse =

@@ -33,14 +33,14 @@ struct SoftBox {
 };
 
 // Grey walls that darken upwards, a floor that the lights brighten, a large box on the left in front, a lower one on
-// the right, a ceiling light and two strips behind for edges. Models look along +z.
+// the right, a ceiling light and two strips at the sides, a little behind, for edges. Models look along +z.
 glm::vec3 studio(glm::vec3 d)
 {
     static const SoftBox key{glm::normalize(glm::vec3(-0.75f, 0.62f, 0.75f)), 0.55f, 0.5f, 0.05f};
     static const SoftBox fill{glm::normalize(glm::vec3(0.95f, 0.15f, 0.45f)), 0.35f, 0.75f, 0.06f};
     static const SoftBox ceiling{glm::vec3(0, 1, 0), 0.75f, 0.35f, 0.06f};
-    static const SoftBox left{glm::normalize(glm::vec3(-0.9f, 0.2f, -0.75f)), 0.16f, 0.8f, 0.03f};
-    static const SoftBox right{glm::normalize(glm::vec3(0.7f, 0.25f, -0.95f)), 0.16f, 0.8f, 0.03f};
+    static const SoftBox left{glm::normalize(glm::vec3(-1, 0.25f, -0.2f)), 0.16f, 0.8f, 0.03f};
+    static const SoftBox right{glm::normalize(glm::vec3(1, 0.3f, -0.35f)), 0.16f, 0.8f, 0.03f};
     const glm::vec3 wall = glm::vec3(0.30f, 0.30f, 0.31f) * (1 - 0.55f * smooth(0, 0.9f, d.y));
     const glm::vec3 floor = glm::vec3(0.34f, 0.33f, 0.32f) * (1 - 0.35f * smooth(0, 1, -d.y));
     glm::vec3 c = glm::mix(floor, wall, smooth(-0.12f, 0.12f, d.y));
@@ -55,7 +55,7 @@ glm::vec3 studio(glm::vec3 d)
 // comes back.
 glm::vec3 overcast(glm::vec3 d)
 {
-    const glm::vec3 zenith(1.30f, 1.36f, 1.45f);
+    const glm::vec3 zenith(1.9f, 2.0f, 2.1f);
     const glm::vec3 sky = zenith * ((1 + 2 * std::max(d.y, 0.0f)) / 3);
     const glm::vec3 ground = zenith * glm::vec3(0.25f, 0.23f, 0.20f);
     return glm::mix(ground, sky, smooth(-0.04f, 0.04f, d.y));
@@ -74,7 +74,7 @@ glm::vec3 evening(glm::vec3 d)
     // A disc of three degrees: the light of the real one, softened.
     const glm::vec3 disc = glm::vec3(330, 190, 80) * smooth(std::cos(0.056f), std::cos(0.048f), toSun);
     const glm::vec3 ground = glm::vec3(0.14f, 0.11f, 0.10f) * (1 + 0.6f * std::max(glm::dot(d, sun), 0.0f));
-    return glm::mix(ground, sky + glow + halo + disc, smooth(-0.03f, 0.03f, d.y));
+    return 1.6f * glm::mix(ground, sky + glow + halo + disc, smooth(-0.03f, 0.03f, d.y));
 }
 
 } // namespace

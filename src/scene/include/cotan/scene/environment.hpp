@@ -14,7 +14,7 @@
 
 namespace cotan {
 
-inline constexpr float kBackdropRoughness = 0.45f; // of Backdrop::blurred
+inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
 
 struct EnvironmentMap {
     std::string name; // for messages
