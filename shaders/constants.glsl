@@ -12,6 +12,8 @@ layout(constant_id = 8) const bool TONE_MAP = true;
 // Which maps and layers the material may have, COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. Drivers for the CPU execute
 // both sides of a branch, so a map that is left out here is what saves its reads.
 layout(constant_id = 9) const uint MAPS = 0xffffffffu;
+layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // where TONE_MAP
+layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // where ENVIRONMENT: the picture, not the formula
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1
@@ -31,5 +33,5 @@ vec3 finished(vec3 linear)
     vec3 exposed = linear * view.tone.x;
     bool finite = abs(exposed.x) + abs(exposed.y) + abs(exposed.z) <= COTAN_HUGE;
     exposed = finite ? max(exposed, vec3(0.0)) : vec3(0.0);
-    return TONE_MAP ? cotan_tone_map(min(exposed, vec3(1e4))) : exposed;
+    return TONE_MAP ? cotan_tone_of(TONE, min(exposed, vec3(1e4))) : exposed;
 }

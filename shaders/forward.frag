@@ -13,6 +13,8 @@
 #include "cotan/frame.h"
 #include "cotan/triangle.h"
 #include "cotan/light.h"
+#include "cotan/tone.h"
+#include "cotan/environment.h"
 #include "bindings.glsl"
 #include "constants.glsl"
 
@@ -33,6 +35,7 @@ layout(location = 0) out vec4 outColor;
 #endif
 
 #include "frame.glsl"
+#include "environment.glsl"
 #include "lights.glsl"
 
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }

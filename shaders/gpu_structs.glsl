@@ -77,7 +77,7 @@ struct CotanView {
     vec4 shadowY;
     vec4 shadowZ;
     vec4 shadow;  // size of a texel in world units, texels a side, half a texel as depth; w unused
-    vec4 tone;    // x: exposure
+    vec4 tone;    // x: exposure; y: roughness of the mirror that the backdrop is seen in
     uvec4 counts; // x: lights
 };
 

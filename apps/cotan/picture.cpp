@@ -1,8 +1,14 @@
 #include "picture.hpp"
 
+#include <filesystem>
+#include <map>
+#include <numbers>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cotan/draw/camera_words.hpp"
+#include "cotan/environment/environment.hpp"
 #include "cotan/report/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/shapes/shapes.hpp"
@@ -12,6 +18,56 @@
 namespace cotan::app {
 
 namespace {
+
+const std::map<std::string, ToneMapping> kToneMappings = {
+    {"none", ToneMapping::none},
+    {"neutral", ToneMapping::neutral},
+    {"aces", ToneMapping::aces},
+    {"agx", ToneMapping::agx},
+};
+
+// A name of environmentNames, or a file.
+Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
+{
+    EnvironmentOptions made;
+    made.rotation = float(o.environmentRotation * std::numbers::pi / 180);
+    made.intensity = o.environmentIntensity;
+    if (const auto radiance = builtinRadiance(o.environment)) {
+        EnvironmentMap map = makeEnvironment(*radiance, 2, made);
+        map.name = o.environment;
+        return map;
+    }
+    if (std::filesystem::path(o.environment).extension().empty())
+        return usageError(fmt::format("--environment: expected {}, or a .hdr or .exr file; found '{}'",
+                                      fmt::join(environmentNames(), ", "), o.environment));
+    const auto picture = readImageWithin(o.memory, o.environment);
+    if (!picture)
+        return picture.error();
+    return environmentOfPicture(*picture, made);
+}
+
+// The environment and what is seen of it.
+Status surround(const PictureOptions& options, View& view)
+{
+    const bool surrounded = !options.environment.empty();
+    const bool seen = options.background == "environment" || options.background == "blur";
+    if (!surrounded && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
+        return usageError(fmt::format("--{}: expected --environment with it; found none",
+                                      seen                                   ? "background " + options.background
+                                          : options.environmentRotation != 0 ? "environment-rotation"
+                                                                             : "environment-intensity"));
+    view.background = options.background != "none";
+    if (!surrounded)
+        return Done{};
+    view.backdrop = options.background == "gradient" ? Backdrop::gradient
+        : options.background == "environment"        ? Backdrop::sharp
+                                                     : Backdrop::blurred;
+    auto map = openEnvironment(options);
+    if (!map)
+        return map.error();
+    view.environmentMap = std::make_shared<const EnvironmentMap>(std::move(*map));
+    return Done{};
+}
 
 Result<View> makeView(const PictureOptions& options, const Scene& scene)
 {
@@ -27,7 +83,9 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     if (!parsed)
         return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
-    view.lights = scene.lights.empty() ? defaultLights() : scene.lights;
+    view.lights = scene.lights.empty() && options.environment.empty() ? defaultLights() : scene.lights;
+    if (Status lit = surround(options, view); !lit)
+        return lit.error();
     view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
     view.lighting = options.lighting == "world" ? Lighting::world
         : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
@@ -36,6 +94,7 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
     view.samples = options.samples;
     view.exposure = options.exposure;
+    view.toneMapping = kToneMappings.at(options.toneMapping);
     view.shadows = !options.noShadows;
     view.normalMaps = !options.noNormalMaps;
     view.pointSampled = options.pointSampled;
@@ -55,7 +114,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
     a.option("--size", o.size, "width and height in pixels").in("WxH");
     a.option("--camera", o.camera,
-             "fit, the number of a camera of the file, or eye and target "
+             "fit, front (nearer: filling the picture), the number of a camera of the file, or eye and target "
              "\"ex,ey,ez,tx,ty,tz\" in world units (default: fit)")
         .in("CAMERA");
     addDeviceOption(a, o.device);
@@ -70,6 +129,27 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
     a.option("--samples", o.samples, "samples per pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
     a.option("--exposure", o.exposure, "factor that multiplies all light").above0().in("X");
+    a.option("--tone-mapping", o.toneMapping,
+             "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
+             "curve) or agx; files that keep floats stay linear")
+        .from({"none", "neutral", "aces", "agx"})
+        .in("NAME");
+    a.option("--environment", o.environment,
+             "surroundings that light the model: studio, overcast, evening, or a .hdr or .exr file in equirectangular "
+             "projection; the lamp that models without lights get is left out then")
+        .in("NAME|FILE");
+    a.option("--environment-rotation", o.environmentRotation,
+             "turn the surroundings counter-clockwise, seen from above")
+        .within(-360.0, 360.0)
+        .in("DEGREES");
+    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the surroundings")
+        .above0()
+        .in("X");
+    a.option("--background", o.background,
+             "what is behind the model: gradient, environment, blur (the environment out of focus; the default with "
+             "--environment), or none (transparent)")
+        .from({"gradient", "environment", "blur", "none"})
+        .in("NAME");
     a.option("--rows", o.rows,
              "whether the rows of the render target run down or up; the picture is upright either way")
         .from({"down", "up"})

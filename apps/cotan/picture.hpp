@@ -23,6 +23,11 @@ struct PictureOptions {
     std::string shading = "pbr";
     std::string lighting = "world";
     std::string tangents = "stored";
+    std::string environment;        // empty: none
+    double environmentRotation = 0; // degrees
+    float environmentIntensity = 1;
+    std::string background; // empty: the environment, blurred; without one a gradient
+    std::string toneMapping = "aces";
     std::string rows = "down";
     std::string derivatives = "fine";
     int memory = kDefaultMemory;

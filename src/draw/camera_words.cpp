@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/parse_number.hpp"
+#include "cotan/scene/front_camera.hpp"
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan {
@@ -23,8 +24,8 @@ Result<Camera> lookingFromTo(const std::string& text)
         if ((comma == std::string::npos) != last
             || !parseNumber(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
             || !std::isfinite(v[i]))
-            return usageError("expected fit, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '" + text
-                              + "'");
+            return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '"
+                              + text + "'");
         start = comma + 1;
     }
     Camera camera;
@@ -45,6 +46,8 @@ Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int 
 {
     if (text == "fit")
         return fitCamera(bounds(scene), width, height);
+    if (text == "front")
+        return frontCamera(scene, width, height);
     int number = 0;
     if (!parseNumber(std::string_view(text), number))
         return lookingFromTo(text);

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/environment.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {
@@ -78,7 +79,12 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
         if (layers.coat)
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
-    if (view.environment) {
+    if (view.environment && view.environmentMap) {
+        const EnvironmentMap& map = *view.environmentMap;
+        radiance += layers.gloss ? reflectedOf(map, surface, *layers.gloss) : reflectedOf(map, surface);
+        if (layers.coat)
+            fromCoat += reflectedOf(map, *layers.coat, surface.v) * surface.occlusion;
+    } else if (view.environment) {
         radiance += layers.gloss ? f32::cotan_reflect_environment_glossy(surface, *layers.gloss)
                                  : f32::cotan_reflect_environment(surface);
         if (layers.coat)

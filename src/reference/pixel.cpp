@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/environment.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr float kBrightest = 65504; // what a half-float target holds
 
-// How blurred the environment is as a backdrop.
+// How blurred the gradient is as a backdrop.
 constexpr float kBackgroundBlur = 0.35f;
 
 glm::vec3 finite(glm::vec3 v)
@@ -29,7 +30,7 @@ glm::vec3 displayed(const View& view, glm::vec3 radiance)
     glm::vec3 c = finite(radiance * view.exposure);
     for (int i = 0; i < 3; ++i)
         c[i] = std::clamp(c[i], 0.0f, kBrightest);
-    return view.linearOutput ? c : f32::cotan_tone_map(c);
+    return view.linearOutput ? c : f32::cotan_tone_of(int(view.toneMapping), c);
 }
 
 glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, const QuadPoints& quad,
@@ -153,7 +154,10 @@ glm::vec4 background(const PixelInputs& all, int x, int y)
     if (all.view.output != Output::shaded || !all.view.background)
         return glm::vec4(0);
     glm::vec3 ray = rayDirection(all.projection, x + 0.5, y + 0.5);
-    return glm::vec4(displayed(all.view, f32::cotan_environment(ray, kBackgroundBlur)), 1);
+    if (all.view.backdrop == Backdrop::gradient || !all.view.environmentMap)
+        return glm::vec4(displayed(all.view, f32::cotan_environment(ray, kBackgroundBlur)), 1);
+    const float roughness = all.view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness;
+    return glm::vec4(displayed(all.view, radianceAlong(*all.view.environmentMap, ray, roughness)), 1);
 }
 
 } // namespace cotan::reference

@@ -128,8 +128,10 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
     if (view.output == Output::shaded) {
         key.shading = view.shading;
         key.environment = view.environment;
+        key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
         key.toneMap = !view.linearOutput;
+        key.tone = view.linearOutput ? key.tone : view.toneMapping;
     }
     return key;
 }
@@ -145,9 +147,13 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
     depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
+    vk::SamplerCreateInfo filtering;
+    filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
+    filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    environmentSampler_ = vk::raii::Sampler(device.device, filtering);
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 2)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 3)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
 }
@@ -210,6 +216,7 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, b
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
+    prepareEnvironment(view);
     if (layered)
         prepareLayers();
     writePictureSet(layered);
@@ -235,15 +242,19 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
+    const vk::DescriptorImageInfo environment(*environmentSampler_, *environmentTexture_.view,
+                                              vk::ImageLayout::eShaderReadOnlyOptimal);
     using T = vk::DescriptorType;
-    device_->device.updateDescriptorSets({vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
-                                          vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-                                          vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
-                                          vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
-                                          vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
-                                          vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
-                                                                 layered && targets_->multisampled() ? depth : shadow)},
-                                         {});
+    device_->device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
+         vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
+         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
+         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
+         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
+         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
+                                layered && targets_->multisampled() ? depth : shadow),
+         vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler, environmentMap_ ? environment : shadow)},
+        {});
 }
 
 void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
@@ -330,6 +341,8 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         PipelineKey background;
         background.pass = Pass::background;
         background.toneMap = key.toneMap;
+        background.tone = key.tone;
+        background.environmentMap = view.environmentMap && view.backdrop != Backdrop::gradient;
         background.samples = key.samples;
         background.format = key.format;
         drawOver(commands, background);

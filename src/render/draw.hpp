@@ -42,6 +42,7 @@ private:
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
     void prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered);
     void prepareShadowMap(bool needed);
+    void prepareEnvironment(const View& view);
     void prepareLayers();
     void writePictureSet(bool layered);
     void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists);
@@ -67,6 +68,10 @@ private:
     std::unique_ptr<Memory> shadowMemory_;
     Texture2D shadowMap_;
     vk::raii::Sampler shadowSampler_{nullptr};
+    std::shared_ptr<const EnvironmentMap> environmentMap_; // what the texture holds
+    std::unique_ptr<Memory> environmentMemory_;
+    Texture2D environmentTexture_;
+    vk::raii::Sampler environmentSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
     vk::DescriptorSet pictureSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;

@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 10> values;
-    std::array<vk::SpecializationMapEntry, 10> entries;
+    std::array<std::uint32_t, 12> values;
+    std::array<vk::SpecializationMapEntry, 12> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -33,7 +33,9 @@ struct Specialization {
                  key.environment,
                  key.shadows,
                  key.toneMap,
-                 key.maps}
+                 key.maps,
+                 static_cast<std::uint32_t>(key.tone),
+                 key.environmentMap}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -139,7 +141,8 @@ Layouts::Layouts(const Device& device)
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
     picture = makeSetLayout(
-        device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage});
+        device,
+        std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
     material = makeSetLayout(device, ofMaterial);

@@ -17,7 +17,8 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    vk::raii::DescriptorSetLayout picture{nullptr};  // set 0: view, lights, shadow map, lists, layers, opaque depth
+    vk::raii::DescriptorSetLayout picture{
+        nullptr}; // set 0: view, lights, shadow map, lists, layers, opaque depth, environment
     vk::raii::DescriptorSetLayout material{nullptr}; // set 1
     vk::raii::PipelineLayout pipeline{nullptr};
 };
@@ -40,8 +41,10 @@ struct PipelineKey {
     bool coarse = false;
     bool normalMaps = true;
     bool environment = true;
+    bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
-    bool toneMap = true;
+    bool toneMap = true; // false: linear output
+    ToneMapping tone = ToneMapping::aces;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/covector.hpp"
+#include "cotan/scene/environment.hpp"
 
 namespace cotan {
 
@@ -160,7 +161,7 @@ gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& b
         perspectiveRows(g, view, axes, bounds);
     if (const Light* light = shadowLight(view))
         shadowRows(g, *light, axes, bounds);
-    g.tone = gpu::vec4(view.exposure, 0, 0, 0);
+    g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
     g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), 0, 0, 0);
     return g;
 }

@@ -8,7 +8,8 @@
 
 namespace cotan {
 
-// "fit": the whole scene from the front, a little from above; "0", "1", ...: a camera of the scene; or
+// "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow;
+// "0", "1", ...: a camera of the scene; or
 // "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, y up (-z where it looks straight up or down).
 // width, height: of the picture, pixels.
 // Errors: ErrorKind::usage, with what was expected and found.

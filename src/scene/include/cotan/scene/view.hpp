@@ -1,6 +1,7 @@
 // How to draw a scene: what both renderers take, so that their pictures can be compared.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cotan/frame.hpp"
@@ -34,6 +35,23 @@ enum class Lighting {
 // Which differences a 2x2 quad gives: of the pixel's own row and column, or one pair for all four.
 enum class Derivatives { fine, coarse };
 
+// How light without bounds becomes a colour of the screen; the numbers of shaders/cotan/tone.h, in their order.
+enum class ToneMapping {
+    none,    // cut off at 1
+    aces,    // the curve of K. Narkowicz
+    neutral, // Khronos PBR Neutral
+    agx,
+};
+
+// What is seen behind the scene.
+enum class Backdrop {
+    gradient, // cotan_environment, whatever lights the scene
+    blurred,  // View::environmentMap, out of focus; the gradient where there is none
+    sharp,    // the same as it is
+};
+
+struct EnvironmentMap; // cotan/scene/environment.hpp
+
 struct View {
     int width = 1280;
     int height = 720;
@@ -44,10 +62,13 @@ struct View {
     Lighting lighting = Lighting::world;
     std::vector<Light> lights; // the first directional one casts shadows
     bool shadows = true;
-    bool normalMaps = true;    // false: n as interpolated
-    bool environment = true;   // ambient and reflections from cotan_environment
-    bool background = true;    // shaded: the environment behind the scene; false: transparent black
-    bool linearOutput = false; // shaded: float32, linear, not tone mapped
+    bool normalMaps = true;                               // false: n as interpolated
+    bool environment = true;                              // ambient and reflections from the environment
+    std::shared_ptr<const EnvironmentMap> environmentMap; // null: cotan_environment
+    bool background = true; // shaded: the backdrop behind the scene; false: transparent black
+    Backdrop backdrop = Backdrop::gradient;
+    bool linearOutput = false;                   // shaded: float32, linear, not tone mapped
+    ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;
     int samples = 4;           // shaded only: 1 or 4 a pixel
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers

@@ -1,0 +1,98 @@
+// Cotan portable text: light from a picture of the surroundings. Include lang.h and light.h first.
+//
+// The picture is an atlas of square tiles, which the caller reads with bilinear filtering and without mips:
+//   tiles 0..8   radiance, filtered for roughness 0, 1/8, ... 1
+//   tile  9      irradiance of a surface divided by pi
+//   tile  10     what GGX reflects of white light: x to be multiplied by f0, y to be added; by n.v and roughness
+// Tiles of directions are octahedral maps (Meyer et al., On Floating-Point Normal Vectors, 2010) with y up and a border
+// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The split in two factors is B. Karis's (Real Shading in Unreal
+// Engine 4, 2013). World space, y up.
+
+#ifndef COTAN_ENVIRONMENT_H
+#define COTAN_ENVIRONMENT_H
+
+#define COTAN_ENVIRONMENT_WIDTH 970
+#define COTAN_ENVIRONMENT_HEIGHT 524
+#define COTAN_ENVIRONMENT_STEPS cotan_real(8.0)       // tiles from roughness 0 to 1
+#define COTAN_ENVIRONMENT_IRRADIANCE cotan_real(9.0)  // tiles
+#define COTAN_ENVIRONMENT_ALBEDO cotan_real(10.0)
+
+// Where a tile starts in the atlas, and its texels a side; the border not counted. tile: a whole number.
+COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
+{
+    if (tile < cotan_real(0.5))
+        return cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(512.0));
+    if (tile < cotan_real(2.5))
+        return cotan_vec3(cotan_real(515.0), cotan_real(1.0) + cotan_real(258.0) * (tile - cotan_real(1.0)),
+            cotan_real(256.0));
+    if (tile < cotan_real(4.5))
+        return cotan_vec3(cotan_real(773.0), cotan_real(1.0) + cotan_real(130.0) * (tile - cotan_real(3.0)),
+            cotan_real(128.0));
+    if (tile < cotan_real(8.5)) {
+        cotan_real row = tile < cotan_real(6.5) ? cotan_real(0.0) : cotan_real(1.0);
+        cotan_real column = tile - cotan_real(5.0) - cotan_real(2.0) * row;
+        return cotan_vec3(cotan_real(773.0) + cotan_real(66.0) * column, cotan_real(391.0) + cotan_real(66.0) * row,
+            cotan_real(64.0));
+    }
+    if (tile < cotan_real(9.5))
+        return cotan_vec3(cotan_real(773.0), cotan_real(261.0), cotan_real(128.0));
+    return cotan_vec3(cotan_real(905.0), cotan_real(1.0), cotan_real(64.0));
+}
+
+// A direction of any length but zero, as a place in [0,1]^2: up in the middle, down in the corners.
+COTAN_FUNCTION cotan_vec2 cotan_octahedral_place(cotan_vec3 d)
+{
+    cotan_real size = max(abs(d.x) + abs(d.y) + abs(d.z), cotan_real(1e-30));
+    cotan_real x = d.x / size;
+    cotan_real z = d.z / size;
+    cotan_real folded_x = cotan_copy_sign(cotan_real(1.0) - abs(z), x);
+    cotan_real folded_z = cotan_copy_sign(cotan_real(1.0) - abs(x), z);
+    cotan_real half_way = cotan_real(0.5);
+    return cotan_vec2((d.y < cotan_real(0.0) ? folded_x : x) * half_way + half_way,
+        (d.y < cotan_real(0.0) ? folded_z : z) * half_way + half_way);
+}
+
+// The direction of a place, on the octahedron: not unit, but |x| + |y| + |z| = 1.
+COTAN_FUNCTION cotan_vec3 cotan_octahedral_direction(cotan_vec2 place)
+{
+    cotan_real x = place.x * cotan_real(2.0) - cotan_real(1.0);
+    cotan_real z = place.y * cotan_real(2.0) - cotan_real(1.0);
+    cotan_real y = cotan_real(1.0) - abs(x) - abs(z);
+    cotan_real fold = max(-y, cotan_real(0.0));
+    return cotan_vec3(cotan_copy_sign(abs(x) - fold, x), y, cotan_copy_sign(abs(z) - fold, z));
+}
+
+// Where in the atlas a direction is to be read, in texels.
+COTAN_FUNCTION cotan_vec2 cotan_environment_texel(cotan_vec3 direction, cotan_real tile)
+{
+    cotan_vec3 t = cotan_environment_tile(tile);
+    cotan_vec2 place = cotan_octahedral_place(direction);
+    return cotan_vec2(t.x + place.x * t.z, t.y + place.y * t.z);
+}
+
+// Where the factors of n.v and roughness are, in texels: from the first texel's middle to the last one's.
+COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_real roughness)
+{
+    cotan_vec3 t = cotan_environment_tile(COTAN_ENVIRONMENT_ALBEDO);
+    cotan_real last = t.z - cotan_real(1.0);
+    return cotan_vec2(t.x + cotan_real(0.5) + cotan_saturate(nv) * last,
+        t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
+}
+
+// What a surface reflects of its surroundings. dielectric, f90: its reflectance facing and grazing where it is no metal,
+// 0.04 and 1 where nothing else is known. irradiance: tile 9 along n. radiance: along cotan_mirrored of light.h,
+// between the two tiles of the roughness. albedo: tile 10. What is not reflected at the surface is scattered below it,
+// so that a white dielectric reflects all light. Rough metals lose what light that bounces more than once would bring.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
+    cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
+{
+    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
+    cotan_real bias = albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic);
+    cotan_vec3 specular = f0 * albedo.x + cotan_vec3(bias, bias, bias);
+    cotan_real one = cotan_real(1.0) - albedo.y * f90;
+    cotan_vec3 below = cotan_vec3(one, one, one) - dielectric * albedo.x;
+    cotan_vec3 diffuse = s.base_color * below * (cotan_real(1.0) - s.metallic);
+    return (irradiance * diffuse + radiance * specular) * s.occlusion;
+}
+
+#endif

@@ -1,0 +1,89 @@
+// Surroundings as a renderer reads them: the atlas that shaders/cotan/environment.h describes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "cotan/scene/image.hpp"
+#include "cotan/scene/picture_text.hpp"
+
+namespace cotan {
+
+inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
+
+struct EnvironmentMap {
+    std::string name; // for messages
+    Image atlas;      // COTAN_ENVIRONMENT_WIDTH x HEIGHT, float32, values that a half holds, in [0, 65504]
+};
+
+// The atlas at a place in texels, filtered as a GPU filters.
+inline glm::vec3 readAtlas(const EnvironmentMap& map, glm::vec2 texel)
+{
+    const float* values = map.atlas.floats();
+    const auto at = [&](int x, int y) {
+        x = std::clamp(x, 0, map.atlas.width - 1);
+        y = std::clamp(y, 0, map.atlas.height - 1);
+        const float* p = values + 4 * (std::size_t(y) * std::size_t(map.atlas.width) + std::size_t(x));
+        return glm::vec3(p[0], p[1], p[2]);
+    };
+    const float fx = std::floor(texel.x - 0.5f), fy = std::floor(texel.y - 0.5f);
+    const float kx = texel.x - 0.5f - fx, ky = texel.y - 0.5f - fy;
+    const int x = int(fx), y = int(fy);
+    const glm::vec3 top = at(x, y) * (1 - kx) + at(x + 1, y) * kx;
+    const glm::vec3 bottom = at(x, y + 1) * (1 - kx) + at(x + 1, y + 1) * kx;
+    return top * (1 - ky) + bottom * ky;
+}
+
+// Radiance along a direction of any length, as a mirror of that roughness sees it.
+inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, float roughness)
+{
+    const float level = f32::cotan_saturate(roughness) * 8;
+    const float lower = std::min(std::floor(level), 7.0f);
+    const glm::vec3 a = readAtlas(map, f32::cotan_environment_texel(direction, lower));
+    const glm::vec3 b = readAtlas(map, f32::cotan_environment_texel(direction, lower + 1));
+    return a + (b - a) * (level - lower);
+}
+
+// Irradiance of a surface with that normal, divided by pi.
+inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
+{
+    return readAtlas(map, f32::cotan_environment_texel(normal, 9));
+}
+
+inline glm::vec2 albedoAt(const EnvironmentMap& map, float nv, float roughness)
+{
+    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(f32::cotan_saturate(nv), roughness));
+    return {albedo.x, albedo.y};
+}
+
+// What a surface reflects of its surroundings: towards n mirrored, with reflectances as cotan_reflect_image has them.
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s, glm::vec3 n, glm::vec3 dielectric,
+                             float f90)
+{
+    return f32::cotan_reflect_image(s, dielectric, f90, irradianceAlong(map, s.n),
+                                    radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
+                                    albedoAt(map, glm::dot(s.n, s.v), s.roughness));
+}
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
+{
+    return reflectedOf(map, s, s.n, glm::vec3(0.04f), 1);
+}
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
+{
+    return reflectedOf(map, s, f32::cotan_reflecting_normal(s, g), g.f0, g.f90);
+}
+
+// What its coat reflects.
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_coat& coat, glm::vec3 v)
+{
+    const glm::vec2 share = albedoAt(map, glm::dot(coat.n, v), coat.roughness);
+    return radianceAlong(map, f32::cotan_mirrored(coat.n, v), coat.roughness)
+        * (coat.strength * (0.04f * share.x + share.y));
+}
+
+} // namespace cotan

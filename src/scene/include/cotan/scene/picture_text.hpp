@@ -1,0 +1,24 @@
+// The parts of the portable text that only pictures need, as C++: in cotan::f32 over float and in cotan::f64 over
+// double, beside those of cotan/portable.hpp.
+#pragma once
+
+#include "cotan/portable.hpp"
+
+#define COTAN_FUNCTION inline
+
+namespace cotan::f32 {
+using std::log2;
+#include "cotan/environment.h"
+#include "cotan/tone.h"
+} // namespace cotan::f32
+
+#undef COTAN_TONE_H
+#undef COTAN_ENVIRONMENT_H
+
+namespace cotan::f64 {
+using std::log2;
+#include "cotan/environment.h"
+#include "cotan/tone.h"
+} // namespace cotan::f64
+
+#undef COTAN_FUNCTION

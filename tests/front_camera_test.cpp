@@ -1,0 +1,82 @@
+// A camera that fills the picture: every vertex projected on its own.
+#include "cotan/scene/front_camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+Scene placed(Mesh mesh, const glm::mat4& toWorld)
+{
+    Scene scene;
+    scene.materials.resize(1);
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.resize(1);
+    scene.instances[0].toWorld = toWorld;
+    return scene;
+}
+
+struct Extent {
+    double left = 9, right = -9, bottom = 9, top = -9; // -1 to 1 is the picture
+};
+
+Extent extentOf(const Scene& scene, const Camera& camera, double aspect)
+{
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up))),
+                     up = glm::cross(right, forward);
+    const double tanY = std::tan(camera.verticalFieldOfView / 2.0);
+    Extent e;
+    for (const glm::vec3& p : scene.meshes[0].positions) {
+        const glm::dvec3 d =
+            glm::dvec3(glm::dmat4(scene.instances[0].toWorld) * glm::dvec4(glm::dvec3(p), 1)) - glm::dvec3(camera.eye);
+        const double depth = glm::dot(d, forward);
+        EXPECT_GT(depth, 0);
+        const double x = glm::dot(d, right) / (depth * tanY * aspect), y = glm::dot(d, up) / (depth * tanY);
+        e.left = std::min(e.left, x), e.right = std::max(e.right, x);
+        e.bottom = std::min(e.bottom, y), e.top = std::max(e.top, y);
+    }
+    return e;
+}
+
+TEST(FrontCamera, verticesFillThePictureInOneDirectionAndAreCentredInBoth)
+{
+    glm::mat4 moved(1), stretched(1);
+    moved[3] = glm::vec4(30, -20, 5, 1);
+    stretched[0][0] = 7, stretched[3] = glm::vec4(-1000, 2, 3, 1);
+    for (const glm::mat4& toWorld : {glm::mat4(1), moved, stretched, glm::mat4(1e-3f)})
+        for (const auto& [width, height] : {std::pair(640, 480), std::pair(300, 900)}) {
+            const Scene scene = placed(makeTeapot(6), toWorld);
+            const Extent e = extentOf(scene, frontCamera(scene, width, height), double(width) / height);
+            const double wide = std::max(-e.left, e.right), high = std::max(-e.bottom, e.top);
+            EXPECT_NEAR(std::max(wide, high), 0.92, 0.003);              // the eye is a float
+            EXPECT_NEAR(e.left + e.right, 0, wide > high ? 0.003 : 0.1); // equal room where it is tight
+            EXPECT_NEAR(e.bottom + e.top, 0, high > wide ? 0.003 : 0.1);
+        }
+}
+
+TEST(FrontCamera, flatModelsAreSeenStraightOnAndPointsFromSomewhere)
+{
+    Mesh quad;
+    quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    const Camera camera = frontCamera(placed(quad, glm::mat4(1)), 100, 100);
+    EXPECT_EQ(camera.eye.x, camera.target.x);
+    EXPECT_EQ(camera.eye.y, camera.target.y);
+    EXPECT_GT(camera.eye.z, camera.target.z);
+    Mesh point;
+    point.positions = {{5000, 0, 0}};
+    const Camera near = frontCamera(placed(point, glm::mat4(1)), 100, 100);
+    EXPECT_NE(near.eye, near.target);
+    EXPECT_EQ(near.target, glm::vec3(5000, 0, 0));
+    EXPECT_EQ(frontCamera(Scene{}, 100, 100).eye, Camera{}.eye);
+}
+
+} // namespace
+} // namespace cotan
