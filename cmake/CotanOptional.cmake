@@ -36,8 +36,12 @@ cotan_optional(JSON nlohmann_json::nlohmann_json nlohmann-json nlohmann-json3-de
 cotan_optional(CLI11 CLI11::CLI11 CLI11 libcli11-dev "no tool" CLI11)
 cotan_optional(PNG PNG::PNG libpng libpng-dev "no PNG files, no tool" PNG)
 cotan_optional(JPEG JPEG::JPEG libjpeg libjpeg-dev "no JPEG files, no tool" JPEG)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+cotan_optional(WEBP WebP::webp libwebp libwebp-dev "no WebP files, nor glTF with such pictures" WebP)
+cotan_optional(ZSTD zstd::libzstd_shared libzstd libzstd-dev "no KTX2 files packed with Zstandard" zstd CONFIG)
+cotan_optional(ZLIB ZLIB::ZLIB zlib zlib1g-dev "no KTX2 files packed with zlib" ZLIB)
 cotan_optional(OPENIMAGEIO OpenImageIO::OpenImageIO OpenImageIO "libopenimageio-dev openimageio-tools"
-  "no EXR, TIFF, HDR, TGA, BMP and DDS; JPEG is read and not written" OpenImageIO)
+  "no EXR, TIFF, HDR, TGA, BMP, DDS and blocks in KTX2; JPEG is read and not written" OpenImageIO)
 cotan_optional(ASSIMP assimp::assimp Assimp libassimp-dev "of models only glTF and OBJ" assimp)
 cotan_optional(DRACO draco::draco Draco libdraco-dev "no glTF compressed with Draco" draco CONFIG)
 cotan_optional(MESHOPTIMIZER meshoptimizer::meshoptimizer meshoptimizer libmeshoptimizer-dev

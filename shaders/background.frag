@@ -3,6 +3,7 @@
 // The surroundings behind the scene, or a gradient.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
+#include "cotan/frame.h"
 #include "cotan/light.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"

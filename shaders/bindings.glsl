@@ -12,6 +12,14 @@ layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessMap;
 layout(set = 1, binding = 3) uniform sampler2D normalMap;
 layout(set = 1, binding = 4) uniform sampler2D occlusionMap;
 layout(set = 1, binding = 5) uniform sampler2D emissiveMap;
+layout(set = 1, binding = 6) uniform sampler2D coatMap;
+layout(set = 1, binding = 7) uniform sampler2D coatRoughnessMap;
+layout(set = 1, binding = 8) uniform sampler2D coatNormalMap;
+layout(set = 1, binding = 9) uniform sampler2D anisotropyMap;
+layout(set = 1, binding = 10) uniform sampler2D specularMap;
+layout(set = 1, binding = 11) uniform sampler2D specularColorMap;
+layout(set = 1, binding = 12) uniform sampler2D sheenColorMap;
+layout(set = 1, binding = 13) uniform sampler2D sheenRoughnessMap;
 
 layout(push_constant, std430) uniform DrawBlock { CotanDraw draw; };
 
@@ -44,6 +52,13 @@ vec2 transformedDifference(CotanTextureUse use, vec4 texcoords)
 {
     vec2 uv = use.uRow.w > 0.5 ? texcoords.zw : texcoords.xy;
     return vec2(dot(use.uRow.xy, uv), dot(use.vRow.xy, uv));
+}
+
+// Whether the mesh has the uv set that a use reads.
+bool hasTexcoords(CotanTextureUse use)
+{
+    uint flag = use.uRow.w > 0.5 ? COTAN_DRAW_HAS_TEXCOORDS1 : COTAN_DRAW_HAS_TEXCOORDS0;
+    return (draw.flags & flag) != 0u;
 }
 
 vec2 transformed(CotanTextureUse use, vec4 texcoords)

@@ -57,13 +57,58 @@ vec4 baseColor()
 vec3 perturbed(cotan_frame frame, vec3 n)
 {
     bool mapped = NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse)
-        && (draw.flags & COTAN_DRAW_HAS_TEXCOORDS) != 0u;
+        && hasTexcoords(material.normalMapUse);
     if (!mapped)
         return n;
     cotan_normal_format format = cotan_normal_format(material.normalMap.x, material.normalMap.y,
         float(material.normalMap.z), material.factors.w);
     vec3 m = cotan_decode(sampled(normalMap, material.normalMapUse).xyz, format);
     return cotan_normalize_or(cotan_apply(frame, m), n);
+}
+
+// The coat's normal, outwards on the front side. frame: of the surface beneath.
+vec3 coatNormal(cotan_frame frame, vec3 n)
+{
+    CotanTextureUse use = material.coatNormalMapUse;
+    if (!NORMAL_MAPS || !present(COTAN_MAP_COAT_NORMAL, use) || !hasTexcoords(use))
+        return n;
+    if (material.coatNormalMap.w == 0)
+        frame = frameOf(n, screenDifferences(inPosition, transformedDifference(use, inTexcoords)), use, false);
+    cotan_normal_format format = cotan_normal_format(material.coatNormalMap.x,
+        material.coatNormalMap.y, float(material.coatNormalMap.z), material.coat.z);
+    vec3 m = cotan_decode(sampled(coatNormalMap, use).xyz, format);
+    return cotan_normalize_or(cotan_apply(frame, m), n);
+}
+
+cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
+{
+    cotan_coat c;
+    c.strength = material.coat.x;
+    if (present(COTAN_MAP_COAT, material.coatMap))
+        c.strength *= sampled(coatMap, material.coatMap).r;
+    c.roughness = material.coat.y;
+    if (present(COTAN_MAP_COAT_ROUGHNESS, material.coatRoughnessMap))
+        c.roughness *= sampled(coatRoughnessMap, material.coatRoughnessMap).g;
+    c.n = coatNormal(frame, n) * side;
+    return c;
+}
+
+// frame, smoothNormal: outwards on the front side. n: perturbed.
+cotan_gloss glossOf(cotan_frame frame, vec3 smoothNormal, vec3 n)
+{
+    cotan_gloss g = cotan_gloss_of(material.anisotropy.w, material.specular.w, material.specular.rgb);
+    float strength = material.anisotropy.x;
+    vec2 direction = material.anisotropy.yz;
+    if (present(COTAN_MAP_ANISOTROPY, material.anisotropyMap)) {
+        vec3 texel = sampled(anisotropyMap, material.anisotropyMap).rgb;
+        vec2 turned = vec2(texel.r, -texel.g) * 2.0 + vec2(-1.0, 1.0);
+        direction = vec2(turned.x * direction.x - turned.y * direction.y,
+            turned.x * direction.y + turned.y * direction.x);
+        strength *= texel.b;
+    }
+    g.t = cotan_direction_on_surface(smoothNormal, frame.t, frame.b, direction, n);
+    g.anisotropy = dot(g.t, g.t) > 0.5 ? strength : 0.0;
+    return g;
 }
 
 cotan_surface surfaceOf(vec3 base, vec3 n)
@@ -139,7 +184,7 @@ void main()
         screenDifferences(inPosition, transformedDifference(material.normalMapUse, inTexcoords));
     cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
     vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
-    cotan_frame frame = frameOf(smoothNormal, d);
+    cotan_frame frame = frameOf(smoothNormal, d, material.normalMapUse, true);
     vec3 n = perturbed(frame, smoothNormal);
     // Seen from behind, the sheet shows the other side of the same bumps.
     float side = gl_FrontFacing ? 1.0 : -1.0;
@@ -151,7 +196,14 @@ void main()
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
             cotan_surface s = surfaceOf(base.rgb, n);
-            color = lit(s, inPosition, smoothNormal * side);
+            Layers over;
+            over.glossy = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_GLOSS) != 0u;
+            over.coated = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_COAT) != 0u;
+            if (over.glossy)
+                over.gloss = glossOf(frame, smoothNormal, n);
+            if (over.coated)
+                over.coat = coatOf(frame, smoothNormal, side);
+            color = lit(s, over, inPosition, smoothNormal * side);
         }
         float alpha = ALPHA_MODE == ALPHA_BLEND ? clamp(base.a, 0.0, 1.0) : 1.0;
         value = vec4(finished(color), alpha);

@@ -26,31 +26,31 @@ vec3 positionOf(uint vertex)
     return vec3(f.at[3u * vertex], f.at[3u * vertex + 1u], f.at[3u * vertex + 2u]);
 }
 
-vec2 texcoordOf(uint vertex)
+vec2 texcoordOf(uint first, uint vertex)
 {
-    Floats f = Floats(draw.texcoords);
-    return vec2(f.at[2u * vertex], f.at[2u * vertex + 1u]);
+    Floats f = Floats(draw.positions);
+    return vec2(f.at[first + 2u * vertex], f.at[first + 2u * vertex + 1u]);
 }
 
 // The edges of the fragment's triangle, in place of screen derivatives.
-Differences triangleEdges()
+Differences triangleEdges(CotanTextureUse use)
 {
     Words words = Words(draw.indices);
-    uint first = 3u * uint(gl_PrimitiveID);
-    uint i0 = words.at[first];
-    uint i1 = words.at[first + 1u];
-    uint i2 = words.at[first + 2u];
+    uint corner = 3u * uint(gl_PrimitiveID);
+    uint i0 = words.at[corner];
+    uint i1 = words.at[corner + 1u];
+    uint i2 = words.at[corner + 2u];
     Differences d;
     vec3 p0 = positionOf(i0);
     d.dpdx = directionToWorld(positionOf(i1) - p0);
     d.dpdy = directionToWorld(positionOf(i2) - p0);
     d.duvdx = vec2(0.0);
     d.duvdy = vec2(0.0);
-    if ((draw.flags & COTAN_DRAW_HAS_TEXCOORDS) != 0u) {
-        vec2 uv0 = texcoordOf(i0);
-        vec2 edge1 = texcoordOf(i1) - uv0;
-        vec2 edge2 = texcoordOf(i2) - uv0;
-        CotanTextureUse use = material.normalMapUse;
+    if (hasTexcoords(use)) {
+        uint first = use.uRow.w > 0.5 ? draw.texcoords.y : draw.texcoords.x;
+        vec2 uv0 = texcoordOf(first, i0);
+        vec2 edge1 = texcoordOf(first, i1) - uv0;
+        vec2 edge2 = texcoordOf(first, i2) - uv0;
         d.duvdx = vec2(dot(use.uRow.xy, edge1), dot(use.vRow.xy, edge1));
         d.duvdy = vec2(dot(use.uRow.xy, edge2), dot(use.vRow.xy, edge2));
     }
@@ -62,12 +62,13 @@ cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
 
 // The frame COTAN_FRAME: one case for each row of the table of frames, by what the row is made from.
 // n: safe, unit. inNormal and the other attributes: as interpolated; a mesh without uv has none.
-cotan_frame frameOf(vec3 n, Differences d)
+// use: the map that d belongs to. base: its uv are those of the normal map, to which what the vertices hold belongs.
+cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
 {
 #ifdef COTAN_EXACT
 #define COTAN_FROM_triangle(word)        \
     {                                    \
-        Differences e = triangleEdges(); \
+        Differences e = triangleEdges(use); \
         return cotan_frame_##word(n, e.dpdx, e.dpdy, e.duvdx, e.duvdy); \
     }
 #else
@@ -80,6 +81,7 @@ cotan_frame frameOf(vec3 n, Differences d)
     float handedness = -inTangent.w;
 #define COTAN_FROM_differences(word) return cotan_frame_##word(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
 #define COTAN_FROM_cotangents(word) \
+    if (!base) return cotan_frame_cotangent(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy); \
     if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
 #define COTAN_FROM_tangents(word) \
     if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, handedness); break;

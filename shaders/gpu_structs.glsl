@@ -15,19 +15,46 @@ struct CotanMaterial {
     vec4 emissive;     // linear; w: alpha cutoff
     vec4 factors;      // metallic, roughness, occlusion strength, normal scale
     ivec4 normalMap;   // expansion, channels, green (+1 along v, -1 against it), 1 if unlit
+    vec4 coat;         // strength, roughness, normal scale; w unused
+    ivec4 coatNormalMap; // as normalMap; w: 1 if its uv are those of the normal map
+    vec4 anisotropy;   // strength, direction along +u and +v; w: index of refraction
+    vec4 specular;     // linear colour of a dielectric's reflection; w: strength
+    vec4 sheen;        // linear; w: roughness
     CotanTextureUse baseColorMap;
     CotanTextureUse metallicRoughnessMap;
     CotanTextureUse normalMapUse;
     CotanTextureUse occlusionMap;
     CotanTextureUse emissiveMap;
+    CotanTextureUse coatMap;
+    CotanTextureUse coatRoughnessMap;
+    CotanTextureUse coatNormalMapUse;
+    CotanTextureUse anisotropyMap;
+    CotanTextureUse specularMap;
+    CotanTextureUse specularColorMap;
+    CotanTextureUse sheenColorMap;
+    CotanTextureUse sheenRoughnessMap;
 };
 
+// A bit for each map, in the order above, which is that of the bindings from 1 on.
+#define COTAN_MAP_COUNT 13
 #define COTAN_MAP_BASE_COLOR 1u
 #define COTAN_MAP_METALLIC_ROUGHNESS 2u
 #define COTAN_MAP_NORMAL 4u
 #define COTAN_MAP_OCCLUSION 8u
 #define COTAN_MAP_EMISSIVE 16u
-#define COTAN_MAP_OCCLUSION_SHARED 32u // occlusion is in r of the metallic-roughness texel
+#define COTAN_MAP_COAT 32u
+#define COTAN_MAP_COAT_ROUGHNESS 64u
+#define COTAN_MAP_COAT_NORMAL 128u
+#define COTAN_MAP_ANISOTROPY 256u
+#define COTAN_MAP_SPECULAR 512u
+#define COTAN_MAP_SPECULAR_COLOR 1024u
+#define COTAN_MAP_SHEEN_COLOR 2048u
+#define COTAN_MAP_SHEEN_ROUGHNESS 4096u
+#define COTAN_MAP_OCCLUSION_SHARED 65536u // occlusion is in r of the metallic-roughness texel
+// What the material has besides metallic-roughness.
+#define COTAN_LAYER_COAT 131072u
+#define COTAN_LAYER_GLOSS 262144u // anisotropy, specular or index of refraction
+#define COTAN_LAYER_SHEEN 524288u
 
 // Storage buffer, an array.
 struct CotanLight {
@@ -63,7 +90,7 @@ struct CotanDraw {
     vec4 normalY;
     vec4 normalZ;    // w of normalX: sign of the determinant
     uvec2 positions; // address of the mesh's positions, three floats a vertex
-    uvec2 texcoords; // address of the uv set of the normal map, two floats a vertex; 0 if none
+    uvec2 texcoords; // where uv sets 0 and 1 start, in floats from there on: two floats a vertex
     uvec2 indices;   // address of the mesh's indices
     uint flags;      // COTAN_DRAW_...
     uint order;      // number of a translucent instance in the scene
@@ -71,7 +98,8 @@ struct CotanDraw {
 
 #define COTAN_DRAW_HAS_TANGENTS 1u
 #define COTAN_DRAW_HAS_COTANGENTS 2u
-#define COTAN_DRAW_HAS_TEXCOORDS 4u // the uv set of the normal map (or set 0 where there is none)
+#define COTAN_DRAW_HAS_TEXCOORDS0 4u
+#define COTAN_DRAW_HAS_TEXCOORDS1 8u
 
 // Storage buffer: what the lists of translucent fragments start with.
 struct CotanLayerLists {

@@ -27,14 +27,29 @@ float shadowAt(vec3 p, vec3 n, float nl)
     return sum / 9.0;
 }
 
-vec3 reflected(cotan_surface s, vec3 l)
+// What extensions add to a surface; which of it is there is known when the shader is compiled.
+struct Layers {
+    bool glossy;
+    bool coated;
+    cotan_gloss gloss;
+    cotan_coat coat;
+};
+
+// All that leaves the surface, by whether it comes through the coat.
+struct Reflected {
+    vec3 base;
+    vec3 coat;
+};
+
+vec3 reflected(cotan_surface s, Layers over, vec3 l)
 {
-    return SHADING == SHADING_BLINN_PHONG ? cotan_reflect_blinn_phong(s, l)
-                                          : cotan_reflect_pbr(s, l);
+    if (SHADING == SHADING_BLINN_PHONG)
+        return cotan_reflect_blinn_phong(s, l);
+    return over.glossy ? cotan_reflect_glossy(s, over.gloss, l) : cotan_reflect_pbr(s, l);
 }
 
 // What one light adds. p: camera-relative; n: unit geometric normal on the seen side.
-vec3 litBy(CotanLight light, cotan_surface s, vec3 p, vec3 n)
+void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers over, vec3 p, vec3 n)
 {
     vec3 l = -light.direction.xyz;
     float reach = 1.0;
@@ -47,15 +62,27 @@ vec3 litBy(CotanLight light, cotan_surface s, vec3 p, vec3 n)
     }
     if (SHADOWS && light.color.w > 0.5)
         reach *= shadowAt(p, n, dot(n, l));
-    return light.color.rgb * (reach * reflected(s, l));
+    sum.base += light.color.rgb * (reach * reflected(s, over, l));
+    if (over.coated)
+        sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));
 }
 
-vec3 lit(cotan_surface s, vec3 p, vec3 n)
+vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
 {
-    vec3 sum = s.emissive;
+    Reflected sum = Reflected(s.emissive, vec3(0.0));
     for (uint i = 0u; i < view.counts.x; ++i)
-        sum += litBy(lights[i], s, p, n);
-    if (ENVIRONMENT)
-        sum += ENVIRONMENT_MAP ? reflectedOfImage(s) : cotan_reflect_environment(s);
-    return sum;
+        addLight(sum, lights[i], s, over, p, n);
+    if (ENVIRONMENT) {
+        if (ENVIRONMENT_MAP)
+            sum.base += over.glossy ? reflectedGlossy(s, over.gloss) : reflectedOfImage(s);
+        else
+            sum.base += over.glossy ? cotan_reflect_environment_glossy(s, over.gloss)
+                                    : cotan_reflect_environment(s);
+        if (over.coated)
+            sum.coat += s.occlusion
+                * (ENVIRONMENT_MAP ? reflectedOfCoat(over.coat, s.v) : cotan_reflect_coat_environment(over.coat, s.v));
+    }
+    if (!over.coated)
+        return sum.base;
+    return sum.base * (1.0 - cotan_coat_share(over.coat, s.v)) + sum.coat;
 }

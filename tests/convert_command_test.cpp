@@ -1,6 +1,7 @@
 // `cotan convert` as a user runs it: what the files say afterwards, and what --verify measures.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -10,8 +11,10 @@
 #include "cotan/gltf/edit.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
+#include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "webp_maker.hpp"
 
 namespace cotan {
 namespace {
@@ -180,7 +183,40 @@ TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
     EXPECT_NE(r["notes"].dump().find("EXT_texture_webp taken out"), std::string::npos) << r["notes"];
     const json extensions = jsonOfGlb(folder / "out.glb")["textures"][0]["extensions"];
     EXPECT_FALSE(extensions.contains("EXT_texture_webp"));
+    EXPECT_FALSE(jsonOfGlb(folder / "out.glb").contains("extensionsUsed"));
     EXPECT_EQ(extensions["VENDOR_other"]["keep"], 1);
+}
+
+// Only the WebP is there, and readers have to know it: afterwards it is a PNG that all know.
+TEST(ConvertCommand, aMapInWebpBecomesAPng)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    write(m, folder.path());
+    const auto waves = readImage(folder / "waves.png");
+    ASSERT_TRUE(waves);
+    std::vector<std::array<int, 4>> texels(waves->pixelCount());
+    for (std::size_t i = 0; i < 4 * texels.size(); ++i)
+        texels[i / 4][i % 4] = waves->bytes8()[i];
+    std::ofstream(folder / "waves.webp", std::ios::binary) << makeWebp(waves->width, waves->height, texels);
+    const json plain = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "plain.glb"});
+    m.root["extensionsUsed"] = m.root["extensionsRequired"] = {"EXT_texture_webp"};
+    m.root["textures"][0].erase("source");
+    m.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
+    m.root["images"][0]["uri"] = "waves.webp";
+    write(m, folder.path());
+    const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
+    EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
+    EXPECT_EQ(r["notes"].dump().find("taken out"), std::string::npos) << r["notes"];
+    const json out = jsonOfGlb(folder / "out.glb");
+    EXPECT_FALSE(out.contains("extensionsRequired"));
+    EXPECT_FALSE(out["textures"][0].contains("extensions"));
+    EXPECT_EQ(out["images"][0]["mimeType"], "image/png");
+    EXPECT_EQ(normalMapOf(folder / "out.glb").data, normalMapOf(folder / "plain.glb").data);
+    EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--size", "8x8", "--quiet"},
+                      folder.path())
+                  .code,
+              0);
 }
 
 TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
@@ -191,7 +227,8 @@ TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
     m.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
     m.root["images"][0] = {{"uri", "waves.ktx2"}};
     write(m, folder.path());
-    std::ofstream(folder / "waves.ktx2") << "\xabKTX 20\xbb and more";
+    std::ofstream(folder / "waves.ktx2", std::ios::binary)
+        << makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163});
     const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     EXPECT_TRUE(r["maps"].empty());
     EXPECT_NE(r["notes"].dump().find("TANGENT stays"), std::string::npos) << r["notes"];

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "gltf_maker.hpp"
+#include "ktx2_maker.hpp"
+#include "webp_maker.hpp"
 
 using namespace cotan;
 using namespace cotan::test;
@@ -154,6 +156,53 @@ TEST(GltfMaterial, factorsArrive)
     EXPECT_TRUE(m.unlit);
 }
 
+TEST(GltfMaterial, coatAndAnisotropyArrive)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const json moved = {{"index", 0},
+                        {"scale", 0.5},
+                        {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}, {"offset", {0.5, 0}}}}}}};
+    g.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy", "KHR_texture_transform"};
+    g.root["materials"][0]["extensions"] = {
+        {"KHR_materials_clearcoat",
+         {{"clearcoatFactor", 0.75},
+          {"clearcoatRoughnessFactor", 0.25},
+          {"clearcoatTexture", {{"index", 0}}},
+          {"clearcoatNormalTexture", moved}}},
+        {"KHR_materials_anisotropy",
+         {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.25}, {"anisotropyTexture", {{"index", 0}}}}}};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.coat.strength, 0.75f);
+    EXPECT_EQ(m.coat.roughness, 0.25f);
+    EXPECT_EQ(m.coat.normalScale, 0.5f);
+    EXPECT_TRUE(m.coat.map.present());
+    EXPECT_FALSE(m.coat.roughnessMap.present());
+    EXPECT_EQ(m.coat.normalMap.uRow, glm::vec3(2, 0, 0.5));
+    EXPECT_EQ(m.coat.normalMap.vRow, glm::vec3(0, 3, 0));
+    EXPECT_EQ(m.anisotropy.strength, 0.5f);
+    EXPECT_EQ(m.anisotropy.rotation, 1.25f);
+    EXPECT_TRUE(m.anisotropy.map.present());
+}
+
+TEST(GltfMaterial, layersWithoutStrengthAskForNoPictures)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["materials"][0].erase("normalTexture");
+    g.root["materials"][0]["extensions"] = {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 0}}}}},
+                                            {"KHR_materials_anisotropy", {{"anisotropyTexture", {{"index", 0}}}}}};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.images.empty());
+    g.root["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = "much";
+    const auto refused = g.load();
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("KHR_materials_clearcoat.clearcoatFactor"), std::string::npos)
+        << refused.error().message;
+}
+
 TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
 {
     Gltf g = square();
@@ -245,6 +294,42 @@ TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
     EXPECT_EQ(embedded.images.at(0).data, file.images.at(0).data);
 }
 
+TEST(GltfMaterial, aWebpOfItsExtensionIsReadWhereThereIsNoPlainSource)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const int webp =
+        g.add("images", {{"uri", "data:image/webp;base64," + base64(makeWebp(1, 1, {{130, 120, 250, 255}}))}});
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"EXT_texture_webp"};
+    g.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = webp;
+    COTAN_LOADED(both, g.load());
+    EXPECT_EQ(both.images.at(0).width, 2) << "the plain source";
+    EXPECT_TRUE(both.warnings.empty());
+    g.root["textures"][0].erase("source");
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.warnings.empty());
+    const Image& image = scene.images.at(std::size_t(scene.materials.at(0).normalMap.image));
+    ASSERT_EQ(image.pixelCount(), 1u);
+    EXPECT_EQ(image.bytes8()[0], 130);
+    EXPECT_EQ(image.bytes8()[2], 250);
+}
+
+// (0.6, 0, 0.8) within a code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes.
+TEST(GltfMaterial, aNormalMapOfTwoChannelsGetsItsThird)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    const std::string file = makeKtx2({.format = 16, .levels = {{"\xcc\x80"}}});
+    g.root["images"][0] = {{"uri", "data:image/ktx2;base64," + base64(file)}};
+    g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"KHR_texture_basisu"};
+    g.root["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.images.at(0).pixelCount(), 1u);
+    EXPECT_EQ(scene.images[0].bytes8()[0], 204);
+    EXPECT_EQ(scene.images[0].bytes8()[2], 230);
+}
+
 TEST(GltfMaterial, unusedImagesAreNotDecoded)
 {
     Gltf g = square();
@@ -311,9 +396,9 @@ TEST(GltfCameras, lookAlongTheirNodesMinusZ)
 TEST(GltfExtensions, ignoredOnesAreSaid)
 {
     Gltf g = square();
-    g.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform"};
+    g.root["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_texture_transform"};
     COTAN_LOADED(scene, g.load());
-    EXPECT_TRUE(warns(scene, "ignored: KHR_materials_clearcoat"));
+    EXPECT_TRUE(warns(scene, "ignored: KHR_materials_iridescence"));
     EXPECT_FALSE(warns(scene, "KHR_texture_transform"));
 }
 

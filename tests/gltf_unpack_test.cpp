@@ -156,7 +156,9 @@ TEST_P(DracoGeometryIs, plainInADocumentThatIsWritten)
     const json& bounds =
         out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
     float lowest = 1; // of z, as it was quantised
-    for (const glm::vec3& p : loadGltf(folder.path / "out.glb")->meshes[0].positions)
+    const auto again = loadGltf(folder.path / "out.glb");
+    ASSERT_TRUE(again) << again.error().message;
+    for (const glm::vec3& p : again->meshes[0].positions)
         lowest = std::min(lowest, p.z);
     EXPECT_EQ(bounds["min"][2].get<float>(), lowest);
     EXPECT_EQ(bounds["max"][0], 1.0f);

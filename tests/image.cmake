@@ -1,3 +1,4 @@
 find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)
-cotan_test(image_test SEPARATE SOURCES image_test.cpp image_layout_test.cpp LIBRARIES cotan_model cotan_shapes ZLIB::ZLIB JPEG::JPEG)
+find_package(zstd CONFIG REQUIRED)
+cotan_test(image_test SEPARATE SOURCES image_test.cpp image_layout_test.cpp image_webp_test.cpp image_ktx2_test.cpp LIBRARIES cotan_model cotan_shapes ZLIB::ZLIB zstd::libzstd_shared JPEG::JPEG)

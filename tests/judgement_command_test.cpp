@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/model/load.hpp"
+#include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 
@@ -203,8 +204,12 @@ struct Foreign {
     std::string bytes;
 };
 
-const Foreign kForeign[] = {{"EXT_texture_webp", "waves.webp", "WebP", std::string("RIFF\x10\0\0\0WEBPVP8 ", 16)},
-                            {"KHR_texture_basisu", "waves.ktx2", "KTX2", std::string("\xabKTX 20\xbb\r\n\x1a\n more")}};
+const Foreign kForeign[] = {{"EXT_texture_avif", "waves.avif", "AVIF",
+                             std::string("\0\0\0\x1c"
+                                         "ftypavif and more",
+                                         21)},
+                            {"KHR_texture_basisu", "waves.ktx2", "KTX2 with BasisU",
+                             makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163})}};
 
 void writeForeign(const Foreign& f, const std::filesystem::path& folder)
 {
@@ -276,7 +281,14 @@ TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
     writeForeign(kForeign[0], folder.path());
     EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, folder.path()).code,
               2);
-    std::ofstream(folder / "waves.webp") << "not an image";
+    TemporaryFolder basis;
+    writeForeign(kForeign[1], basis.path());
+    const ToolRun refused =
+        runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--quiet"}, basis.path());
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_TRUE(says(refused.err, "ktx transcode")) << refused.err;
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+    std::ofstream(folder / "waves.avif") << "not an image";
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 2); // broken is not foreign
 }
 

@@ -306,6 +306,72 @@ TEST(MapCommand, blending_with_a_flat_map_keeps_the_base_within_rounding)
     }
 }
 
+// Read back by other code: DDS and the blocks of KTX2 by OpenImageIO, which rounds to 8 bits.
+TEST(MapCommand, textures_hold_the_same_normals_plain_and_in_blocks)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 50)));
+    for (const std::string extension : {".dds", ".ktx2"}) {
+        const std::string plain = "plain" + extension, blocks = "blocks" + extension;
+        ASSERT_EQ(
+            runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "directx", "-o", plain}, folder.path())
+                .code,
+            0);
+        const ToolRun same = runTool({"map", "diff", "map.png", plain, "--to", "directx"}, folder.path());
+        EXPECT_NE(same.out.find("mean 0.000,"), std::string::npos) << same.out << same.err;
+        const ToolRun packed = runTool(
+            {"map", "convert", "map.png", "--from", "gltf", "--to", "directx", "--compress", "bc5", "-o", blocks},
+            folder.path());
+        EXPECT_NE(packed.out.find("bc5: tangent space, two channels"), std::string::npos) << packed.out;
+        const auto diff = reportOf(
+            runTool({"map", "diff", "map.png", blocks, "--to", "directx,orthographic", "--json", "-"}, folder.path()));
+        EXPECT_LT(diff["angles"]["mean_degrees"].get<double>(), 1.5) << diff; // steps of a seventh, waves of 25 texels
+        EXPECT_EQ(fs::file_size(folder / blocks), 13u * 13 * 16 + (extension == ".dds" ? 148 : 80 + 24 + 60 + 44));
+    }
+}
+
+TEST(MapCommand, mips_in_blocks_have_their_roughness_in_a_second_file)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    ASSERT_EQ(runTool({"map", "mips", "map.png", "-o", "level.png"}, folder.path()).code, 0);
+    for (const std::string extension : {".dds", ".ktx2"}) {
+        const ToolRun run =
+            runTool({"map", "mips", "map.png", "--compress", "bc5", "-o", "chain" + extension}, folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+        const auto grey = readImage(folder / ("chain_roughness" + extension)),
+                   file = readImage(folder / "level_roughness_0.png");
+        ASSERT_TRUE(grey && file);
+        for (std::size_t i = 0; i < 4 * grey->pixelCount(); i += 4)
+            EXPECT_NEAR(grey->bytes8()[i], file->bytes8()[i], 1);
+    }
+    // 32 to 1: blocks of 64 + 16 + 4 + 1 + 1 + 1.
+    EXPECT_EQ(fs::file_size(folder / "chain.dds"), 148u + 87 * 16);
+    EXPECT_EQ(fs::file_size(folder / "chain_roughness.dds"), 148u + 87 * 8);
+}
+
+TEST(MapCommand, what_textures_cannot_hold_is_refused_in_one_line)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--compress", "bc7", "-o", "x.dds"}, "--compress: bc7 is read and not written"},
+        {{"--compress", "bc1", "-o", "x.dds"}, "--compress: expected none or bc5; found 'bc1'"},
+        {{"--compress", "bc5", "-o", "x.png"}, "--compress: blocks are for .dds and .ktx2 files"},
+        {{"--bits", "16", "-o", "x.ktx2"}, "--bits: .ktx2 files are written with 8 bits"},
+        {{"--to", "gltf,slope", "--compress", "bc5", "-o", "x.ktx2"}, "--to: bc5 holds x and y"},
+        {{"--to", "gltf,signed", "-o", "x.ktx2"}, "--to: signed values"},
+        {{"--keep-lengths", "--compress", "bc5", "-o", "x.ktx2"}, "--keep-lengths: bc5"}};
+    for (const auto& [words, why] : cases) {
+        std::vector<std::string> all = {"map", "mips", "map.png"};
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun run = runTool(all, folder.path());
+        EXPECT_EQ(run.code, 1) << why;
+        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(folder / words.back()));
+    }
+}
+
 TEST(MapCommand, mips_come_as_a_dds_that_others_read_and_as_files)
 {
     TemporaryFolder folder;

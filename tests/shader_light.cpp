@@ -17,6 +17,8 @@ struct Lit {
     glm::dvec3 l;
     double x; // -1.5 to 1.5: a distance, a step's argument
     double y; // 0 to 1: a range, an exposure, also the occlusion
+    f64::cotan_coat c;
+    f64::cotan_gloss g;
 };
 
 using Numbers = std::array<double, 16>;
@@ -39,6 +41,10 @@ Lit litOf(const Numbers& v)
     lit.l = {v[3], v[4], v[5]};
     lit.x = v[11];
     lit.y = v[12];
+    lit.c = {lit.y, lit.s.roughness, lit.s.n};
+    lit.g = f64::cotan_gloss_of(std::abs(lit.x), lit.y, lit.s.base_color);
+    lit.g.anisotropy = lit.y;
+    lit.g.t = f64::cotan_direction_on_surface(lit.s.n, {1, lit.x, -lit.y}, lit.s.base_color, {lit.x, lit.y}, lit.s.n);
     return lit;
 }
 
@@ -48,7 +54,10 @@ constexpr char kLitText[] =
     "    cotan_surface s;\n"
     "    s.base_color = color;\n    s.metallic = material.x;\n    s.roughness = material.y;\n"
     "    s.occlusion = xy.y;\n    s.emissive = color;\n    s.n = n;\n    s.v = v;\n"
-    "    cotan_real x = xy.x;\n    cotan_real y = xy.y;\n    return ";
+    "    cotan_real x = xy.x;\n    cotan_real y = xy.y;\n"
+    "    cotan_coat c;\n    c.strength = xy.y;\n    c.roughness = material.y;\n    c.n = n;\n"
+    "    cotan_gloss g = cotan_gloss_of(abs(xy.x), xy.y, color);\n    g.anisotropy = xy.y;\n"
+    "    g.t = cotan_direction_on_surface(n, cotan_vec3(cotan_real(1.0), xy.x, -xy.y), color, xy, n);\n    return ";
 
 template<class Function> Case litCase(const std::string& label, const std::string& line, Function function)
 {
@@ -85,7 +94,9 @@ template<class Function> Case litCase(const std::string& label, const std::strin
         const cotan_surface& s = lit.s;                                                                                \
         const glm::dvec3 l = lit.l;                                                                                    \
         const double x = lit.x, y = lit.y;                                                                             \
-        (void)s, (void)l, (void)x, (void)y;                                                                            \
+        const cotan_coat& c = lit.c;                                                                                   \
+        const cotan_gloss& g = lit.g;                                                                                  \
+        (void)s, (void)l, (void)x, (void)y, (void)c, (void)g;                                                          \
         return __VA_ARGS__;                                                                                            \
     })
 
@@ -174,6 +185,23 @@ std::vector<Case> litCases()
     all.push_back(COTAN_LIT_CASE("reflect Blinn-Phong", cotan_reflect_blinn_phong(s, l)));
     all.push_back(COTAN_LIT_CASE("environment", cotan_environment(l, s.roughness)));
     all.push_back(COTAN_LIT_CASE("reflect environment", cotan_reflect_environment(s)));
+    all.push_back(COTAN_LIT_CASE(
+        "ggx, grazing, split sum",
+        cotan_vec3(cotan_ggx(s.n, s.v, l, s.roughness), cotan_grazing(y), cotan_split_sum(y, s.roughness).y)));
+    all.push_back(
+        COTAN_LIT_CASE("ggx stretched", cotan_vec3(cotan_ggx_stretched(s.n, s.v, l, s.roughness, y, g.t), y, y)));
+    all.push_back(COTAN_LIT_CASE("gloss", cotan_gloss_of(abs(x), y, s.base_color).f0));
+    all.push_back(COTAN_LIT_CASE(
+        "direction",
+        cotan_direction_on_surface(s.n, cotan_vec3(cotan_real(1.0), x, -y), s.base_color, cotan_vec2(x, y), s.n)));
+    all.push_back(COTAN_LIT_CASE("reflect highlight", cotan_reflect_highlight(s, l, s.base_color, y, cotan_real(2.0))));
+    all.push_back(COTAN_LIT_CASE("reflect glossy", cotan_reflect_glossy(s, g, l)));
+    all.push_back(
+        COTAN_LIT_CASE("bent normal, mirrored", cotan_mirrored(cotan_bent_normal(s.n, s.v, s.roughness, y, g.t), s.v)));
+    all.push_back(COTAN_LIT_CASE("environment at", cotan_reflect_environment_at(s, l, s.base_color, y)));
+    all.push_back(COTAN_LIT_CASE("environment glossy", cotan_reflect_environment_glossy(s, g)));
+    all.push_back(COTAN_LIT_CASE("coat", cotan_vec3(cotan_coat_share(c, s.v), cotan_reflect_coat(c, s.v, l), y)));
+    all.push_back(COTAN_LIT_CASE("coat environment", cotan_reflect_coat_environment(c, s.v)));
     all.push_back(COTAN_LIT_CASE("falloff",
                                  cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)),
                                             cotan_light_falloff(y, cotan_real(0.0)))));

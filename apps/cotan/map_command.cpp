@@ -10,6 +10,11 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
     command.option("--bits", options.bits, "bits per component: auto" + help + ", 8, 16, half (.exr) or float");
 }
 
+void addCompress(Arguments& command, std::string& compress)
+{
+    command.option("--compress", compress, "for .dds and .ktx2: none, or bc5: x and y in blocks, a byte a texel");
+}
+
 void addDither(Arguments& command, bool& dither)
 {
     command.flag("--dither", dither, "add noise of half a step before rounding; it is the same on every run");

@@ -13,7 +13,7 @@ struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
     bool normalise = false, dither = false;
-    std::string mesh, frame = "smooth", tangents = "stored";
+    std::string mesh, frame = "smooth", tangents = "stored", compress = "none";
     int material = -1;
 };
 
@@ -25,9 +25,11 @@ Status run(const MapConvertCommandOptions& o)
     const auto& [from, to] = *conventions;
     if (Status given = needOutput(o, "convert"); !given)
         return given;
+    const bool blocks = o.compress != "none";
     maps::ConvertFileOptions options{.from = from,
                                      .to = to,
                                      .bits = o.bits,
+                                     .compress = o.compress,
                                      .strength = float(o.strength),
                                      .normalise = o.normalise,
                                      .dither = o.dither,
@@ -52,16 +54,20 @@ Status run(const MapConvertCommandOptions& o)
         warn(o, "{}: {} texels are no direction; written as flat", o.file, done->counts.invalid);
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
-    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(to));
+    Convention stored = to;
+    if (blocks && to.channels == Channels::xyz)
+        stored.channels = Channels::orthographic;
+    const std::string bits = blocks ? o.compress : bitsName(done->bits);
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(stored));
     return writeReport(o,
                        {{"command", "map convert"},
                         {"file", o.file},
                         {"output", o.output.string()},
                         {"from", describe(from)},
-                        {"to", describe(to)},
+                        {"to", describe(stored)},
                         {"width", done->width},
                         {"height", done->height},
-                        {"bits", bitsName(done->bits)},
+                        {"bits", bits},
                         {"invalid", done->counts.invalid},
                         {"clamped", done->counts.clamped}});
 }
@@ -76,6 +82,7 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents");
     a.flag("--normalise", o.normalise,
            "make every vector of unit length; without this, vectors of three channels keep their lengths");
+    addCompress(a, o.compress);
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE");
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map");
@@ -92,7 +99,7 @@ void addMapConvert(Arguments& map)
         map,
         {"convert",
          "store the same directions another way",
-         "the new map: .png .exr .tif .tga .jpg .hdr",
+         "the new map: .png .exr .tif .tga .jpg .hdr .dds .ktx2",
          {"cotan map convert rocks.png --from directx --to gltf -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},
         declare, run);

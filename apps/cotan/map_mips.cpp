@@ -11,7 +11,7 @@ namespace cotan::app {
 namespace {
 
 struct MapMipsCommandOptions : MapOptions {
-    std::string file, from = "gltf", to, model = "lean";
+    std::string file, from = "gltf", to, model = "lean", compress = "none";
     double roughness = 0.3;
     bool keepLengths = false;
 };
@@ -33,7 +33,7 @@ Status run(const MapMipsCommandOptions& o)
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const maps::MipFileOptions options{from, to, *model, o.roughness, o.keepLengths, o.bits, plan};
+    const maps::MipFileOptions options{from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
     const auto chain = onFiles(o, "filtering levels", [&](const maps::FileOptions& files) {
         return maps::writeMips(o.file, o.output, options, files);
     });
@@ -69,6 +69,7 @@ void declare(Arguments& a, MapMipsCommandOptions& o)
     a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean");
     a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths");
     addBits(a, o, " (as the map)");
+    addCompress(a, o.compress);
 }
 
 } // namespace
@@ -79,8 +80,11 @@ void addMapMips(Arguments& map)
         map,
         {"mips",
          "mip levels, filtered as vectors, and the roughness that each needs",
-         "OUT.dds (all levels, roughness in alpha), or OUT.png and others: OUT_0.png, OUT_roughness_0.png, ...",
-         {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
+         "OUT.dds or OUT.ktx2 (all levels, roughness in alpha, or with bc5 in OUT_roughness.dds), or OUT.png and "
+         "others: "
+         "OUT_0.png, OUT_roughness_0.png, ...",
+         {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --compress bc5 -o rocks.ktx2",
+          "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
         declare, run);
 }
 

@@ -19,6 +19,7 @@ struct MapOptions : CommonOptions {
 
 // The options that they share besides those of all commands.
 void addBits(Arguments& command, MapOptions& options, const std::string& help);
+void addCompress(Arguments& command, std::string& compress);
 void addDither(Arguments& command, bool& dither);
 
 // conventionFromWords with the option in front of its message.

@@ -79,23 +79,25 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_re
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
 }
 
-COTAN_FUNCTION cotan_vec3 cotan_mirrored(cotan_vec3 n, cotan_vec3 v)
+// What a surface reflects of its surroundings. dielectric, f90: what a dielectric reflects, facing and grazing.
+// irradiance: tile 9 along n. radiance: along cotan_mirrored, between the two tiles of the roughness. albedo: tile 10.
+// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light. Rough
+// metals lose what light that bounces more than once would bring.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
+    cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
-    return n * (cotan_real(2.0) * dot(n, v)) - v;
+    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
+    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
+    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic));
+    cotan_vec3 below = one - (dielectric * albedo.x + one * (albedo.y * f90));
+    cotan_vec3 diffuse = s.base_color * below * (cotan_real(1.0) - s.metallic);
+    return (irradiance * diffuse + radiance * specular) * s.occlusion;
 }
 
-// What a surface reflects of its surroundings. irradiance: tile 9 along n. radiance: along cotan_mirrored, between
-// the two tiles of the roughness. albedo: tile 10. What is not reflected at the surface is scattered below it, so that
-// a white dielectric reflects all light. Rough metals lose what light that bounces more than once would bring.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 irradiance, cotan_vec3 radiance,
-    cotan_vec2 albedo)
+// What a coat reflects of its surroundings. radiance, albedo: as above, for its normal and roughness.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_coat_image(cotan_coat c, cotan_vec3 radiance, cotan_vec2 albedo)
 {
-    cotan_real four = cotan_real(0.04);
-    cotan_vec3 f0 = cotan_mix(cotan_vec3(four, four, four), s.base_color, s.metallic);
-    cotan_vec3 specular = f0 * albedo.x + cotan_vec3(albedo.y, albedo.y, albedo.y);
-    cotan_real below = cotan_real(1.0) - (four * albedo.x + albedo.y);
-    cotan_vec3 diffuse = s.base_color * ((cotan_real(1.0) - s.metallic) * below);
-    return (irradiance * diffuse + radiance * specular) * s.occlusion;
+    return radiance * (c.strength * (cotan_real(0.04) * albedo.x + albedo.y));
 }
 
 #endif

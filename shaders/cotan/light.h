@@ -1,9 +1,10 @@
-// Cotan portable text: lighting. Include lang.h first.
+// Cotan portable text: lighting. Include lang.h and frame.h first.
 //
 // Small, standard and the same on the GPU and in the reference renderer: ambient + diffuse +
-// Blinn-Phong, and GGX metallic-roughness, with a soft procedural environment. All colours are
-// linear. n, l, v are unit vectors in one space (world, y up, for the environment): normal, to
-// the light, to the eye.
+// Blinn-Phong, and GGX metallic-roughness, with a soft procedural environment; over it glTF's clear
+// coat, and highlights that are stretched or have another strength and colour. All colours are
+// linear. n, l, v are unit vectors in one space (world, y up, for the environment): normal, to the
+// light, to the eye.
 
 #ifndef COTAN_LIGHT_H
 #define COTAN_LIGHT_H
@@ -38,37 +39,159 @@ COTAN_FUNCTION cotan_vec3 cotan_half_vector(cotan_vec3 l, cotan_vec3 v)
     return h * cotan_inversesqrt(max(dot(h, h), cotan_real(1e-12)));
 }
 
-// Reflected and specular light of one light, for unit irradiance perpendicular to l.
-// Lambert diffuse; Smith-correlated GGX with Schlick's Fresnel term, as the glTF 2.0 appendix B
-// defines metallic-roughness. n.v counts by its magnitude, as 1e-4 at least. Float keeps 1e-3 of the
-// value at every roughness and angle.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_pbr(cotan_surface s, cotan_vec3 l)
+// What is left of Schlick's Fresnel term: (1 - cosine)^5. cosine: [0,1].
+COTAN_FUNCTION cotan_real cotan_grazing(cotan_real cosine)
 {
-    cotan_real nl = cotan_saturate(dot(s.n, l));
-    cotan_real nv = max(abs(dot(s.n, s.v)), cotan_real(1e-4));
-    cotan_vec3 h = cotan_half_vector(l, s.v);
-    cotan_real nh = cotan_saturate(dot(s.n, h));
-    cotan_real vh = cotan_saturate(dot(s.v, h));
-    cotan_real roughness = max(s.roughness, cotan_real(0.045));
-    cotan_real alpha2 = roughness * roughness * roughness * roughness;
-    // 1 - nh^2 + nh^2 alpha2. The difference is the squared sine: from the cross product it keeps its
-    // digits in a highlight, where the two terms meet and floats would lose a fifth of a mirror's.
-    cotan_vec3 nxh = cross(s.n, h);
+    cotan_real grazing = cotan_real(1.0) - cosine;
+    return grazing * grazing * grazing * grazing * grazing;
+}
+
+// A GGX highlight without its Fresnel term: distribution times Smith-correlated visibility.
+// roughness: perceptual. n.v counts by its magnitude, as 1e-4 at least. Float keeps 1e-3 of the
+// value at every roughness and angle.
+COTAN_FUNCTION cotan_real cotan_ggx(
+    cotan_vec3 n, cotan_vec3 v, cotan_vec3 l, cotan_real roughness)
+{
+    cotan_real nl = cotan_saturate(dot(n, l));
+    cotan_real nv = max(abs(dot(n, v)), cotan_real(1e-4));
+    cotan_vec3 h = cotan_half_vector(l, v);
+    cotan_real nh = cotan_saturate(dot(n, h));
+    cotan_real rough = max(roughness, cotan_real(0.045));
+    cotan_real alpha2 = rough * rough * rough * rough;
+    // 1 - nh^2 + nh^2 alpha2. The difference is the squared sine: from the cross product it keeps
+    // its digits in a highlight, where the two terms meet and floats would lose a fifth of a mirror's.
+    cotan_vec3 nxh = cross(n, h);
     cotan_real sine2 = nh > cotan_real(0.0) ? dot(nxh, nxh) : cotan_real(1.0);
     cotan_real d = sine2 + nh * nh * alpha2;
     cotan_real distribution = alpha2 / (COTAN_PI * d * d);
     cotan_real smith_l = nl * sqrt((nv - nv * alpha2) * nv + alpha2);
     cotan_real smith_v = nv * sqrt((nl - nl * alpha2) * nl + alpha2);
     cotan_real visibility = cotan_real(0.5) / (smith_l + smith_v); // nv and alpha2 are not zero
-    cotan_real grazing = cotan_real(1.0) - vh;
-    cotan_real grazing5 = grazing * grazing * grazing * grazing * grazing;
-    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
+    return distribution * visibility;
+}
+
+// As cotan_ggx, but rougher along t than across it (KHR_materials_anisotropy): alpha is the square
+// of roughness across, and alpha + (1 - alpha) strength^2 along. t: unit, perpendicular to n; its
+// sign does not matter. strength: [0,1].
+COTAN_FUNCTION cotan_real cotan_ggx_stretched(cotan_vec3 n, cotan_vec3 v, cotan_vec3 l,
+    cotan_real roughness, cotan_real strength, cotan_vec3 t)
+{
+    cotan_vec3 b = cross(n, t);
+    cotan_real nl = cotan_saturate(dot(n, l));
+    cotan_real nv = max(abs(dot(n, v)), cotan_real(1e-4));
+    cotan_vec3 h = cotan_half_vector(l, v);
+    cotan_real nh = cotan_saturate(dot(n, h));
+    cotan_real rough = max(roughness, cotan_real(0.045));
+    cotan_real across = rough * rough;
+    cotan_real along = cotan_mix(across, cotan_real(1.0), strength * strength);
+    cotan_vec3 slope = cotan_vec3(dot(t, h) * across, dot(b, h) * along, nh * (along * across));
+    cotan_real w = (along * across) / max(dot(slope, slope), cotan_real(1e-30));
+    cotan_real distribution =
+        nh > cotan_real(0.0) ? along * across * w * w / COTAN_PI : cotan_real(0.0);
+    cotan_vec3 seen = cotan_vec3(dot(t, v) * along, dot(b, v) * across, nv);
+    cotan_vec3 reached = cotan_vec3(dot(t, l) * along, dot(b, l) * across, nl);
+    cotan_real smith = nl * sqrt(dot(seen, seen)) + nv * sqrt(dot(reached, reached));
+    return distribution * (cotan_real(0.5) / max(smith, cotan_real(1e-12)));
+}
+
+// What a material says of its reflections beyond metallic-roughness.
+struct cotan_gloss {
+    cotan_vec3 f0;         // of a dielectric, facing: 0.04 for an index of refraction of 1.5
+    cotan_real f90;        // of a dielectric, grazing
+    cotan_real anisotropy; // [0,1]; 0: as round as ever
+    cotan_vec3 t;          // along it the highlight is stretched: unit, perpendicular to n
+};
+
+// f0 and f90 of KHR_materials_ior and KHR_materials_specular; no anisotropy. ior 0: reflects all.
+COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, cotan_vec3 color)
+{
+    cotan_real ratio = (ior - cotan_real(1.0)) / (ior + cotan_real(1.0));
+    cotan_vec3 f0 = color * (ratio * ratio);
+    cotan_gloss g;
+    g.f0 = cotan_vec3(min(f0.x, cotan_real(1.0)), min(f0.y, cotan_real(1.0)),
+        min(f0.z, cotan_real(1.0))) * strength;
+    g.f90 = strength;
+    g.anisotropy = cotan_real(0.0);
+    g.t = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    return g;
+}
+
+// The unit direction on a surface that a frame and a direction in its texture coordinates say:
+// along u where they say (1, 0), whether t and b are tangents or gradients, which are perpendicular
+// to the other one's tangent; along v, at right angles to u, for (0, 1). Zero where the frame is
+// degenerate.
+// smooth_n: the frame's normal. n: the perturbed one, to which the result is perpendicular.
+COTAN_FUNCTION cotan_vec3 cotan_direction_on_surface(
+    cotan_vec3 smooth_n, cotan_vec3 t, cotan_vec3 b, cotan_vec2 direction, cotan_vec3 n)
+{
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    cotan_vec3 u = cotan_normalize_or(cross(b, smooth_n), zero);
+    cotan_vec3 across = cross(smooth_n, u); // on b's side
+    cotan_real along = dot(u, t) < cotan_real(0.0) ? -direction.x : direction.x; // mirrored uv
+    cotan_vec3 d = u * along + across * direction.y;
+    return cotan_normalize_or(d - n * dot(n, d), zero);
+}
+
+// Lambert diffuse and one highlight, as the glTF 2.0 appendix B mixes them, for unit irradiance
+// perpendicular to l. dielectric, f90: what a dielectric reflects, facing and grazing. highlight:
+// without its Fresnel term.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_highlight(
+    cotan_surface s, cotan_vec3 l, cotan_vec3 dielectric, cotan_real f90, cotan_real highlight)
+{
+    cotan_real nl = cotan_saturate(dot(s.n, l));
+    cotan_real grazing5 = cotan_grazing(cotan_saturate(dot(s.v, cotan_half_vector(l, s.v))));
     cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
+    cotan_real edge = cotan_mix(f90, cotan_real(1.0), s.metallic);
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
-    cotan_vec3 fresnel = f0 + (one - f0) * grazing5;
+    cotan_vec3 fresnel = f0 + (one * edge - f0) * grazing5;
     cotan_vec3 diffuse = (one - fresnel) * s.base_color
         * ((cotan_real(1.0) - s.metallic) / COTAN_PI);
-    return (diffuse + fresnel * (distribution * visibility)) * nl;
+    return (diffuse + fresnel * highlight) * nl;
+}
+
+// Reflected and specular light of one light, for unit irradiance perpendicular to l.
+// Lambert diffuse; Smith-correlated GGX with Schlick's Fresnel term, as the glTF 2.0 appendix B
+// defines metallic-roughness. Precision: see cotan_ggx.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_pbr(cotan_surface s, cotan_vec3 l)
+{
+    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
+    return cotan_reflect_highlight(
+        s, l, dielectric, cotan_real(1.0), cotan_ggx(s.n, s.v, l, s.roughness));
+}
+
+// As cotan_reflect_pbr, with reflections of its own.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_glossy(cotan_surface s, cotan_gloss g, cotan_vec3 l)
+{
+    cotan_real even = cotan_ggx(s.n, s.v, l, s.roughness);
+    cotan_real stretched = cotan_ggx_stretched(s.n, s.v, l, s.roughness, g.anisotropy, g.t);
+    return cotan_reflect_highlight(
+        s, l, g.f0, g.f90, g.anisotropy > cotan_real(0.0) ? stretched : even);
+}
+
+// A clear layer over the surface (KHR_materials_clearcoat), of index of refraction 1.5: it reflects
+// as cotan_reflect_coat and cotan_reflect_coat_environment say, and of all that comes from beneath,
+// emission too, it shows 1 - cotan_coat_share.
+struct cotan_coat {
+    cotan_real strength;  // [0,1]: how much of the surface it covers
+    cotan_real roughness; // perceptual, [0,1]
+    cotan_vec3 n;         // its own normal, unit
+};
+
+// Schlick's Fresnel term at n.v, as the extension has it.
+COTAN_FUNCTION cotan_real cotan_coat_share(cotan_coat c, cotan_vec3 v)
+{
+    cotan_real grazing5 = cotan_grazing(cotan_saturate(abs(dot(c.n, v))));
+    return c.strength * (cotan_real(0.04) + cotan_real(0.96) * grazing5);
+}
+
+// The coat's highlight of one light, of unit irradiance perpendicular to l. Its Fresnel term is that
+// of the half vector, so that light and eye may change places.
+COTAN_FUNCTION cotan_real cotan_reflect_coat(cotan_coat c, cotan_vec3 v, cotan_vec3 l)
+{
+    cotan_real nl = cotan_saturate(dot(c.n, l));
+    cotan_real grazing5 = cotan_grazing(cotan_saturate(dot(v, cotan_half_vector(l, v))));
+    cotan_real fresnel = cotan_real(0.04) + cotan_real(0.96) * grazing5;
+    return c.strength * (fresnel * cotan_ggx(c.n, v, l, c.roughness) * nl);
 }
 
 // Lambert diffuse and Blinn-Phong specular, for unit irradiance. The exponent is derived from
@@ -110,26 +233,74 @@ COTAN_FUNCTION cotan_vec3 cotan_environment(cotan_vec3 direction, cotan_real blu
     return radiance + cotan_vec3(strength, strength, strength) * lit;
 }
 
-// Ambient light and reflections from the environment. The split-sum factor is Lazarov's analytic
-// fit (B. Karis, Physically Based Shading on Mobile, 2014).
-COTAN_FUNCTION cotan_vec3 cotan_reflect_environment(cotan_surface s)
+// What a highlight reflects of an even environment: x times f0, plus y times f90. Lazarov's
+// analytic fit (B. Karis, Physically Based Shading on Mobile, 2014).
+COTAN_FUNCTION cotan_vec2 cotan_split_sum(cotan_real nv, cotan_real roughness)
 {
-    cotan_real nv = cotan_saturate(dot(s.n, s.v));
-    cotan_vec3 r = s.n * (cotan_real(2.0) * dot(s.n, s.v)) - s.v;
-    cotan_real a = cotan_real(1.0) - s.roughness;
+    cotan_real a = cotan_real(1.0) - roughness;
     cotan_real a004 = min(a * a, exp2(cotan_real(-9.28) * nv)) * a
-        + (cotan_real(0.0425) - cotan_real(0.0275) * s.roughness);
+        + (cotan_real(0.0425) - cotan_real(0.0275) * roughness);
     cotan_real scale = cotan_real(-1.04) * a004
-        + (cotan_real(1.04) - cotan_real(0.572) * s.roughness);
+        + (cotan_real(1.04) - cotan_real(0.572) * roughness);
     cotan_real bias = cotan_real(1.04) * a004
-        + (cotan_real(0.022) * s.roughness - cotan_real(0.04));
-    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
+        + (cotan_real(0.022) * roughness - cotan_real(0.04));
+    return cotan_vec2(scale, bias);
+}
+
+// Where a mirror with normal n shows v what is. Both unit.
+COTAN_FUNCTION cotan_vec3 cotan_mirrored(cotan_vec3 n, cotan_vec3 v)
+{
+    return n * (cotan_real(2.0) * dot(n, v)) - v;
+}
+
+// Ambient light and reflections from the environment in direction r. f0, f90: of a dielectric.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_at(
+    cotan_surface s, cotan_vec3 r, cotan_vec3 dielectric, cotan_real f90)
+{
+    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(s.n, s.v)), s.roughness);
     cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_vec3 specular = f0 * scale + cotan_vec3(bias, bias, bias);
+    cotan_real bias = share.y * cotan_mix(f90, cotan_real(1.0), s.metallic);
+    cotan_vec3 specular = f0 * share.x + cotan_vec3(bias, bias, bias);
     cotan_vec3 diffuse = s.base_color * (cotan_real(1.0) - s.metallic);
     cotan_vec3 ambient = cotan_environment(s.n, cotan_real(1.0)) * diffuse
         + cotan_environment(r, s.roughness) * specular;
     return ambient * s.occlusion;
+}
+
+// Ambient light and reflections from the environment.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_environment(cotan_surface s)
+{
+    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
+    return cotan_reflect_environment_at(
+        s, cotan_mirrored(s.n, s.v), dielectric, cotan_real(1.0));
+}
+
+// The normal that a stretched highlight reflects the environment with: n bent towards the eye, in
+// the plane across t that holds what the stretched lobe gathers (KHR_materials_anisotropy).
+COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
+    cotan_vec3 n, cotan_vec3 v, cotan_real roughness, cotan_real strength, cotan_vec3 t)
+{
+    cotan_vec3 b = cross(n, t);
+    cotan_vec3 bent = cotan_normalize_or(cross(cross(b, v), b), n);
+    cotan_real keep = cotan_real(1.0) - strength * (cotan_real(1.0) - roughness);
+    cotan_real keep2 = keep * keep;
+    return cotan_normalize_or(cotan_mix(bent, n, keep2 * keep2), n);
+}
+
+// As cotan_reflect_environment, with reflections of its own.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cotan_gloss g)
+{
+    cotan_vec3 bent = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
+    cotan_vec3 n = g.anisotropy > cotan_real(0.0) ? bent : s.n;
+    return cotan_reflect_environment_at(s, cotan_mirrored(n, s.v), g.f0, g.f90);
+}
+
+// What the coat reflects of the environment.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_coat_environment(cotan_coat c, cotan_vec3 v)
+{
+    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(c.n, v)), c.roughness);
+    return cotan_environment(cotan_mirrored(c.n, v), c.roughness)
+        * (c.strength * (cotan_real(0.04) * share.x + share.y));
 }
 
 // Falloff of a point or spot light at distance d: 1/d^2, windowed to reach zero at `range`

@@ -6,6 +6,7 @@
 
 #include "cotan/convert/map_jobs.hpp"
 #include "cotan/gltf/tangents.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 
 namespace cotan {
@@ -64,9 +65,10 @@ private:
         const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
         if (!bytes)
             return bytes.error();
-        const auto map = decodeImage(*bytes, field, options_.limits);
+        auto map = decodeImage(*bytes, field, options_.limits);
         if (!map)
             return map.error();
+        completeNormals(*map);
         ConvertedMap done{job.image, job.name, job.uses.size(), map->width, map->height};
         done.alsoElsewhere = job.alsoElsewhere;
         done.bytesBefore = done.bytesAfter = bytes->size();

@@ -26,21 +26,30 @@ bool readElsewhere(const Json& root, std::size_t image)
     });
 }
 
-// Takes the images that extensions name in place of a texture's source.
-void dropOtherForms(Json& texture, std::size_t index, std::vector<std::string>& notes)
+// Makes the image, which is a PNG now, a texture's own, and takes those that extensions name in its place.
+void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vector<std::string>& notes)
 {
+    Json& texture = root["textures"][index];
+    texture["source"] = image;
     if (!texture.contains("extensions") || !texture["extensions"].is_object())
         return;
     Json kept = Json::object();
+    std::vector<std::string> dropped;
     for (const auto& [name, value] : texture["extensions"].items())
-        if (value.is_object() && value.contains("source"))
-            notes.push_back(fmt::format("textures[{}]: {} taken out, its image is not converted", index, name));
-        else
+        if (!value.is_object() || !value.contains("source")) {
             kept[name] = value;
+        } else {
+            dropped.push_back(name);
+            if (value["source"] != image)
+                notes.push_back(fmt::format("textures[{}]: {} taken out, its image is not converted", index, name));
+        }
     if (kept.empty())
         texture.erase("extensions");
     else
         texture["extensions"] = std::move(kept);
+    for (const std::string& name : dropped)
+        if (std::ranges::none_of(root["textures"], [&](const Json& t) { return gltf::extension(t, name); }))
+            takeOffExtension(root, name);
 }
 
 // One primitive with one of its materials, added to the job of that material's normal map.
@@ -54,7 +63,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
     if (map.texture < 0)
         return Done{};
     if (foreign) {
-        notes.push_back(primitiveField(m, p) + ": its normal map is neither PNG nor JPEG; left as it is");
+        notes.push_back(primitiveField(m, p) + ": its normal map is in a format that is not read here; left as it is");
         return Done{};
     }
     auto geometry = gltfGeometry(document, m, p);
@@ -144,7 +153,7 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
         replaceGltfImage(document, job.image, std::move(png), "image/png");
         for (std::size_t t = 0; t < countOf(document.root, "textures"); ++t) {
             if (textureAt(document.root, int(t)).image == int(job.image))
-                dropOtherForms(document.root["textures"][t], t, notes);
+                dropOtherForms(document.root, t, job.image, notes);
         }
         return;
     }

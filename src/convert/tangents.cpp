@@ -17,7 +17,7 @@ namespace {
 std::string whyTangentsStay(const Json& root, std::size_t material, bool foreign)
 {
     if (foreign)
-        return "its normal map, neither PNG nor JPEG,";
+        return "its normal map, in a format that is not read here,";
     const std::string reader = gltf::tangentReader(root["materials"][material]);
     return reader.empty() ? reader : reader + " reads tangents and";
 }

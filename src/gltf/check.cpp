@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 namespace {
 
@@ -212,16 +212,12 @@ constexpr std::array kSupported{
     string_view("KHR_lights_punctual"),        string_view("KHR_materials_emissive_strength"),
     string_view("KHR_mesh_quantization"),      string_view("EXT_mesh_gpu_instancing"),
     string_view("KHR_draco_mesh_compression"), string_view("EXT_meshopt_compression"),
-    string_view("KHR_meshopt_compression"),
+    string_view("KHR_meshopt_compression"),    string_view("KHR_materials_clearcoat"),
+    string_view("KHR_materials_anisotropy"),
 };
 
-// These put an image of another format in the place of a texture's; they matter to who needs the pixels.
-constexpr std::array kImageFormats{
-    string_view("KHR_texture_basisu"),
-    string_view("EXT_texture_webp"),
-    string_view("EXT_texture_avif"),
-    string_view("MSFT_texture_dds"),
-};
+// The same in a format that is not read; it matters to who needs the pixels.
+constexpr string_view kUnreadImages = "EXT_texture_avif";
 
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
 // can be drawn without them, if that is said. Any other unknown extension may change what the
@@ -235,8 +231,8 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
         for (std::size_t i = 0; names && i < names->size(); ++i) {
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const bool known = std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
-            const bool image = std::find(kImageFormats.begin(), kImageFormats.end(), name) != kImageFormats.end();
+            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != all.end(); };
+            const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = name == kUnreadImages;
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));

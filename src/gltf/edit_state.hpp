@@ -16,7 +16,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 struct GltfSource {
     std::filesystem::path path;

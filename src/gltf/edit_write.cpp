@@ -79,12 +79,11 @@ std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file
 // Empty: no picture that glTF knows.
 std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
-    const std::string foreign = foreignFormat(bytes);
-    return isPng(bytes)     ? "image/png"
-        : isJpeg(bytes)     ? "image/jpeg"
-        : foreign == "WebP" ? "image/webp"
-        : foreign == "KTX2" ? "image/ktx2"
-                            : "";
+    static const std::map<std::string, std::string> kTypes = {{"PNG", "image/png"},   {"JPEG", "image/jpeg"},
+                                                              {"WebP", "image/webp"}, {"KTX2", "image/ktx2"},
+                                                              {"AVIF", "image/avif"}, {"DDS", "image/vnd-ms.dds"}};
+    const auto found = kTypes.find(pictureFormat(bytes));
+    return found == kTypes.end() ? "" : found->second;
 }
 
 // An image file used twice is embedded once.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cotan/files/bytes.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "material.hpp"
@@ -52,7 +53,7 @@ std::vector<std::byte> readImageFile(const GltfFile& model, const fs::path& file
     return std::move(*bytes);
 }
 
-// glTF allows PNG and JPEG alone; the many other formats that the image library can read are kept
+// What glTF and its extensions allow; the many other formats that the image library can read are kept
 // away from data that come with a model. foreign: set to the format of an image that stays without pixels.
 Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
@@ -68,11 +69,11 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
         image.name = fmt::format("{} ({})", source.name, foreign);
         return image;
     }
-    if (!isPng(source.bytes) && !isJpeg(source.bytes))
+    if (pictureFormat(source.bytes).empty())
         failGltf("expected PNG or JPEG data in {}", source.name);
     Result<Image> image = decodeImage(source.bytes, source.name, limits);
     if (!image)
-        throw GltfProblem{image.error().message};
+        throw GltfProblem{image.error().message, image.error().kind};
     return std::move(*image);
 }
 
@@ -112,7 +113,8 @@ void GltfMaterials::decodeImages()
     if (model_.limits.pixels == Pixels::none)
         return;
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
-    std::vector<std::string> problems(jobs.size()), foreign(jobs.size());
+    std::vector<GltfProblem> problems(jobs.size());
+    std::vector<std::string> foreign(jobs.size());
     Budget budget(model_.limits);
     const auto decodeOne = [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
@@ -121,15 +123,18 @@ void GltfMaterials::decodeImages()
             budget.take(decoded.data.size());
             scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
-            problems[i] = imageField(image) + ": " + problem.message;
+            problems[i] = {imageField(image) + ": " + problem.message, problem.kind};
         }
     };
     // What is not ours may not like threads.
     const bool ours = !model_.limits.decode && !model_.file.readFile;
     withThreads(ours ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
-    for (const std::string& problem : problems) // the first in the file, whichever came first
-        if (!problem.empty())
-            throw GltfProblem{problem};
+    for (const GltfProblem& problem : problems) // the first in the file, whichever came first
+        if (!problem.message.empty())
+            throw problem;
+    for (const Material& material : scene_.materials)
+        if (material.normalMap.image >= 0)
+            completeNormals(scene_.images[std::size_t(material.normalMap.image)]);
     for (std::size_t i = 0; i < jobs.size(); ++i)
         if (!foreign[i].empty())
             model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
@@ -156,8 +161,7 @@ void lookAt(const GltfModel& model, int image, bool used)
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
         failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
-    if (used && !source.bytes.empty() && !isPng(source.bytes) && !isJpeg(source.bytes)
-        && foreignFormat(source.bytes).empty())
+    if (used && !source.bytes.empty() && pictureFormat(source.bytes).empty())
         failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
 }
 

@@ -6,7 +6,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 namespace {
 
@@ -81,6 +81,19 @@ std::set<std::size_t> texturesBesideNormalMap(const Json& material)
     std::set<std::size_t> textures;
     collectTextures(material, /*top*/ true, textures);
     return textures;
+}
+
+void takeOffExtension(Json& root, const std::string& name)
+{
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"}) {
+        const auto names = root.find(list);
+        if (names == root.end())
+            continue;
+        auto& items = names->get_ref<Json::array_t&>();
+        std::erase(items, name);
+        if (items.empty())
+            root.erase(list);
+    }
 }
 
 } // namespace cotan

@@ -66,6 +66,14 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
     material.normalMap = map(source.normal, "normalTexture");
     material.occlusionMap = map(source.occlusion, "occlusionTexture");
     material.emissiveMap = map(source.emissive, "emissiveTexture");
+    // Layers that are not there need no pictures.
+    if (material.coat.strength > 0) {
+        material.coat.map = map(source.coat, "clearcoatTexture");
+        material.coat.roughnessMap = map(source.coatRoughness, "clearcoatRoughnessTexture");
+        material.coat.normalMap = map(source.coatNormal, "clearcoatNormalTexture");
+    }
+    if (material.anisotropy.strength > 0)
+        material.anisotropy.map = map(source.anisotropy, "anisotropyTexture");
     return material;
 }
 

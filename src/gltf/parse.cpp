@@ -8,7 +8,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 namespace {
 

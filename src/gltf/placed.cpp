@@ -10,7 +10,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
 {

@@ -187,8 +187,14 @@ inline constexpr std::array kRoughness{numbers("baseColorFactor", 4), object("ba
                                        number("metallicFactor"), number("roughnessFactor"),
                                        object("metallicRoughnessTexture", kTextureInfo)};
 inline constexpr std::array kStrength{number("emissiveStrength", 0, kBrightest)};
-inline constexpr std::array kMaterialExtensions{object("KHR_materials_emissive_strength", kStrength),
-                                                object("KHR_materials_unlit", {})};
+inline constexpr std::array kCoat{number("clearcoatFactor"), object("clearcoatTexture", kTextureInfo),
+                                  number("clearcoatRoughnessFactor"), object("clearcoatRoughnessTexture", kTextureInfo),
+                                  object("clearcoatNormalTexture", kTextureInfo)};
+inline constexpr std::array kAnisotropy{number("anisotropyStrength"), number("anisotropyRotation"),
+                                        object("anisotropyTexture", kTextureInfo)};
+inline constexpr std::array kMaterialExtensions{
+    object("KHR_materials_emissive_strength", kStrength), object("KHR_materials_unlit", {}),
+    object("KHR_materials_clearcoat", kCoat), object("KHR_materials_anisotropy", kAnisotropy)};
 inline constexpr std::array kMaterial{text("name"),
                                       object("pbrMetallicRoughness", kRoughness),
                                       object("normalTexture", kTextureInfo),

@@ -17,17 +17,35 @@ float numberOf(const Json& object, std::string_view name, double otherwise)
 
 float unitRange(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
 
+void readCoat(const Json& coat, MaterialSource& read)
+{
+    Coat& c = read.factors.coat;
+    c.strength = unitRange(valueOr(coat, "clearcoatFactor", 0.0));
+    c.roughness = unitRange(valueOr(coat, "clearcoatRoughnessFactor", 0.0));
+    read.coat = readTextureUse(&coat, "clearcoatTexture");
+    read.coatRoughness = readTextureUse(&coat, "clearcoatRoughnessTexture");
+    read.coatNormal = readTextureUse(&coat, "clearcoatNormalTexture");
+    c.normalScale = static_cast<float>(read.coatNormal.scale);
+}
+
+void readAnisotropy(const Json& anisotropy, MaterialSource& read)
+{
+    read.factors.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
+    read.factors.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
+    read.anisotropy = readTextureUse(&anisotropy, "anisotropyTexture");
+}
+
 MaterialSource readMaterial(const Json& source)
 {
     const Json none = Json::object();
     const Json* const found = member(source, "pbrMetallicRoughness");
     const Json& pbr = found ? *found : none;
-    MaterialSource read{{},
-                        readTextureUse(&pbr, "baseColorTexture"),
-                        readTextureUse(&pbr, "metallicRoughnessTexture"),
-                        readTextureUse(&source, "normalTexture"),
-                        readTextureUse(&source, "occlusionTexture"),
-                        readTextureUse(&source, "emissiveTexture")};
+    MaterialSource read;
+    read.baseColor = readTextureUse(&pbr, "baseColorTexture");
+    read.metallicRoughness = readTextureUse(&pbr, "metallicRoughnessTexture");
+    read.normal = readTextureUse(&source, "normalTexture");
+    read.occlusion = readTextureUse(&source, "occlusionTexture");
+    read.emissive = readTextureUse(&source, "emissiveTexture");
     Material& m = read.factors;
     m.name = valueOr(source, "name", std::string());
     m.tangentsFor = tangentReader(source);
@@ -48,6 +66,10 @@ MaterialSource readMaterial(const Json& source)
     m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
     m.doubleSided = valueOr(source, "doubleSided", false);
     m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
+    if (const Json* const coat = extension(source, "KHR_materials_clearcoat"))
+        readCoat(*coat, read);
+    if (const Json* const anisotropy = extension(source, "KHR_materials_anisotropy"))
+        readAnisotropy(*anisotropy, read);
     return read;
 }
 

@@ -7,6 +7,7 @@
 
 #include "codes.hpp"
 #include "cotan/gltf/draco.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/gltf/views.hpp"
 #include "elements.hpp"
 
@@ -27,17 +28,6 @@ void takeOut(Json& object, const std::string& name)
     extensions->erase(name);
     if (extensions->empty())
         object.erase("extensions");
-}
-
-void takeFromList(Json& root, const char* list, const std::string& name)
-{
-    const auto names = root.find(list);
-    if (names == root.end())
-        return;
-    auto& items = names->get_ref<Json::array_t&>();
-    std::erase(items, name);
-    if (items.empty())
-        root.erase(list);
 }
 
 // Attributes of vertices begin at multiples of four bytes.
@@ -61,9 +51,8 @@ public:
             unpackViews(name);
         readDracoJobs();
         unpackPrimitives();
-        for (const std::string name : {kMeshopt[0], kMeshopt[1], kDraco})
-            for (const char* const list : {"extensionsUsed", "extensionsRequired"})
-                takeFromList(file_.json, list, name);
+        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDraco})
+            takeOffExtension(file_.json, name);
         return {decoded_.begin(), decoded_.end()};
     }
 

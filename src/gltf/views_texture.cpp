@@ -1,6 +1,7 @@
 // Views of textures, images and samplers.
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "codes.hpp"
 #include "cotan/gltf/views.hpp"
@@ -88,16 +89,19 @@ Texture readTexture(const Json& texture, std::size_t images)
     const Json* const extensions = member(texture, "extensions");
     if (!extensions)
         return read;
-    std::string_view first;
-    for (const auto& [name, content] : extensions->items()) {
-        const Json* const source = member(content, "source");
-        if (!source || !source->is_number_unsigned() || source->get<std::size_t>() >= images)
-            continue;
-        if (read.foreign < 0 || name < first) {
-            read.foreign = source->get<int>();
-            first = name;
-        }
-    }
+    std::map<std::string_view, int> named;
+    for (const auto& [name, content] : extensions->items())
+        if (const Json* const source = member(content, "source");
+            source && source->is_number_unsigned() && source->get<std::size_t>() < images)
+            named.emplace(name, source->get<int>());
+    if (read.image < 0)
+        for (const std::string_view extension : kReadImageExtensions)
+            if (const auto found = named.find(extension); found != named.end()) {
+                read.image = found->second;
+                return read;
+            }
+    if (!named.empty())
+        read.foreign = named.begin()->second;
     return read;
 }
 

@@ -12,47 +12,20 @@
 #include "cotan/image/convert.hpp"
 #include "formats.hpp"
 #include "jpeg.hpp"
+#include "ktx2.hpp"
 #include "png.hpp"
 #include "sandboxed.hpp"
+#include "webp.hpp"
 
 namespace cotan {
 
-bool isPng(std::span<const std::byte> bytes)
-{
-    constexpr std::string_view kStart = "\x89PNG\r\n\x1a\n";
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kStart);
-}
-
-bool isJpeg(std::span<const std::byte> bytes)
-{
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("\xff\xd8\xff");
-}
-
-namespace {
-
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
-{
-    if (isPng(bytes))
-        return readPng(bytes, name, limits);
-    if (isJpeg(bytes))
-        if (auto image = readJpeg(bytes, name, limits))
-            return *std::move(image);
-    if (!knownImage(bytes, name))
-        return inputError(
-            fmt::format("{}: expected an image (PNG, JPEG, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
-    if (!limits.sandbox.program.empty())
-        return decodeSandboxed(bytes, name, limits);
-    const auto formats = imageFormats();
-    if (!formats)
-        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
-    return (*formats)->read(bytes, name, limits);
-}
-
-} // namespace
-
-std::string foreignFormat(std::span<const std::byte> bytes)
+std::string pictureFormat(std::span<const std::byte> bytes)
 {
     const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
+    if (head.starts_with("\x89PNG\r\n\x1a\n"))
+        return "PNG";
+    if (head.starts_with("\xff\xd8\xff"))
+        return "JPEG";
     if (head.starts_with("RIFF") && head.ends_with("WEBP"))
         return "WebP";
     if (head.starts_with("\xabKTX 20\xbb"))
@@ -61,6 +34,59 @@ std::string foreignFormat(std::span<const std::byte> bytes)
         return "DDS";
     return head.size() == 12 && head.substr(4) == "ftypavif" ? "AVIF" : "";
 }
+
+bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }
+
+bool isJpeg(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "JPEG"; }
+
+std::string foreignFormat(std::span<const std::byte> bytes)
+{
+    const std::string format = pictureFormat(bytes);
+    if (format == "KTX2" && !foreignKtx2(bytes).empty())
+        return "KTX2 with " + foreignKtx2(bytes);
+    const bool foreign =
+        format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats());
+    return foreign ? format : "";
+}
+
+namespace {
+
+Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->read(bytes, name, limits);
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const std::string format = pictureFormat(bytes);
+    if (format == "PNG")
+        return readPng(bytes, name, limits);
+    if (format == "JPEG")
+        if (auto image = readJpeg(bytes, name, limits))
+            return *std::move(image);
+    if (format == "AVIF")
+        return unavailableError(fmt::format("{}: AVIF pictures are not read here", name));
+    if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
+        return unavailableError(fmt::format(
+            "{}: {} is not decoded here{}", name, payload,
+            payload.starts_with("BasisU") ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is"
+                                          : ""));
+    if (format.empty() && !knownImage(bytes, name))
+        return inputError(fmt::format(
+            "{}: expected an image (PNG, JPEG, WebP, KTX2, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
+    if (!limits.sandbox.program.empty())
+        return decodeSandboxed(bytes, name, limits);
+    if (format == "WebP")
+        return readWebp(bytes, name, limits);
+    if (format == "KTX2")
+        return readKtx2(bytes, name, limits, readOther);
+    return readOther(bytes, name, limits);
+}
+
+} // namespace
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {

@@ -33,6 +33,8 @@ std::vector<fs::path> modulePlaces()
     return places;
 }
 
+constexpr bool kBuilt = true;
+
 Result<const ImageFormats*> loadModule()
 {
     std::string problem = "not found";
@@ -55,6 +57,8 @@ Result<const ImageFormats*> loadModule()
     return unavailableError(fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
 }
 #else
+constexpr bool kBuilt = false;
+
 Result<const ImageFormats*> loadModule()
 {
     return notBuiltWith("OpenImageIO, which reads and writes this image format",
@@ -63,6 +67,8 @@ Result<const ImageFormats*> loadModule()
 #endif
 
 } // namespace
+
+bool readsOtherFormats() { return kBuilt; }
 
 Result<const ImageFormats*> imageFormats()
 {

@@ -37,6 +37,9 @@ struct ImageFormats {
                                                      int threads, const std::string& name);
 };
 
+// Whether this build has the module.
+bool readsOtherFormats();
+
 // The module. Errors: ErrorKind::unavailable where it is missing or does not load.
 Result<const ImageFormats*> imageFormats();
 

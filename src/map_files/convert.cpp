@@ -6,6 +6,7 @@
 
 #include "by_mesh.hpp"
 #include "stream.hpp"
+#include "texture_file.hpp"
 
 namespace cotan::maps {
 
@@ -25,20 +26,40 @@ Status checkOptions(const ConvertFileOptions& o)
     return Done{};
 }
 
-// Reads, turns and writes a whole picture.
-Status byMesh(const std::filesystem::path& file, const std::filesystem::path& out, const MeshOfMap& mesh,
-              const RecodeSettings& settings, const FileOptions& files, ConvertedFile& done)
+// Reads and turns a whole picture.
+Result<Image> byMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
+                     const FileOptions& files, ConvertedFile& done)
 {
     const auto map = readMap(file, settings.from, files.limits);
     if (!map)
         return map.error();
-    const auto turned = throughMesh(*map, settings, mesh, files.progress, done.counts, done.shown);
-    if (!turned)
-        return turned.error();
-    if (done.shown == 0)
+    auto turned = throughMesh(*map, settings, mesh, files.progress, done.counts, done.shown);
+    if (turned && done.shown == 0)
         return inputError(
             fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
-    return writeMap(out, *turned, done.bits);
+    return turned;
+}
+
+Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
+                    ConvertedFile& done)
+{
+    const auto map = readMap(file, settings.from, files.limits);
+    if (!map)
+        return map.error();
+    CountedSteps steps(files.progress, 2);
+    if (!steps.step())
+        return stoppedError();
+    Image turned = recode(*map, settings, done.counts);
+    if (!steps.step())
+        return stoppedError();
+    return turned;
+}
+
+// A texture of one level.
+Status writeTexture(const std::filesystem::path& out, const Image& map, bool bc5, const Convention& to)
+{
+    return bc5 ? writeTextureFile(out, TexelCode::bc5, {bc5Level(map, to)})
+               : writeTextureFile(out, TexelCode::rgba8, {rgbaLevel(map)});
 }
 
 // Streams a picture through.
@@ -76,19 +97,29 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     if (!reader)
         return reader.error();
     RowReader& in = **reader;
-    const auto bits = bitsFor(o.bits, in.type, o.to, out);
+    const auto bc5 = wantsBc5(o.compress, o.bits, o.to, out);
+    if (!bc5)
+        return bc5.error();
+    const auto bits = isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
     const RecodeSettings settings{.from = o.from,
-                                  .to = o.to,
-                                  .type = bits->type,
+                                  .to = *bc5 ? bc5Convention(o.to) : o.to,
+                                  .type = *bc5 ? PixelType::float32 : bits->type,
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
     ConvertedFile done{in.width, in.height, *bits, {}, 0};
-    const Status converted =
-        o.mesh ? byMesh(map, out, *o.mesh, settings, files, done) : byRows(in, out, *swizzle, settings, files, done);
-    return converted ? Result<ConvertedFile>(done) : converted.error();
+    if (!o.mesh && !isTextureFile(out)) {
+        const Status streamed = byRows(in, out, *swizzle, settings, files, done);
+        return streamed ? Result<ConvertedFile>(done) : streamed.error();
+    }
+    const auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
+    if (!turned)
+        return turned.error();
+    const Status written =
+        isTextureFile(out) ? writeTexture(out, *turned, *bc5, o.to) : writeMap(out, *turned, done.bits);
+    return written ? Result<ConvertedFile>(done) : written.error();
 }
 
 } // namespace cotan::maps

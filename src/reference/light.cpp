@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -33,10 +34,21 @@ Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const Shado
     return arrival;
 }
 
-glm::vec3 reflected(const f32::cotan_surface& surface, glm::vec3 toLight, Shading shading)
+glm::vec3 reflected(const f32::cotan_surface& surface, const std::optional<f32::cotan_gloss>& gloss, glm::vec3 toLight,
+                    Shading shading)
 {
-    return shading == Shading::pbr ? f32::cotan_reflect_pbr(surface, toLight)
-                                   : f32::cotan_reflect_blinn_phong(surface, toLight);
+    if (shading == Shading::blinnPhong)
+        return f32::cotan_reflect_blinn_phong(surface, toLight);
+    return gloss ? f32::cotan_reflect_glossy(surface, *gloss, toLight) : f32::cotan_reflect_pbr(surface, toLight);
+}
+
+glm::vec3 surroundings(const f32::cotan_surface& surface, const std::optional<f32::cotan_gloss>& gloss,
+                       const View& view)
+{
+    if (view.environmentMap)
+        return gloss ? reflectedGlossy(*view.environmentMap, surface, *gloss)
+                     : reflectedOf(*view.environmentMap, surface);
+    return gloss ? f32::cotan_reflect_environment_glossy(surface, *gloss) : f32::cotan_reflect_environment(surface);
 }
 
 } // namespace
@@ -62,22 +74,31 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
     return prepared;
 }
 
-glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
+glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
                      const std::vector<PreparedLight>& lights, const ShadowMap& shadow, const TangentSpace* tangent)
 {
-    glm::vec3 radiance = surface.emissive;
+    glm::vec3 radiance = surface.emissive, fromCoat(0);
     for (const PreparedLight& light : lights) {
         Arrival arrival = arrivalOf(light, point, shadow);
         if (!(arrival.strength > 0))
             continue;
-        radiance += light.radiance * arrival.strength
-            * (tangent ? reflected(tangent->surface, carried(*tangent, light, arrival.toLight), view.shading)
-                       : reflected(surface, arrival.toLight, view.shading));
+        const glm::vec3 arriving = light.radiance * arrival.strength;
+        radiance += arriving
+            * (tangent ? reflected(tangent->surface, {}, carried(*tangent, light, arrival.toLight), view.shading)
+                       : reflected(surface, layers.gloss, arrival.toLight, view.shading));
+        if (layers.coat)
+            fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
-    if (view.environment)
-        radiance += view.environmentMap ? reflectedOf(*view.environmentMap, surface)
-                                        : f32::cotan_reflect_environment(surface);
-    return radiance;
+    if (view.environment) {
+        radiance += surroundings(surface, layers.gloss, view);
+        if (layers.coat)
+            fromCoat += surface.occlusion
+                * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)
+                                       : f32::cotan_reflect_coat_environment(*layers.coat, surface.v));
+    }
+    if (!layers.coat)
+        return radiance;
+    return radiance * (1 - f32::cotan_coat_share(*layers.coat, surface.v)) + fromCoat;
 }
 
 } // namespace cotan::reference

@@ -1,6 +1,7 @@
 // From surface to radiance.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,9 +35,15 @@ struct LitPoint {
     glm::vec3 normal{0};   // unit, not perturbed, on the camera's side: for the shadow
 };
 
+// What extensions add to a surface, in the world. Blinn-Phong has none of it.
+struct Layers {
+    std::optional<f32::cotan_gloss> gloss; // in place of metallic-roughness' own reflections
+    std::optional<f32::cotan_coat> coat;
+};
+
 // Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
-// tangent: where not null, lights are taken there and meet its surface in place of `surface`.
-glm::vec3 radianceOf(const f32::cotan_surface& surface, const LitPoint& point, const View& view,
+// tangent: where not null, lights are taken there and meet its surface in place of `surface`, without gloss.
+glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
                      const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
                      const TangentSpace* tangent = nullptr);
 

@@ -61,6 +61,47 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     return s;
 }
 
+// The direction that a highlight is stretched in and how much, from the factors and the map.
+void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, const QuadPoints& quad, int lane,
+             const SurfaceNormal& normal)
+{
+    const Anisotropy& a = in.material->anisotropy;
+    glm::vec2 direction(std::cos(a.rotation), -std::sin(a.rotation)); // along +u and +v
+    gloss.anisotropy = a.strength;
+    if (in.maps->anisotropy) {
+        const glm::vec4 texel = mapTexel(in, in.maps->anisotropy, a.map, quad, lane);
+        const glm::vec2 turned = glm::vec2(texel.x, -texel.y) * 2.0f + glm::vec2(-1, 1);
+        direction = {turned.x * direction.x - turned.y * direction.y, turned.x * direction.y + turned.y * direction.x};
+        gloss.anisotropy *= texel.z;
+    }
+    const f32::cotan_frame& frame = normal.frame;
+    gloss.t = f32::cotan_direction_on_surface(normal.interpolated, frame.t, frame.b, direction, normal.finished);
+    if (gloss.t == glm::vec3(0))
+        gloss.anisotropy = 0;
+}
+
+Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane,
+                const SurfaceNormal& normal)
+{
+    Layers layers;
+    const Material& m = *in.material;
+    if (all.view.shading == Shading::blinnPhong)
+        return layers;
+    if (m.anisotropy.strength > 0) {
+        layers.gloss = f32::cotan_gloss_of(m.specular.ior, m.specular.strength, m.specular.color);
+        stretch(*layers.gloss, in, quad, lane, normal);
+    }
+    if (m.coat.strength > 0) {
+        f32::cotan_coat coat;
+        coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, quad, lane).x);
+        coat.roughness = f32::cotan_saturate(m.coat.roughness
+                                             * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
+        coat.n = coatNormalOf(in, quad, lane, normal);
+        layers.coat = coat;
+    }
+    return layers;
+}
+
 glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad,
                       int lane)
 {
@@ -71,7 +112,8 @@ glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3
     LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
-    return radianceOf(surface, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
+    const Layers layers = layersOf(all, in, quad, lane, normal);
+    return radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)

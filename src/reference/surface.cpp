@@ -65,16 +65,15 @@ glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
 
 // The frames of a whole triangle: its edges in place of the pixel's differences. The edges are taken
 // in the mesh and moved afterwards, so they lose nothing far from the eye.
-f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, Frame frame, glm::vec3 n)
+f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture, glm::vec3 n)
 {
-    const Texture& texture = in.material->normalMap;
     std::size_t set = setOf(texture);
     if (!hasUv(*in.draw, set))
         return {glm::vec3(0), glm::vec3(0), n};
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+    return evaluate(in.view->frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
@@ -169,26 +168,51 @@ BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
     return base;
 }
 
+namespace {
+
+// The normal without a map, and what frames are made from besides it.
+struct Smooth {
+    glm::vec3 raw{0}; // as interpolated
+    glm::vec3 n{0};   // unit
+    glm::vec3 dpdx{0};
+    glm::vec3 dpdy{0};
+};
+
+Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const UvDifferences& uv)
+{
+    Smooth smooth;
+    smooth.dpdx = difference(quad, alongX(lane, in.view->derivatives));
+    smooth.dpdy = difference(quad, alongY(lane, in.view->derivatives));
+    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, quad.weights[std::size_t(lane)]);
+    f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+    smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
+    return smooth;
+}
+
+// The view's frame over the uv of a map.
+f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
+                           const std::array<double, 3>& weights)
+{
+    const Frame frame = in.view->frame;
+    if (info(frame).source == FrameSource::triangle)
+        return frameOfTriangle(in, map, smooth.n);
+    if (readsVertices(frame))
+        return frameOfVertices(in, frame, smooth.n, smooth.raw, weights);
+    return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+}
+
+bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
+
+} // namespace
+
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     const View& view = *in.view;
     const Material& material = *in.material;
-    const std::array<double, 3>& weights = quad.weights[std::size_t(lane)];
-    glm::vec3 dpdx = difference(quad, alongX(lane, view.derivatives));
-    glm::vec3 dpdy = difference(quad, alongY(lane, view.derivatives));
     UvDifferences uv = uvOf(material.normalMap, quad, lane, view.derivatives);
-
-    glm::vec3 raw = interpolatedOrZero(in.draw->normals, *in.triangle, weights);
-    f32::cotan_differences safe = f32::cotan_scale_differences(dpdx, dpdy, uv.dx, uv.dy);
-    glm::vec3 n = f32::cotan_safe_normal(raw, safe.dpdx, safe.dpdy);
-
-    f32::cotan_frame frame;
-    if (info(view.frame).source == FrameSource::triangle)
-        frame = frameOfTriangle(in, view.frame, n);
-    else if (readsVertices(view.frame))
-        frame = frameOfVertices(in, view.frame, n, raw, weights);
-    else
-        frame = evaluate(view.frame, n, dpdx, dpdy, uv.dx, uv.dy);
+    const Smooth smooth = smoothOf(in, quad, lane, uv);
+    const glm::vec3 n = smooth.n;
+    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, quad.weights[std::size_t(lane)]);
 
     SurfaceNormal result;
     result.interpolated = result.finished = n;
@@ -214,6 +238,29 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
         result.texel = -result.texel;
     }
     return result;
+}
+
+glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)
+{
+    const Texture& map = in.material->coat.normalMap;
+    const MipChain* const chain = in.maps->coatNormal;
+    glm::vec3 n = base.interpolated;
+    if (chain && hasUv(*in.draw, setOf(map))) {
+        const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+        f32::cotan_frame frame = base.frame;
+        if (!sameUv(map, in.material->normalMap)) {
+            const Smooth smooth = smoothOf(in, quad, lane, uv);
+            // What the vertices hold belongs to the uv of the surface beneath.
+            frame = readsCotangents(in.view->frame)
+                ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
+                : frameOver(in, map, smooth, uv, quad.weights[std::size_t(lane)]);
+        }
+        const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
+        const auto format =
+            toFormat<f32::cotan_normal_format>(Convention{}, chain->image->type, double(in.material->coat.normalScale));
+        n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), n);
+    }
+    return in.triangle->front ? n : -n;
 }
 
 } // namespace cotan::reference

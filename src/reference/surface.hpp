@@ -57,11 +57,16 @@ struct SurfaceNormal {
     glm::vec3 t{0};
     glm::vec3 b{0};
     glm::vec2 uv{0};          // of the normal map
-    bool mapped = false;      // there is a normal map, and what follows is set
     f32::cotan_frame frame{}; // that `finished` was made with
+    bool mapped = false;      // there is a normal map, and what follows is set
     glm::vec3 texel{0, 0, 1}; // decoded, unit, in the frame; turned towards the camera's side
 };
 
+// As the material's normal map has it.
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+
+// The coat's normal, from its own map and a frame of the same name, turned towards the camera's side.
+// base: of the surface beneath.
+glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
 
 } // namespace cotan::reference

@@ -126,6 +126,10 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
             maps.metallicRoughness = get(m.metallicRoughnessMap, Content::linear);
             maps.occlusion = get(m.occlusionMap, Content::linear);
             maps.emissive = get(m.emissiveMap, Content::color);
+            maps.coat = get(m.coat.map, Content::linear);
+            maps.coatRoughness = get(m.coat.roughnessMap, Content::linear);
+            maps.coatNormal = view.normalMaps ? get(m.coat.normalMap, Content::normal) : nullptr;
+            maps.anisotropy = get(m.anisotropy.map, Content::linear);
         }
         library.materials.push_back(maps);
     }

@@ -34,6 +34,10 @@ struct MaterialMaps {
     const MipChain* normal = nullptr;
     const MipChain* occlusion = nullptr;
     const MipChain* emissive = nullptr;
+    const MipChain* coat = nullptr;
+    const MipChain* coatRoughness = nullptr;
+    const MipChain* coatNormal = nullptr;
+    const MipChain* anisotropy = nullptr;
 };
 
 // The maps of all materials. An image that is used in two ways has two chains.

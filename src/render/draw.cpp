@@ -38,15 +38,20 @@ glm::uvec2 split(vk::DeviceAddress address)
 // Addresses and flags of CotanDraw.
 void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
 {
-    const Stream texcoord = scene.materials[std::size_t(mesh.material)].normalTexcoord == 1 ? kTexcoord1 : kTexcoord0;
     const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
     if (base != 0) {
         constants.positions = split(base + mesh.offsets[kPosition]);
-        constants.texcoords = split(base + mesh.offsets[texcoord]);
         constants.indices = split(base + mesh.indices);
     }
-    if (mesh.has(texcoord))
-        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS;
+    // Streams follow one another in a buffer; an absent one is not looked at.
+    const auto floatsOn = [&](Stream stream) {
+        return mesh.has(stream) ? static_cast<glm::uint>((mesh.offsets[stream] - mesh.offsets[kPosition]) / 4) : 0u;
+    };
+    constants.texcoords = {floatsOn(kTexcoord0), floatsOn(kTexcoord1)};
+    if (mesh.has(kTexcoord0))
+        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS0;
+    if (mesh.has(kTexcoord1))
+        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS1;
     if (mesh.has(kTangent))
         constants.flags |= COTAN_DRAW_HAS_TANGENTS;
     if (mesh.has(kCotangentU) && mesh.has(kCotangentV))

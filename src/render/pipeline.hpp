@@ -17,7 +17,8 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    vk::raii::DescriptorSetLayout picture{nullptr};  // set 0: view, lights, shadow map, lists, layers, opaque depth, environment
+    // Set 0: view, lights, shadow map, lists, layers, opaque depth, environment.
+    vk::raii::DescriptorSetLayout picture{nullptr};
     vk::raii::DescriptorSetLayout material{nullptr}; // set 1
     vk::raii::PipelineLayout pipeline{nullptr};
 };
@@ -44,7 +45,7 @@ struct PipelineKey {
     bool shadows = true;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
-    std::uint32_t maps = 0; // COTAN_MAP_...: what the materials drawn with it may have
+    std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
 

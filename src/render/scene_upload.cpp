@@ -150,42 +150,63 @@ bool sameUse(const Texture& a, const Texture& b)
         && s.wrapV == t.wrapV && s.magnify == t.magnify && s.minify == t.minify && s.mip == t.mip;
 }
 
+// The maps and layers that are there.
 std::uint32_t mapsOf(const Material& m, const Textures& textures)
 {
-    const auto bit = [&](const Texture& use, TextureKind kind, std::uint32_t flag) {
-        return textures.present(use, kind, m.normalFormat) ? flag : 0u;
-    };
-    std::uint32_t maps = bit(m.baseColorMap, TextureKind::color, COTAN_MAP_BASE_COLOR)
-        | bit(m.metallicRoughnessMap, TextureKind::data, COTAN_MAP_METALLIC_ROUGHNESS)
-        | bit(m.normalMap, TextureKind::normal, COTAN_MAP_NORMAL)
-        | bit(m.occlusionMap, TextureKind::data, COTAN_MAP_OCCLUSION)
-        | bit(m.emissiveMap, TextureKind::color, COTAN_MAP_EMISSIVE);
+    std::uint32_t maps = 0, bit = 1;
+    for (const MapUse& use : mapUses(m)) {
+        maps |= textures.present(use) ? bit : 0u;
+        bit *= 2;
+    }
     const std::uint32_t both = COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_OCCLUSION;
     if ((maps & both) == both && sameUse(m.metallicRoughnessMap, m.occlusionMap))
         maps = (maps & ~COTAN_MAP_OCCLUSION) | COTAN_MAP_OCCLUSION_SHARED;
+    if (m.coat.strength > 0)
+        maps |= COTAN_LAYER_COAT;
+    if (m.anisotropy.strength > 0)
+        maps |= COTAN_LAYER_GLOSS;
     return maps;
+}
+
+// How a normal map is stored; w: 0.
+gpu::ivec4 normalConstants(const Scene& scene, const Texture& map, const Convention& format)
+{
+    const bool mapped = map.present() && std::size_t(map.image) < scene.images.size();
+    const PixelType type = mapped ? scene.images[std::size_t(map.image)].type : PixelType::unorm8;
+    return {expansionFor(format.expansion, bitsPerComponent(type)), int(format.channels), greenAlongV(format) ? 1 : -1,
+            0};
+}
+
+bool sameUv(const Texture& a, const Texture& b)
+{
+    return a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow;
 }
 
 gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, const Textures& textures)
 {
-    const bool mapped = m.normalMap.present() && std::size_t(m.normalMap.image) < scene.images.size();
-    const PixelType type = mapped ? scene.images[std::size_t(m.normalMap.image)].type : PixelType::unorm8;
-    const auto use = [&](const Texture& texture, TextureKind kind) {
-        return useConstants(texture, textures.present(texture, kind, m.normalFormat));
-    };
     gpu::CotanMaterial g{};
     g.baseColor = m.baseColor;
     g.emissive = gpu::vec4(m.emissive, m.alphaCutoff);
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
-    g.normalMap = gpu::ivec4(expansionFor(m.normalFormat.expansion, bitsPerComponent(type)),
-                             int(m.normalFormat.channels), greenAlongV(m.normalFormat) ? 1 : -1, m.unlit ? 1 : 0);
-    g.baseColorMap = use(m.baseColorMap, TextureKind::color);
-    g.metallicRoughnessMap = use(m.metallicRoughnessMap, TextureKind::data);
+    g.normalMap = normalConstants(scene, m.normalMap, m.normalFormat);
+    g.normalMap.w = m.unlit ? 1 : 0;
+    g.coat = gpu::vec4(m.coat.strength, m.coat.roughness, m.coat.normalScale, 0);
+    g.coatNormalMap = normalConstants(scene, m.coat.normalMap, {});
+    g.coatNormalMap.w = sameUv(m.coat.normalMap, m.normalMap.present() ? m.normalMap : Texture{}) ? 1 : 0;
+    const Anisotropy& a = m.anisotropy;
+    g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
+    g.specular = gpu::vec4(m.specular.color, m.specular.strength);
+    g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
+    gpu::CotanTextureUse* const uses[] = {
+        &g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,     &g.occlusionMap,  &g.emissiveMap,
+        &g.coatMap,          &g.coatRoughnessMap,     &g.coatNormalMapUse, &g.anisotropyMap, &g.specularMap,
+        &g.specularColorMap, &g.sheenColorMap,        &g.sheenRoughnessMap};
+    std::size_t k = 0;
+    for (const MapUse& use : mapUses(m))
+        *uses[k++] = useConstants(*use.texture, textures.present(use));
     // Without a normal map the frame is that of uv set 0 as it is.
-    g.normalMapUse =
-        m.normalMap.present() ? use(m.normalMap, TextureKind::normal) : useConstants(Texture{}, /*present*/ false);
-    g.occlusionMap = use(m.occlusionMap, TextureKind::data);
-    g.emissiveMap = use(m.emissiveMap, TextureKind::color);
+    if (!m.normalMap.present())
+        g.normalMapUse = useConstants(Texture{}, /*present*/ false);
     return g;
 }
 
@@ -271,24 +292,20 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 
     const auto sets = static_cast<std::uint32_t>(count);
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, sets),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, sets * 5)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, sets * COTAN_MAP_COUNT)};
     pool_ = vk::raii::DescriptorPool(device_->device, vk::DescriptorPoolCreateInfo({}, sets, sizes));
 
     for (std::size_t i = 0; i < count; ++i) {
         const Material& m = scene.materials[i];
         const gpu::CotanMaterial constants = materialConstants(scene, m, textures_);
         uploader.buffer(materialBuffer_, i * stride, bytesOf(std::span(&constants, 1)));
-        const auto use = [&](const Texture& texture, TextureKind kind) {
-            return MapUse{texture.sampler, textures_.view(texture, kind, m.normalFormat)};
-        };
-        maps_[i] = {use(m.baseColorMap, TextureKind::color), use(m.metallicRoughnessMap, TextureKind::data),
-                    use(m.normalMap, TextureKind::normal), use(m.occlusionMap, TextureKind::data),
-                    use(m.emissiveMap, TextureKind::color)};
+        std::size_t k = 0;
+        for (const MapUse& use : mapUses(m))
+            maps_[i][k++] = {use.texture->sampler, textures_.view(use)};
 
         GpuMaterial& gpu = materials[i];
         gpu.alphaMode = m.alphaMode;
         gpu.doubleSided = m.doubleSided;
-        gpu.normalTexcoord = m.normalMap.present() && m.normalMap.texcoord == 1 ? 1 : 0;
         gpu.maps = mapsOf(m, textures_);
         gpu.set = allocateSet(*device_, pool_, layouts.material);
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
@@ -311,19 +328,22 @@ void GpuScene::limitPipelines()
     sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
     if (sets.size() <= kMost)
         return;
+    std::uint32_t all = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
+        | COTAN_MAP_EMISSIVE;
+    for (const std::uint32_t set : sets)
+        all |= set & ~COTAN_MAP_OCCLUSION_SHARED;
     for (GpuMaterial& material : materials)
-        material.maps = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
-            | COTAN_MAP_EMISSIVE;
+        material.maps = all;
 }
 
 void GpuScene::writeTextures(std::size_t material)
 {
-    std::array<vk::DescriptorImageInfo, 5> images;
+    std::array<vk::DescriptorImageInfo, COTAN_MAP_COUNT> images;
     for (std::size_t k = 0; k < images.size(); ++k) {
-        const MapUse& use = maps_[material][k];
-        images[k] = {samplers_.get(use.sampler, pointSampled_), use.view, vk::ImageLayout::eShaderReadOnlyOptimal};
+        const BoundMap& map = maps_[material][k];
+        images[k] = {samplers_.get(map.sampler, pointSampled_), map.view, vk::ImageLayout::eShaderReadOnlyOptimal};
     }
-    std::array<vk::WriteDescriptorSet, 5> writes;
+    std::array<vk::WriteDescriptorSet, COTAN_MAP_COUNT> writes;
     for (std::uint32_t k = 0; k < writes.size(); ++k)
         writes[k] = vk::WriteDescriptorSet(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler,
                                            images[k]);

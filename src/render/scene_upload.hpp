@@ -42,8 +42,7 @@ struct GpuMesh {
 struct GpuMaterial {
     AlphaMode alphaMode = AlphaMode::opaque;
     bool doubleSided = false;
-    int normalTexcoord = 0; // the uv set of the normal map
-    std::uint32_t maps = 0; // COTAN_MAP_...
+    std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...
     vk::DescriptorSet set;  // owned by the scene's pool
 };
 
@@ -74,7 +73,7 @@ private:
     void writeTextures(std::size_t material);
     void limitPipelines();
 
-    struct MapUse {
+    struct BoundMap {
         Sampler sampler;
         vk::ImageView view;
     };
@@ -84,7 +83,7 @@ private:
     Samplers samplers_;
     Textures textures_;
     Buffer materialBuffer_;
-    std::vector<std::array<MapUse, 5>> maps_; // of each material, in the order of the bindings
+    std::vector<std::array<BoundMap, COTAN_MAP_COUNT>> maps_; // of each material, in the order of the bindings
     vk::raii::DescriptorPool pool_{nullptr};
     bool pointSampled_ = false;
 };

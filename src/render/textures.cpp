@@ -98,27 +98,45 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
-Textures::Key Textures::keyOf(const Texture& use, TextureKind kind, const Convention& format)
+std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
 {
-    if (kind != TextureKind::normal)
-        return {use.image, kind, Expansion{}, Channels{}};
-    return {use.image, kind, format.expansion, format.channels};
+    using K = TextureKind;
+    return {{{&m.baseColorMap, K::color, {}},
+             {&m.metallicRoughnessMap, K::data, {}},
+             {&m.normalMap, K::normal, m.normalFormat},
+             {&m.occlusionMap, K::data, {}},
+             {&m.emissiveMap, K::color, {}},
+             {&m.coat.map, K::data, {}},
+             {&m.coat.roughnessMap, K::data, {}},
+             {&m.coat.normalMap, K::normal, {}},
+             {&m.anisotropy.map, K::data, {}},
+             {&m.specular.map, K::data, {}},
+             {&m.specular.colorMap, K::color, {}},
+             {&m.sheen.colorMap, K::color, {}},
+             {&m.sheen.roughnessMap, K::data, {}}}};
 }
 
-void Textures::request(const Scene& scene, const Texture& use, TextureKind kind, const Convention& format)
+Textures::Key Textures::keyOf(const MapUse& use)
 {
-    if (!use.present() || std::size_t(use.image) >= scene.images.size())
+    if (use.kind != TextureKind::normal)
+        return {use.texture->image, use.kind, Expansion{}, Channels{}};
+    return {use.texture->image, use.kind, use.format.expansion, use.format.channels};
+}
+
+void Textures::request(const Scene& scene, const MapUse& use)
+{
+    if (!use.texture->present() || std::size_t(use.texture->image) >= scene.images.size())
         return;
-    const Image& image = scene.images[std::size_t(use.image)];
-    if (!hasPixels(image) || !index_.emplace(keyOf(use, kind, format), requests_.size()).second)
+    const Image& image = scene.images[std::size_t(use.texture->image)];
+    if (!hasPixels(image) || !index_.emplace(keyOf(use), requests_.size()).second)
         return;
     MipRequest r;
     r.image = &image;
-    r.kind = kind;
-    r.normalFormat = format;
-    r.format = texelFormat(image.type, kind, device_->filterable16, device_->filterable32);
+    r.kind = use.kind;
+    r.normalFormat = use.format;
+    r.format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
     // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal.
-    if (kind == TextureKind::normal && r.format == TexelFormat::unorm8 && device_->cpu && device_->filterable16)
+    if (use.kind == TextureKind::normal && r.format == TexelFormat::unorm8 && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
     requests_.push_back(r);
@@ -126,15 +144,10 @@ void Textures::request(const Scene& scene, const Texture& use, TextureKind kind,
 
 void Textures::collect(const Scene& scene)
 {
-    for (const Material& m : scene.materials) {
-        request(scene, m.baseColorMap, TextureKind::color, {});
-        request(scene, m.normalMap, TextureKind::normal, m.normalFormat);
-        if (m.unlit)
-            continue;
-        request(scene, m.metallicRoughnessMap, TextureKind::data, {});
-        request(scene, m.occlusionMap, TextureKind::data, {});
-        request(scene, m.emissiveMap, TextureKind::color, {});
-    }
+    for (const Material& m : scene.materials)
+        for (const MapUse& use : mapUses(m))
+            if (!m.unlit || use.texture == &m.baseColorMap || use.texture == &m.normalMap)
+                request(scene, use);
     MipRequest white;
     white.image = &whiteImage();
     requests_.push_back(white);
@@ -171,16 +184,11 @@ void Textures::load(const Scene& scene, Uploader& uploader)
     }
 }
 
-bool Textures::present(const Texture& use, TextureKind kind, const Convention& format) const
-{
-    return use.present() && index_.contains(keyOf(use, kind, format));
-}
+bool Textures::present(const MapUse& use) const { return use.texture->present() && index_.contains(keyOf(use)); }
 
-vk::ImageView Textures::view(const Texture& use, TextureKind kind, const Convention& format) const
+vk::ImageView Textures::view(const MapUse& use) const
 {
-    if (!present(use, kind, format))
-        return *textures_.back().view;
-    return *textures_[index_.at(keyOf(use, kind, format))].view;
+    return *(present(use) ? textures_[index_.at(keyOf(use))] : textures_.back()).view;
 }
 
 } // namespace cotan

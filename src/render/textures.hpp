@@ -1,10 +1,12 @@
 // The textures of a scene on the device: what materials use, each with its mip chain.
 #pragma once
 
+#include <array>
 #include <map>
 #include <tuple>
 #include <vector>
 
+#include "gpu_structs.hpp"
 #include "memory.hpp"
 #include "mips.hpp"
 
@@ -24,6 +26,16 @@ private:
     std::map<Key, vk::raii::Sampler> made_;
 };
 
+// How a material uses an image.
+struct MapUse {
+    const Texture* texture = nullptr;
+    TextureKind kind = TextureKind::data;
+    Convention format; // of normals
+};
+
+// All uses of a material, in the order of the bits COTAN_MAP_... and of the bindings.
+std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& material);
+
 class Textures {
 public:
     explicit Textures(const Device& device) : device_(&device), memory_(device) {}
@@ -33,15 +45,15 @@ public:
     void load(const Scene& scene, Uploader& uploader);
 
     // The view of a use of an image; a white texel where there is none.
-    vk::ImageView view(const Texture& use, TextureKind kind, const Convention& format) const;
-    bool present(const Texture& use, TextureKind kind, const Convention& format) const;
+    vk::ImageView view(const MapUse& use) const;
+    bool present(const MapUse& use) const;
 
 private:
     // Image, kind, and for normal maps the coding that they are averaged in.
     using Key = std::tuple<int, TextureKind, Expansion, Channels>;
-    static Key keyOf(const Texture& use, TextureKind kind, const Convention& format);
+    static Key keyOf(const MapUse& use);
     void collect(const Scene& scene);
-    void request(const Scene& scene, const Texture& use, TextureKind kind, const Convention& format);
+    void request(const Scene& scene, const MapUse& use);
     Texture2D upload(const MipChain& chain, Uploader& uploader);
 
     const Device* device_;

@@ -16,7 +16,7 @@ struct TangentBytes {
 };
 
 // Takes TANGENT from all primitives but those whose materials need it for something that is not converted,
-// a map in an extension or a normal map that is neither PNG nor JPEG (`notes` says so, one line each).
+// a map in an extension or a normal map in a format that is not read here (`notes` says so, one line each).
 // Errors (ErrorKind::input): compressed geometry.
 Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes);
 

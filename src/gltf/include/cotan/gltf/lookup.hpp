@@ -49,4 +49,7 @@ std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);
 // The same for a material, its normalTexture left out.
 std::set<std::size_t> texturesBesideNormalMap(const nlohmann::ordered_json& material);
 
+// Takes an extension out of the lists of those used and required.
+void takeOffExtension(nlohmann::ordered_json& root, const std::string& name);
+
 } // namespace cotan

@@ -5,6 +5,7 @@
 // collections; -1: there is none.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -136,10 +137,13 @@ struct TextureUse {
 
 struct Texture {
     int sampler = -1;
-    int image = -1; // PNG or JPEG
-    int foreign =
-        -1; // an image in another format that an extension names, of several the first by the extension's name
+    int image = -1;   // its own; where it has none, that of the first of kReadImageExtensions
+    int foreign = -1; // where that is none: an image that another extension names, the first by the extension's name
 };
+
+// Extensions that put an image of another format in the place of a texture's, which is read.
+inline constexpr std::array<std::string_view, 3> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
+                                                                           "KHR_texture_basisu"};
 
 struct Image {
     std::string name;

@@ -17,14 +17,17 @@ namespace cotan {
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
 
-// "WebP", "KTX2", "DDS" or "AVIF" for the first bytes of such a file, which extensions of glTF name as images and
-// nothing here reads for a model; empty for all else.
+// "PNG", "JPEG", or of those that extensions of glTF name "WebP", "KTX2", "DDS" and "AVIF": by a file's first bytes.
+// Empty for all else.
+std::string pictureFormat(std::span<const std::byte> bytes);
+
+// The same for what is not read here, or not by this build; empty for all else.
 std::string foreignFormat(std::span<const std::byte> bytes);
 
 // Reads an image file. 8-bit files become unorm8, 16-bit ones unorm16, half and float float32.
 // The stored values are kept: no colour conversion, no premultiplication.
 // Errors (ErrorKind::input): not an image, broken or short data, a wrong checksum, a size of zero
-// or over the limits (checked before decoding).
+// or over the limits (checked before decoding). ErrorKind::unavailable: a format that is not read here (foreignFormat).
 Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The same for bytes in memory (PNG or JPEG, as glTF embeds them). `name` is for messages.

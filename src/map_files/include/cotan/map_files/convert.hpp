@@ -20,7 +20,8 @@ struct MeshOfMap {
 
 struct ConvertFileOptions {
     Convention from{}, to{};
-    std::string bits = "auto";       // as bitsFor
+    std::string bits = "auto";       // as bitsFor; .dds and .ktx2 have 8
+    std::string compress = "none";   // .dds and .ktx2: "none" or "bc5", x and y of unit vectors
     float strength = 1;              // factor on the slopes; negative turns bumps into dents; not 0
     bool normalise = false;          // three channels to three: otherwise lengths are kept
     bool dither = false;             // half a step of noise before rounding
@@ -34,9 +35,10 @@ struct ConvertedFile {
     std::size_t shown = 0; // texels that the mesh shows, where there is one; the rest is padding
 };
 
-// Converts a file. With a mesh the map is held whole. Errors: ErrorKind::usage: options that do not go together, begun
-// with "options.mesh: ", "options.strength: ", "options.bits: " or "options.to: "; as openRows, createRows and
-// loadScene; ErrorKind::input: no texel is shown by the mesh; ErrorKind::stopped.
+// Converts a file. With a mesh, or to .dds or .ktx2, the map is held whole. Errors: ErrorKind::usage: options that do
+// not go together, begun with "options.mesh: ", "options.strength: ", "options.bits: ", "options.compress: " or
+// "options.to: "; as openRows, createRows and loadScene; ErrorKind::input: no texel is shown by the mesh;
+// ErrorKind::stopped.
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& options, const FileOptions& files = {});
 

@@ -12,9 +12,10 @@ namespace cotan::maps {
 struct MipFileOptions {
     Convention from{}, to{};
     SpreadModel model = SpreadModel::lean;
-    double roughness = 0.3;    // perceptual roughness of the material, 0 to 1
-    bool keepLengths = false;  // three channels: store mean vectors with their shortened lengths
-    std::string bits = "auto"; // as bitsFor; .dds has 8
+    double roughness = 0.3;        // perceptual roughness of the material, 0 to 1
+    bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
+    std::string bits = "auto";     // as bitsFor; .dds and .ktx2 have 8
+    std::string compress = "none"; // .dds and .ktx2: "none" or "bc5"
     // Asked about each file before the first is written; an error ends the call. May be empty.
     std::function<Status(const std::filesystem::path&)> mayWrite{};
 };
@@ -25,10 +26,11 @@ struct MipLevelFigures {
     double meanLength = 1, meanRoughness = 0;
 };
 
-// Writes all levels and the roughness that they need: a .dds has both, the roughness in alpha; OUT.png and others
-// become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so on. The map and its levels are held whole. Errors: as
-// readImage and writeImage; ErrorKind::input: the levels take more than four times files.limits.imageBytes;
-// ErrorKind::usage: "options.bits: ", "options.to: "; ErrorKind::stopped, before anything is written.
+// Writes all levels and the roughness that they need: a .dds or .ktx2 has both, the roughness in alpha; with
+// "bc5" OUT_roughness.dds has it, as BC4. OUT.png and others become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so
+// on. The map and its levels are held whole. Errors: as readImage and writeImage; ErrorKind::input: the levels take
+// more than four times files.limits.imageBytes; ErrorKind::usage: "options.bits: ", "options.compress: ",
+// "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before anything is written.
 Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
                                                const MipFileOptions& options, const FileOptions& files = {});
 

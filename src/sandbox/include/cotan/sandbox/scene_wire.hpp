@@ -47,6 +47,29 @@ template<class W, class T> void exchangeConvention(W& w, T& c)
     w.choice(c.v, VDirection::up);
 }
 
+// What extensions add to a material.
+template<class W, class T> void exchangeLayers(W& w, T& m)
+{
+    w.number(m.coat.strength);
+    w.number(m.coat.roughness);
+    w.number(m.coat.normalScale);
+    exchangeTexture(w, m.coat.map);
+    exchangeTexture(w, m.coat.roughnessMap);
+    exchangeTexture(w, m.coat.normalMap);
+    w.number(m.anisotropy.strength);
+    w.number(m.anisotropy.rotation);
+    exchangeTexture(w, m.anisotropy.map);
+    w.number(m.specular.ior);
+    w.number(m.specular.strength);
+    w.number(m.specular.color);
+    exchangeTexture(w, m.specular.map);
+    exchangeTexture(w, m.specular.colorMap);
+    w.number(m.sheen.color);
+    w.number(m.sheen.roughness);
+    exchangeTexture(w, m.sheen.colorMap);
+    exchangeTexture(w, m.sheen.roughnessMap);
+}
+
 template<class W, class T> void exchangeMaterial(W& w, T& m)
 {
     w.text(m.name);
@@ -66,6 +89,7 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     w.number(m.alphaCutoff);
     w.flag(m.doubleSided);
     w.flag(m.unlit);
+    exchangeLayers(w, m);
     w.text(m.tangentsFor);
 }
 

@@ -55,14 +55,36 @@ inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
     return readAtlas(map, f32::cotan_environment_texel(normal, 9));
 }
 
+// The factors of what GGX reflects of white light.
+inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, float roughness)
+{
+    const float nv = f32::cotan_saturate(glm::dot(n, v));
+    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(nv, roughness));
+    return {albedo.x, albedo.y};
+}
+
 // What a surface reflects of its surroundings.
 inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
 {
-    const float nv = f32::cotan_saturate(glm::dot(s.n, s.v));
-    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(nv, s.roughness));
-    return f32::cotan_reflect_image(s, irradianceAlong(map, s.n),
+    return f32::cotan_reflect_image(s, glm::vec3(0.04f), 1, irradianceAlong(map, s.n),
                                     radianceAlong(map, f32::cotan_mirrored(s.n, s.v), s.roughness),
-                                    glm::vec2(albedo.x, albedo.y));
+                                    albedoOf(map, s.n, s.v, s.roughness));
+}
+
+// The same with reflections of its own.
+inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
+{
+    const glm::vec3 n =
+        g.anisotropy > 0 ? f32::cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t) : s.n;
+    return f32::cotan_reflect_image(s, g.f0, g.f90, irradianceAlong(map, s.n),
+                                    radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
+                                    albedoOf(map, s.n, s.v, s.roughness));
+}
+
+inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)
+{
+    return f32::cotan_reflect_coat_image(c, radianceAlong(map, f32::cotan_mirrored(c.n, v), c.roughness),
+                                         albedoOf(map, c.n, v, c.roughness));
 }
 
 } // namespace cotan

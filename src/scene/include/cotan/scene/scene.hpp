@@ -43,6 +43,40 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
+// A clear layer over the whole (KHR_materials_clearcoat). Its normal map is stored as glTF has it.
+struct Coat {
+    float strength = 0; // 0 to 1
+    float roughness = 0;
+    float normalScale = 1; // factor on the slopes
+    Texture map;           // linear: r, times strength
+    Texture roughnessMap;  // linear: g, times roughness
+    Texture normalMap;     // linear
+};
+
+// Highlights that are stretched along the surface (KHR_materials_anisotropy).
+struct Anisotropy {
+    float strength = 0; // 0 to 1
+    float rotation = 0; // radians, from +u towards -v
+    Texture map;        // linear: r and g the direction, 2c - 1, along +u and -v; b, times strength
+};
+
+// What a dielectric reflects (KHR_materials_ior, KHR_materials_specular).
+struct Specular {
+    float ior = 1.5f; // index of refraction; 0: as if infinite
+    float strength = 1;
+    glm::vec3 color{1, 1, 1}; // linear, of light from the front
+    Texture map;              // linear: a, times strength
+    Texture colorMap;         // sRGB
+};
+
+// The fibres of cloth (KHR_materials_sheen).
+struct Sheen {
+    glm::vec3 color{0, 0, 0}; // linear; black: none
+    float roughness = 0;
+    Texture colorMap;     // sRGB
+    Texture roughnessMap; // linear: a, times roughness
+};
+
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
@@ -61,7 +95,11 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;
-    std::string tangentsFor; // an extension that reads tangents and is not drawn here; empty if none
+    Coat coat;
+    Anisotropy anisotropy;
+    Specular specular;
+    Sheen sheen;
+    std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; empty if none
 };
 
 // Triangles with one material. Every attribute array is empty or has vertexCount() entries.

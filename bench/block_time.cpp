@@ -1,0 +1,170 @@
+// BC5 of normal maps beside libnvtt and libsquish: the mean and the largest error in degrees, and the time on one core.
+//   block_time FILE...
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+#include <nvtt/nvtt.h>
+#include <squish.h>
+
+#include "cotan/image/file.hpp"
+#include "cotan/maps/block.hpp"
+#include "cotan/parallel/loops.hpp"
+
+namespace {
+
+using cotan::Image;
+using Bytes = std::vector<std::byte>;
+
+// The eight values of half a BC5 block, of 0 to 255, as graphics processors make them: not rounded.
+void decodeHalf(const std::byte* block, double* to)
+{
+    const double a = double(std::to_integer<int>(block[0])), b = double(std::to_integer<int>(block[1]));
+    double levels[8] = {a, b};
+    for (int i = 1; i < 7; ++i)
+        levels[i + 1] = a > b ? ((7 - i) * a + i * b) / 7 : i < 5 ? ((5 - i) * a + i * b) / 5 : i == 5 ? 0 : 255;
+    std::uint64_t bits = 0;
+    for (int i = 7; i >= 2; --i)
+        bits = bits << 8 | std::to_integer<std::uint64_t>(block[i]);
+    for (int i = 0; i < 16; ++i)
+        to[i] = levels[bits >> 3 * i & 7];
+}
+
+struct Figures {
+    double mean = 0, most = 0;
+};
+
+Figures errorOf(const std::vector<glm::dvec3>& normals, int width, int height, const Bytes& blocks)
+{
+    Figures f;
+    const int across = (width + 3) / 4;
+    for (int by = 0; by < (height + 3) / 4; ++by)
+        for (int bx = 0; bx < across; ++bx) {
+            double x[16], y[16];
+            const std::byte* const block = blocks.data() + std::size_t(by * across + bx) * 16;
+            decodeHalf(block, x);
+            decodeHalf(block + 8, y);
+            for (int i = 0; i < 16; ++i) {
+                const int px = bx * 4 + i % 4, py = by * 4 + i / 4;
+                if (px >= width || py >= height)
+                    continue;
+                glm::dvec3 n((x[i] - 128) / 127, (y[i] - 128) / 127, 0);
+                n.z = std::sqrt(std::max(0.0, 1 - n.x * n.x - n.y * n.y));
+                n = glm::normalize(n);
+                const glm::dvec3& to = normals[std::size_t(py) * std::size_t(width) + std::size_t(px)];
+                const double degrees = glm::degrees(std::atan2(glm::length(glm::cross(n, to)), glm::dot(n, to)));
+                f.mean += degrees;
+                f.most = std::max(f.most, degrees);
+            }
+        }
+    f.mean /= double(width) * double(height);
+    return f;
+}
+
+struct Taker : nvtt::OutputHandler {
+    Bytes bytes;
+    void beginImage(int, int, int, int, int, int) override {}
+    bool writeData(const void* data, int size) override
+    {
+        const auto* const from = static_cast<const std::byte*>(data);
+        bytes.insert(bytes.end(), from, from + size);
+        return true;
+    }
+};
+
+Bytes byNvtt(const std::vector<std::uint8_t>& rgba, int width, int height, nvtt::Quality quality)
+{
+    std::vector<std::uint8_t> bgra = rgba;
+    for (std::size_t i = 0; i < bgra.size(); i += 4)
+        std::swap(bgra[i], bgra[i + 2]);
+    nvtt::InputOptions in;
+    in.setTextureLayout(nvtt::TextureType_2D, width, height);
+    in.setMipmapData(bgra.data(), width, height);
+    in.setMipmapGeneration(false);
+    in.setNormalMap(false);
+    in.setGamma(1, 1);
+    nvtt::CompressionOptions how;
+    how.setFormat(nvtt::Format_BC5);
+    how.setQuality(quality);
+    Taker taker;
+    nvtt::OutputOptions out;
+    out.setOutputHeader(false);
+    out.setOutputHandler(&taker);
+    nvtt::Compressor compressor;
+    compressor.enableCudaAcceleration(false);
+    compressor.process(in, how, out);
+    return taker.bytes;
+}
+
+Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
+{
+    Bytes bytes(std::size_t(squish::GetStorageRequirements(width, height, squish::kBc5)));
+    squish::CompressImage(rgba.data(), width, height, bytes.data(), squish::kBc5);
+    return bytes;
+}
+
+Bytes byCotan(const Image& map)
+{
+    Bytes blocks;
+    cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc5(map, {}); });
+    return blocks;
+}
+
+} // namespace
+
+int main(int count, char** files)
+{
+    const char* const names[] = {"cotan", "cotan, 8 bits", "nvtt fastest", "nvtt normal", "nvtt production", "squish"};
+    for (int f = 1; f < count; ++f) {
+        const auto map = cotan::readImage(files[f]);
+        if (!map) {
+            fmt::print(stderr, "block_time: {}\n", map.error().message);
+            return 2;
+        }
+        const int width = map->width, height = map->height;
+        std::vector<glm::dvec3> normals;
+        std::vector<std::uint8_t> rgba;
+        Image target = cotan::makeImage(width, height, cotan::PixelType::float32, "target"),
+              codes = target; // as others get it
+        for (std::size_t i = 0; i < map->pixelCount(); ++i) {
+            glm::dvec3 n;
+            for (int c = 0; c < 3; ++c)
+                n[c] = map->type == cotan::PixelType::unorm16 ? (map->words()[4 * i + std::size_t(c)] - 32768.0) / 32767
+                                                              : (map->bytes8()[4 * i + std::size_t(c)] - 128.0) / 127;
+            n.z = std::max(n.z, 0.0);
+            n = glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 0, 1);
+            normals.push_back(n);
+            for (int c = 0; c < 4; ++c) {
+                const double code = c == 3 ? 255 : 128 + 127 * n[c];
+                target.floats()[4 * i + std::size_t(c)] = c == 3 ? 1.0f : float((n[c] + 1) / 2);
+                rgba.push_back(std::uint8_t(std::lround(code)));
+                codes.floats()[4 * i + std::size_t(c)] = float((double(rgba.back()) - 128) / 127 + 1) / 2;
+            }
+        }
+        const std::function<Bytes()> encoders[] = {
+            [&] { return byCotan(target); },
+            [&] { return byCotan(codes); },
+            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Fastest); },
+            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Normal); },
+            [&] { return byNvtt(rgba, width, height, nvtt::Quality_Production); },
+            [&] { return bySquish(rgba, width, height); },
+        };
+        for (int e = 0; e < 6; ++e) {
+            const std::clock_t start = std::clock(); // of all threads
+            const Bytes blocks = encoders[e]();
+            const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+            const Figures error = errorOf(normals, width, height, blocks);
+            fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, names[e], error.mean,
+                       error.most, seconds);
+        }
+    }
+    return 0;
+}

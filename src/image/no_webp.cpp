@@ -1,0 +1,17 @@
+// WebP where there is no libwebp.
+#include <fmt/format.h>
+
+#include "cotan/not_built.hpp"
+#include "webp.hpp"
+
+namespace cotan {
+
+bool readsWebp() { return false; }
+
+Result<Image> readWebp(std::span<const std::byte>, const std::string& name, const LoadLimits&)
+{
+    const Error missing = notBuiltWith("libwebp", "libwebp-dev");
+    return Error{missing.kind, fmt::format("{}: {}", name, missing.message)};
+}
+
+} // namespace cotan

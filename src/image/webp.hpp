@@ -1,0 +1,29 @@
+// WebP through libwebp. Direct: OpenImageIO's reader multiplies colours by alpha.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "cotan/files/limits.hpp"
+#include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
+
+namespace cotan {
+
+// Whether this build has the library.
+bool readsWebp();
+
+// As decodeImage. Animations are refused.
+Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+
+struct WebpSize {
+    std::int64_t width = 0, height = 0; // pixels
+};
+
+// The size of the picture, once its parts have been found to lie within the file, as its header says (RFC 9649).
+// Errors: ErrorKind::input, without the file's name.
+Result<WebpSize> checkWebp(std::span<const std::byte> bytes);
+
+} // namespace cotan

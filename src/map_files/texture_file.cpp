@@ -1,0 +1,206 @@
+#include "texture_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+#include "cotan/files/output.hpp"
+#include "cotan/maps/block.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+// What the two containers say of a format.
+struct CodeFacts {
+    std::uint32_t dxgi, vulkan; // DXGI_FORMAT, VkFormat
+    std::uint32_t bytes;        // of a pixel or block
+    std::uint32_t model;        // of the Khronos data format: KHR_DF_MODEL_...
+    std::vector<std::uint32_t> channels;
+};
+
+CodeFacts factsOf(TexelCode code)
+{
+    switch (code) {
+    case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
+    case TexelCode::bc4: return {80, 139, 8, 131, {0}};
+    case TexelCode::rgba8: break;
+    }
+    return {0, 37, 4, 1, {0, 1, 2, 15}};
+}
+
+void append(std::string& bytes, const std::vector<std::byte>& more)
+{
+    bytes.append(reinterpret_cast<const char*>(more.data()), more.size());
+}
+
+void appendNumber(std::string& bytes, std::uint64_t number, int size)
+{
+    for (int i = 0; i < size; ++i)
+        bytes += char(number >> 8 * i & 0xff);
+}
+
+// Microsoft's DDS_HEADER of 124 bytes, little-endian, and DDS_HEADER_DXT10 for blocks; then the levels.
+std::string ddsBytes(TexelCode code, const std::vector<TextureLevel>& levels)
+{
+    const CodeFacts facts = factsOf(code);
+    const bool blocks = code != TexelCode::rgba8;
+    std::array<std::uint32_t, 37> header{};
+    header[0] = 0x20534444; // "DDS "
+    header[1] = 124;
+    header[2] = 0x1 | 0x2 | 0x4 | (blocks ? 0x80000 : 0x8) | 0x1000; // caps, height, width, size or pitch, format
+    header[3] = std::uint32_t(levels[0].height);
+    header[4] = std::uint32_t(levels[0].width);
+    header[5] = blocks ? std::uint32_t(levels[0].texels.size()) : std::uint32_t(levels[0].width) * 4;
+    header[19] = 32;     // the pixel format's own size
+    header[27] = 0x1000; // texture
+    if (levels.size() > 1) {
+        header[2] |= 0x20000;
+        header[7] = std::uint32_t(levels.size());
+        header[27] |= 0x8 | 0x400000; // complex, mip map
+    }
+    if (blocks) {
+        header[20] = 0x4;        // four letters
+        header[21] = 0x30315844; // "DX10"
+        header[32] = facts.dxgi;
+        header[33] = 3; // two dimensions
+        header[35] = 1; // of one
+    } else {
+        header[20] = 0x1 | 0x40; // alpha and RGB
+        header[22] = 32;
+        header[23] = 0x000000ff, header[24] = 0x0000ff00, header[25] = 0x00ff0000, header[26] = 0xff000000;
+    }
+    std::string bytes(reinterpret_cast<const char*>(header.data()), blocks ? sizeof header : 128);
+    for (const TextureLevel& level : levels)
+        append(bytes, level.texels);
+    return bytes;
+}
+
+// The basic descriptor of the Khronos Data Format, 1.3: linear values, one sample a channel.
+std::string descriptor(TexelCode code, const CodeFacts& facts)
+{
+    const bool blocks = code != TexelCode::rgba8;
+    const std::size_t size = 24 + 16 * facts.channels.size();
+    std::string d;
+    appendNumber(d, size + 4, 4);
+    appendNumber(d, 0, 4); // Khronos, basic
+    appendNumber(d, 2, 2); // version 1.3
+    appendNumber(d, size, 2);
+    appendNumber(d, facts.model, 1);
+    appendNumber(d, 1, 1); // primaries of BT.709
+    appendNumber(d, 1, 1); // linear
+    appendNumber(d, 0, 1);
+    appendNumber(d, blocks ? 0x0303 : 0, 4); // 4 x 4, less one
+    appendNumber(d, facts.bytes, 8);         // in the first plane
+    const std::size_t bits = facts.bytes * 8 / facts.channels.size();
+    for (std::size_t i = 0; i < facts.channels.size(); ++i) {
+        appendNumber(d, i * bits, 2);
+        appendNumber(d, bits - 1, 1);
+        appendNumber(d, facts.channels[i], 1);
+        appendNumber(d, 0, 8); // position, lowest value
+        appendNumber(d, blocks ? 0xffffffff : 255, 4);
+    }
+    return d;
+}
+
+// Header, where each level is, descriptor, keys, levels from the smallest.
+std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels)
+{
+    const CodeFacts facts = factsOf(code);
+    std::string described = descriptor(code, facts), keys;
+    for (const std::string& entry : {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)}) {
+        appendNumber(keys, entry.size(), 4);
+        keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
+    }
+    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + described.size();
+    std::string data(keysAt + keys.size(), '\0'); // in front of the levels; filled at the end
+    std::vector<std::size_t> places(levels.size());
+    for (std::size_t i = levels.size(); i-- > 0;) {
+        data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
+        places[i] = data.size();
+        append(data, levels[i].texels);
+    }
+    std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
+    for (const std::uint64_t number :
+         {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
+          std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
+          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(described.size()),
+          std::uint64_t(keysAt), std::uint64_t(keys.size())})
+        appendNumber(head, number, 4);
+    appendNumber(head, 0, 8);
+    appendNumber(head, 0, 8);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        appendNumber(head, places[i], 8);
+        appendNumber(head, levels[i].texels.size(), 8);
+        appendNumber(head, levels[i].texels.size(), 8);
+    }
+    head += described + keys;
+    std::ranges::copy(head, data.begin());
+    return data;
+}
+
+// What a shader makes of a code: see Expansion.
+CodeScale scaleOf(Expansion expansion)
+{
+    if (expansion == Expansion::biased)
+        return {127.5f, 127.5f};
+    return expansion == Expansion::exact16 ? CodeScale{255 * 32768 / 65535.0f, 255 * 32767 / 65535.0f} : CodeScale{};
+}
+
+} // namespace
+
+bool isTextureFile(const std::filesystem::path& file)
+{
+    const std::string extension = lowerExtension(file);
+    return extension == ".dds" || extension == ".ktx2";
+}
+
+Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels)
+{
+    return writeFileWhole(file, lowerExtension(file) == ".dds" ? ddsBytes(code, levels) : ktx2Bytes(code, levels));
+}
+
+TextureLevel rgbaLevel(const Image& image) { return {image.width, image.height, image.data}; }
+
+TextureLevel bc5Level(const Image& image, const Convention& to)
+{
+    return {image.width, image.height, encodeBc5(image, scaleOf(to.expansion))};
+}
+
+TextureLevel bc4Level(const Image& image) { return {image.width, image.height, encodeBc4(image)}; }
+
+Result<bool> wantsBc5(const std::string& compress, const std::string& bits, const Convention& to,
+                      const std::filesystem::path& file)
+{
+    if (compress == "bc7")
+        return usageError("options.compress: bc7 is read and not written; expected none or bc5");
+    if (compress != "none" && compress != "bc5")
+        return usageError(fmt::format("options.compress: expected none or bc5; found '{}'", compress));
+    if (!isTextureFile(file) && compress != "none")
+        return usageError(fmt::format("options.compress: blocks are for .dds and .ktx2 files; found '{}'",
+                                      file.extension().string()));
+    if (isTextureFile(file) && bits != "auto" && bits != "8")
+        return usageError(
+            fmt::format("options.bits: {} files are written with 8 bits; found '{}'", lowerExtension(file), bits));
+    if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
+        return usageError("options.to: bc5 holds x and y of unit vectors; found another form of two channels");
+    if (isTextureFile(file) && to.expansion == Expansion::signedValues)
+        return usageError("options.to: signed values need a .exr or .tif of floats");
+    return compress == "bc5";
+}
+
+Convention bc5Convention(const Convention& to)
+{
+    Convention two = to;
+    two.channels = Channels::orthographic;
+    two.expansion = Expansion::biased;
+    return two;
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,252 @@
+// KTX 2.0 files: formats, packings, keys; cut short and lying.
+#include "cotan/image/file.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include "ktx2_maker.hpp"
+
+namespace cotan {
+namespace {
+
+using test::Ktx2File;
+using test::little;
+using test::makeKtx2;
+using namespace std::string_literals;
+
+Result<Image> ktx2Image(const std::string& file, const LoadLimits& limits = {})
+{
+    return decodeImage(std::as_bytes(std::span(file)), "a.ktx2", limits);
+}
+
+std::string ktx2Refusal(const std::string& file, const LoadLimits& limits = {})
+{
+    const auto image = ktx2Image(file, limits);
+    return image ? "accepted" : image.error().message;
+}
+
+std::vector<double> texel(const Image& image, std::size_t i)
+{
+    std::vector<double> t;
+    for (std::size_t c = 4 * i; c < 4 * i + 4; ++c)
+        t.push_back(image.type == PixelType::unorm8        ? image.bytes8()[c]
+                        : image.type == PixelType::unorm16 ? image.words()[c]
+                                                           : double(image.floats()[c]));
+    return t;
+}
+
+std::string ramp(std::size_t bytes)
+{
+    std::string text;
+    for (std::size_t i = 0; i < bytes; ++i)
+        text += char(i * 37 + 11);
+    return text;
+}
+
+std::string zstd(const std::string& text)
+{
+    std::string packed(ZSTD_compressBound(text.size()), '\0');
+    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
+    return packed;
+}
+
+std::string deflated(const std::string& text)
+{
+    uLongf size = compressBound(uLong(text.size()));
+    std::string packed(size, '\0');
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
+             uLong(text.size()));
+    packed.resize(size);
+    return packed;
+}
+
+TEST(Ktx2, everyPlainFormatComesBackAsItIsStored)
+{
+    using V = std::vector<double>;
+    const struct {
+        std::uint32_t format;
+        std::string texel;
+        PixelType type;
+        V expected;
+    } cases[] = {
+        {9, "\x10", PixelType::unorm8, {16, 16, 16, 255}},
+        {16, "\x10\x20", PixelType::unorm8, {16, 32, 128, 255}},
+        {23, "\x10\x20\x30", PixelType::unorm8, {16, 32, 48, 255}},
+        {30, "\x10\x20\x30", PixelType::unorm8, {48, 32, 16, 255}},
+        {37, "\x10\x20\x30\x40", PixelType::unorm8, {16, 32, 48, 64}},
+        {43, "\x10\x20\x30\x40", PixelType::unorm8, {16, 32, 48, 64}}, // sRGB
+        {44, "\x10\x20\x30\x40", PixelType::unorm8, {48, 32, 16, 64}},
+        {70, "\x10\x01", PixelType::unorm16, {272, 272, 272, 65535}},
+        {77, "\x10\x01\x20\x02", PixelType::unorm16, {272, 544, 32768, 65535}},
+        {91, "\1\0\2\0\3\0\4\0"s, PixelType::unorm16, {1, 2, 3, 4}},
+        // Halves: 0x3c00 is 1, 0xc000 is -2, 0x3555 is 0.333251953125 (IEEE 754).
+        {97, "\x00\x3c\x00\xc0\x55\x35\x00\x38"s, PixelType::float32, {1, -2, 0.333251953125, 0.5}},
+        {103, "\0\0\x80\x3f\0\0\x20\xc1"s, PixelType::float32, {1, -10, 0.5, 1}},
+    };
+    for (const auto& c : cases) {
+        const auto image = ktx2Image(makeKtx2({.format = c.format, .levels = {{c.texel}}}));
+        ASSERT_TRUE(image) << c.format << image.error().message;
+        EXPECT_EQ(image->type, c.type) << c.format;
+        EXPECT_EQ(texel(*image, 0), c.expected) << c.format;
+    }
+}
+
+TEST(Ktx2, packedLevelsAreUnpackedAndTheLargestIsTaken)
+{
+    const std::string large = ramp(4 * 6 * 4), small = ramp(2 * 3 * 4), least = ramp(4);
+    const auto plain = ktx2Image(makeKtx2({.width = 6, .height = 4, .levels = {{large}, {ramp(3 * 2 * 4)}, {least}}}));
+    ASSERT_TRUE(plain) << plain.error().message;
+    EXPECT_EQ(plain->width, 6);
+    for (std::size_t i = 0; i < large.size(); ++i)
+        ASSERT_EQ(plain->bytes8()[i], std::uint8_t(large[i])) << i;
+    const auto z = ktx2Image(makeKtx2({.width = 6, .height = 4, .packing = 2, .levels = {{zstd(large), 96}}}));
+    ASSERT_TRUE(z) << z.error().message;
+    EXPECT_EQ(z->data, plain->data);
+    const auto d = ktx2Image(makeKtx2({.width = 6, .height = 4, .packing = 3, .levels = {{deflated(large), 96}}}));
+    ASSERT_TRUE(d) << d.error().message;
+    EXPECT_EQ(d->data, plain->data);
+}
+
+TEST(Ktx2, keysTurnRowsAndChannels)
+{
+    const auto agNormal =
+        ktx2Image(makeKtx2({.format = 16, .levels = {{"\x10\x20"}}, .keys = {"KTXswizzle\0rrrg\0"s}}));
+    ASSERT_TRUE(agNormal) << agNormal.error().message;
+    EXPECT_EQ(texel(*agNormal, 0), (std::vector<double>{16, 16, 16, 32}));
+    const auto normal = ktx2Image(makeKtx2({.format = 16, .levels = {{"\x10\x20"}}, .keys = {"KTXswizzle\0rg01\0"s}}));
+    ASSERT_TRUE(normal);
+    EXPECT_EQ(texel(*normal, 0), (std::vector<double>{16, 32, 128, 255}));
+    const auto turned = ktx2Image(makeKtx2({.levels = {{"\x10\x20\x30\x40"}}, .keys = {"KTXswizzle\0a01g\0"s}}));
+    ASSERT_TRUE(turned);
+    EXPECT_EQ(texel(*turned, 0), (std::vector<double>{64, 0, 255, 32}));
+    const Ktx2File up{.format = 9, .height = 3, .levels = {{"\1\2\3"}}, .keys = {"by\0me\0"s, "KTXorientation\0ru\0"s}};
+    const auto flipped = ktx2Image(makeKtx2(up));
+    ASSERT_TRUE(flipped) << flipped.error().message;
+    EXPECT_EQ(texel(*flipped, 0)[0], 3);
+    EXPECT_EQ(texel(*flipped, 1)[0], 2);
+    EXPECT_EQ(texel(*flipped, 2)[0], 1);
+}
+
+// A block of BC4 is two ends and sixteen places of 3 bits: place 0 is the first end, 1 the second; with the first the
+// larger, 2 to 7 are sevenths between them.
+TEST(Ktx2, blocksAreDecoded)
+{
+    const auto block = [](int first, int second, std::uint64_t place) {
+        std::uint64_t places = 0;
+        for (int i = 0; i < 16; ++i)
+            places |= place << 3 * i;
+        return ""s + char(first) + char(second) + little(places, 6);
+    };
+    const auto bc5 =
+        ktx2Image(makeKtx2({.format = 141,
+                            .width = 5,
+                            .height = 4,
+                            .levels = {{block(240, 30, 0) + block(100, 30, 1) + block(210, 0, 2) + block(7, 0, 7)}}}));
+    ASSERT_TRUE(bc5) << bc5.error().message;
+    EXPECT_EQ(texel(*bc5, 3), (std::vector<double>{240, 30, 128, 255}));
+    EXPECT_EQ(texel(*bc5, 4), (std::vector<double>{180, 1, 128, 255}));
+    const auto bc4 = ktx2Image(makeKtx2({.format = 139, .width = 4, .height = 4, .levels = {{block(240, 30, 1)}}}));
+    ASSERT_TRUE(bc4) << bc4.error().message;
+    EXPECT_EQ(texel(*bc4, 15), (std::vector<double>{30, 30, 30, 255}));
+    // BC1: 5:6:5 white and black, all the first; BC3 with alpha in front; zstd around it.
+    const std::string white = "\xff\xff\0\0"s + std::string(4, '\0');
+    const auto bc1 = ktx2Image(makeKtx2({.format = 132, .width = 4, .height = 4, .levels = {{white}}}));
+    ASSERT_TRUE(bc1) << bc1.error().message;
+    EXPECT_EQ(texel(*bc1, 5), (std::vector<double>{255, 255, 255, 255}));
+    const auto bc3 = ktx2Image(makeKtx2(
+        {.format = 137, .width = 4, .height = 4, .packing = 2, .levels = {{zstd(block(90, 9, 0) + white), 16}}}));
+    ASSERT_TRUE(bc3) << bc3.error().message;
+    EXPECT_EQ(texel(*bc3, 5), (std::vector<double>{255, 255, 255, 90}));
+    // BC2: four bits of alpha each.
+    const auto bc2 = ktx2Image(
+        makeKtx2({.format = 135, .width = 4, .height = 4, .levels = {{std::string(8, '\xaa') + white}}}));
+    ASSERT_TRUE(bc2) << bc2.error().message;
+    EXPECT_EQ(texel(*bc2, 5), (std::vector<double>{255, 255, 255, 170}));
+    // BC7, mode 5 of a block of zeros but its mode: black, and alpha of 0.
+    const auto bc7 =
+        ktx2Image(makeKtx2({.format = 145, .width = 4, .height = 4, .levels = {{"\x20"s + std::string(15, '\0')}}}));
+    ASSERT_TRUE(bc7) << bc7.error().message;
+    EXPECT_EQ(texel(*bc7, 0), (std::vector<double>{0, 0, 0, 0}));
+}
+
+TEST(Ktx2, basisIsRefusedWithTheCommandThatHelps)
+{
+    const auto etc1s = ktx2Image(makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163}));
+    ASSERT_FALSE(etc1s);
+    EXPECT_EQ(etc1s.error().kind, ErrorKind::unavailable);
+    EXPECT_EQ(
+        etc1s.error().message,
+        "a.ktx2: BasisU (ETC1S) is not decoded here; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file "
+        "that is");
+    const std::string uastc = makeKtx2({.format = 0, .packing = 2, .levels = {{"some"}}, .colourModel = 166});
+    EXPECT_NE(ktx2Refusal(uastc).find("BasisU (UASTC)"), std::string::npos);
+    EXPECT_EQ(foreignFormat(std::as_bytes(std::span(uastc))), "KTX2 with BasisU (UASTC)");
+    EXPECT_NE(ktx2Refusal(makeKtx2({.format = 157, .levels = {{"some"}}})).find("ASTC is not decoded"),
+              std::string::npos);
+}
+
+TEST(Ktx2, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
+{
+    const std::string file = makeKtx2(
+        {.width = 6, .height = 4, .packing = 2, .levels = {{zstd(ramp(96)), 96}}, .keys = {"KTXswizzle\0rgba\0"s}});
+    ASSERT_EQ(ktx2Refusal(file), "accepted");
+    for (std::size_t size = 12; size < file.size(); ++size) {
+        const std::string why = ktx2Refusal(file.substr(0, size));
+        EXPECT_TRUE(why.starts_with("a.ktx2: ")) << size << why;
+        EXPECT_EQ(why.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Ktx2, headersThatLieAreRefused)
+{
+    const std::string texels = ramp(96);
+    const Ktx2File good{.width = 6, .height = 4, .levels = {{texels}}};
+    const auto refused = [](Ktx2File file, const std::string& why) {
+        const std::string message = ktx2Refusal(makeKtx2(file));
+        EXPECT_NE(message.find(why), std::string::npos) << message;
+    };
+    Ktx2File k = good;
+    k.height = 5, refused(k, "its size asks for 120");
+    k = good, k.levels[0].plainBytes = 97, refused(k, "level 0 has 97 bytes");
+    k = good, k.packing = 2, refused(k, "zstd: ");
+    k = good, k.packing = 3, refused(k, "zlib: ");
+    k = good, k.packing = 4, refused(k, "supercompression 4");
+    k = good, k.packing = 1, refused(k, "supercompression 1");
+    k = good, k.faces = 6, refused(k, "6 faces");
+    k = good, k.layers = 3, refused(k, "3 layers");
+    k = good, k.depth = 2, refused(k, "expected one flat picture");
+    k = good, k.height = 0, refused(k, "expected one flat picture");
+    k = good, k.format = 4711, refused(k, "its format 4711");
+    k = good, k.levelCount = 4, refused(k, "it has 4 levels, 6 x 4 pixels have 3");
+    k = good, k.levelCount = 3, refused(k, "level 1 ");
+    k = good, k.keys = {"KTXswizzle\0rgbx\0"s}, refused(k, "KTXswizzle: expected");
+    k = good, k.keys = {"KTXorientation\0ld\0"s}, refused(k, "KTXorientation: expected");
+    std::string far = makeKtx2(good);
+    far.replace(80, 8, little(0xfffffffffffffff0, 8));
+    EXPECT_NE(ktx2Refusal(far).find("from 18446744073709551600"), std::string::npos) << ktx2Refusal(far);
+    far = makeKtx2(good).replace(60, 4, little(0xfffffff0, 4));
+    EXPECT_NE(ktx2Refusal(far).find("its keys take"), std::string::npos) << ktx2Refusal(far);
+}
+
+// Streams that unpack to more, or to less, than the header says, and pictures over the limit.
+TEST(Ktx2, bombsAreRefusedBeforeMemoryIsTaken)
+{
+    const std::string zeros(std::size_t(1) << 20, '\0');
+    for (const std::uint32_t packing : {2u, 3u}) {
+        const std::string packed = packing == 2 ? zstd(zeros) : deflated(zeros);
+        EXPECT_NE(ktx2Refusal(makeKtx2({.packing = packing, .levels = {{packed, 4}}})), "accepted");
+        EXPECT_EQ(
+            ktx2Refusal(makeKtx2({.width = 512, .height = 512, .packing = packing, .levels = {{packed, 1 << 20}}})),
+            "accepted");
+        EXPECT_NE(
+            ktx2Refusal(makeKtx2({.width = 512, .height = 1024, .packing = packing, .levels = {{packed, 2 << 20}}})),
+            "accepted");
+        const std::string large = ktx2Refusal(makeKtx2(
+            {.width = 16384, .height = 16384, .packing = packing, .levels = {{packed, std::uint64_t(1) << 30}}}));
+        EXPECT_NE(large.find("take 1073741824 bytes, the limit is"), std::string::npos) << large;
+    }
+}
+
+} // namespace
+} // namespace cotan

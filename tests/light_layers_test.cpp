@@ -1,0 +1,215 @@
+// Clear coat and stretched highlights of light.h against formulas written on their own, in double, and against what
+// holds for all reflection: it may be turned round, and gives back no more than arrives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cotan/truth/patch.hpp"
+
+namespace cotan {
+namespace {
+
+struct LayerRay {
+    glm::dvec3 n, t, v, l; // t perpendicular to n
+};
+
+LayerRay anyLayerRay(Random& random)
+{
+    for (;;) {
+        LayerRay r{random.direction(), random.direction(), random.direction(), random.direction()};
+        r.t = glm::normalize(r.t - r.n * glm::dot(r.n, r.t));
+        if (glm::dot(r.n, r.v) > 0.01 && glm::dot(r.n, r.l) > 0.01)
+            return r;
+    }
+}
+
+// B. Walter and others 2007 and E. Heitz 2014: a GGX surface that is stretched is the even one seen in a space that
+// is shrunk by the two roughnesses; masking by Lambda of the projected roughness.
+double stretchedByTheBook(const LayerRay& r, double along, double across)
+{
+    const glm::dvec3 b = glm::cross(r.n, r.t), h = glm::normalize(r.v + r.l);
+    const auto slopes = [&](glm::dvec3 w) { return glm::dvec2(glm::dot(w, r.t), glm::dot(w, b)) / glm::dot(w, r.n); };
+    const glm::dvec2 s = slopes(h) / glm::dvec2(along, across);
+    const double density =
+        1 / (std::numbers::pi * along * across * std::pow(glm::dot(h, r.n), 4) * std::pow(1 + glm::dot(s, s), 2));
+    const auto lambda = [&](glm::dvec3 w) {
+        const glm::dvec2 a = slopes(w) * glm::dvec2(along, across);
+        return (std::sqrt(1 + glm::dot(a, a)) - 1) / 2;
+    };
+    const double masking = 1 / (1 + lambda(r.v) + lambda(r.l));
+    return density * masking / (4 * glm::dot(r.n, r.v) * glm::dot(r.n, r.l));
+}
+
+TEST(LightLayers, aStretchedHighlightIsHeitzsFormula)
+{
+    Random random(901);
+    double worst = 0;
+    for (const double roughness : {0.045, 0.2, 0.5, 1.0})
+        for (const double strength : {0.0, 0.3, 0.7, 1.0})
+            for (int k = 0; k < 500; ++k) {
+                const LayerRay r = anyLayerRay(random);
+                const double across = roughness * roughness, along = across + (1 - across) * strength * strength;
+                const double expected = stretchedByTheBook(r, along, across);
+                const double found = f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, strength, r.t);
+                worst = std::max(worst, std::abs(found / expected - 1));
+            }
+    EXPECT_LT(worst, 1e-6); // double, and mirrors that amplify its roundings
+}
+
+TEST(LightLayers, aHighlightThatIsNotStretchedIsTheEvenOne)
+{
+    Random random(902);
+    for (int k = 0; k < 1000; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        const double roughness = random.range(0.05, 1);
+        const double even = f64::cotan_ggx(r.n, r.v, r.l, roughness);
+        EXPECT_NEAR(f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, 0, r.t) / even, 1, 1e-6);
+    }
+}
+
+TEST(LightLayers, theEyeAndTheLightMayChangePlaces)
+{
+    Random random(903);
+    for (int k = 0; k < 1000; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        const double roughness = random.range(0.05, 1), strength = random.unit();
+        const double there = f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, strength, r.t);
+        const double back = f64::cotan_ggx_stretched(r.n, r.l, r.v, roughness, strength, r.t);
+        EXPECT_NEAR(back / there, 1, 1e-9);
+        const f64::cotan_coat coat{strength, roughness, r.n};
+        const double coatThere = f64::cotan_reflect_coat(coat, r.v, r.l) / glm::dot(r.n, r.l);
+        const double coatBack = f64::cotan_reflect_coat(coat, r.l, r.v) / glm::dot(r.n, r.v);
+        EXPECT_NEAR(coatBack, coatThere, 1e-9 * coatThere);
+    }
+}
+
+// What comes back of a white furnace: the integral over all lights, in cells of equal solid angle.
+template<class Reflect> double furnace(glm::dvec3 n, glm::dvec3 t, int cells, Reflect reflect)
+{
+    const glm::dvec3 b = glm::cross(n, t);
+    double sum = 0;
+    for (int i = 0; i < cells; ++i)
+        for (int j = 0; j < 2 * cells; ++j) {
+            const double z = (i + 0.5) / cells, a = std::numbers::pi * (j + 0.5) / cells, s = std::sqrt(1 - z * z);
+            sum += reflect(t * (s * std::cos(a)) + b * (s * std::sin(a)) + n * z);
+        }
+    return sum * 2 * std::numbers::pi / (2.0 * cells * cells);
+}
+
+TEST(LightLayers, aStretchedWhiteMetalGivesBackNoMoreThanArrives)
+{
+    const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
+    double smooth = 0;
+    for (const double roughness : {0.3, 0.6, 1.0})
+        for (const double strength : {0.0, 0.5, 1.0})
+            for (const double degrees : {0.0, 40.0, 75.0})
+                for (const double turn : {0.0, 45.0, 90.0}) {
+                    const double a = degrees * kDegree, p = turn * kDegree;
+                    const glm::dvec3 v(std::sin(a) * std::cos(p), std::sin(a) * std::sin(p), std::cos(a));
+                    const double all = furnace(n, t, 256, [&](glm::dvec3 l) {
+                        return f64::cotan_ggx_stretched(n, v, l, roughness, strength, t) * l.z;
+                    });
+                    EXPECT_LT(all, 1.002) << roughness << " " << strength << " " << degrees; // of the sum by cells
+                    EXPECT_GT(all, 0.3) << roughness << " " << strength << " " << degrees;   // one bounce of many
+                    if (roughness < 0.5 && strength == 0)
+                        smooth = std::max(smooth, all);
+                }
+    EXPECT_GT(smooth, 0.97); // smooth ones lose next to nothing
+}
+
+TEST(LightLayers, aCoatOverWhiteGivesBackNoMoreThanArrives)
+{
+    const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
+    for (const double roughness : {0.2, 0.5, 1.0})
+        for (const double degrees : {0.0, 40.0, 60.0, 75.0, 85.0}) {
+            const double a = degrees * kDegree;
+            const glm::dvec3 v(std::sin(a), 0, std::cos(a));
+            const f64::cotan_coat coat{1, roughness, n};
+            const double lobe = furnace(n, t, 256, [&](glm::dvec3 l) { return f64::cotan_reflect_coat(coat, v, l); });
+            // Beneath: what gives back all.
+            EXPECT_LT(lobe + 1 - f64::cotan_coat_share(coat, v), 1.005) << roughness << " " << degrees;
+            EXPECT_GT(lobe, 0.01);
+        }
+}
+
+TEST(LightLayers, theCoatIsABlackDielectricsHighlightTimesItsStrength)
+{
+    Random random(904);
+    for (int k = 0; k < 500; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        const double roughness = random.range(0.05, 1), strength = random.unit();
+        f64::cotan_surface s{};
+        s.roughness = roughness;
+        s.occlusion = 1;
+        s.n = r.n;
+        s.v = r.v;
+        const f64::cotan_coat coat{strength, roughness, r.n};
+        const double expected = strength * f64::cotan_reflect_pbr(s, r.l).x;
+        EXPECT_NEAR(f64::cotan_reflect_coat(coat, r.v, r.l), expected, 1e-9 * expected);
+        const glm::dvec3 around = f64::cotan_reflect_environment(s) * strength;
+        EXPECT_LT(glm::length(f64::cotan_reflect_coat_environment(coat, r.v) - around), 1e-9);
+        const double power = std::pow(1 - glm::dot(r.n, r.v), 5);
+        EXPECT_NEAR(f64::cotan_coat_share(coat, r.v), strength * (0.04 + 0.96 * power), 1e-12);
+    }
+}
+
+TEST(LightLayers, plainGlossIsMetallicRoughness)
+{
+    Random random(905);
+    for (int k = 0; k < 200; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        f64::cotan_surface s{};
+        s.base_color = {random.unit(), random.unit(), random.unit()};
+        s.metallic = random.unit();
+        s.roughness = random.range(0.05, 1);
+        s.occlusion = 1;
+        s.n = r.n;
+        s.v = r.v;
+        const f64::cotan_gloss plain = f64::cotan_gloss_of(1.5, 1, {1, 1, 1});
+        EXPECT_LT(glm::length(f64::cotan_reflect_glossy(s, plain, r.l) - f64::cotan_reflect_pbr(s, r.l)), 1e-9);
+        EXPECT_LT(glm::length(f64::cotan_reflect_environment_glossy(s, plain) - f64::cotan_reflect_environment(s)),
+                  1e-9);
+    }
+    // Water, glass, diamond; an index of 0 stands for infinity.
+    EXPECT_NEAR(f64::cotan_gloss_of(1.33, 1, {1, 1, 1}).f0.x, 0.0201, 1e-4);
+    EXPECT_NEAR(f64::cotan_gloss_of(2.42, 1, {1, 1, 1}).f0.x, 0.1724, 1e-4);
+    EXPECT_EQ(f64::cotan_gloss_of(0, 0.5, {1, 1, 1}).f0.x, 0.5);
+    EXPECT_EQ(f64::cotan_gloss_of(2.42, 0.5, {9, 1, 0}).f0.x, 0.5); // limited to 1, then times strength
+}
+
+TEST(LightLayers, aDirectionRunsAlongTheTangentOfASkewedParametrisation)
+{
+    Random random(906);
+    for (int k = 0; k < 500; ++k) {
+        // A plane p = p0 + u du + v dv; its gradients are t and b of the cotangent frame.
+        const glm::dvec3 du = random.direction() * random.range(0.1, 10),
+                         dv = random.direction() * random.range(0.1, 10);
+        const glm::dvec3 n = glm::normalize(glm::cross(du, dv)) * (random.unit() < 0.5 ? -1.0 : 1.0);
+        const double area = glm::dot(glm::cross(du, dv), n);
+        const glm::dvec3 t = glm::cross(dv, n) / area, b = glm::cross(n, du) / area;
+        const glm::dvec3 along = f64::cotan_direction_on_surface(n, t, b, {1, 0}, n);
+        EXPECT_LT(glm::length(along - glm::normalize(du)), 1e-6);
+        const glm::dvec3 across = f64::cotan_direction_on_surface(n, t, b, {0, 1}, n);
+        EXPECT_NEAR(glm::dot(across, along), 0, 1e-6);
+        EXPECT_GT(glm::dot(across, dv), 0);
+        const glm::dvec3 bent = glm::normalize(n + random.direction() * 0.5);
+        const glm::dvec3 turned = f64::cotan_direction_on_surface(n, t, b, {0.6, -0.8}, bent);
+        EXPECT_NEAR(glm::dot(turned, bent), 0, 1e-6);
+        EXPECT_NEAR(glm::length(turned), 1, 1e-6);
+    }
+    EXPECT_EQ(f32::cotan_direction_on_surface({0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {1, 0}, {0, 0, 1}), glm::vec3(0));
+}
+
+TEST(LightLayers, theBentNormalOfAMirrorStretchedWhollyLiesAcrossTheDirection)
+{
+    // A brushed mirror seen from along its brushing sees what a cylinder with that axis would.
+    const glm::dvec3 n(0, 0, 1), t(1, 0, 0), v = glm::normalize(glm::dvec3(0.4, 0.5, 0.7));
+    const glm::dvec3 bent = f64::cotan_bent_normal(n, v, 0, 1, t);
+    EXPECT_LT(glm::length(bent - glm::normalize(glm::dvec3(0.4, 0, 0.7))), 1e-9);
+    EXPECT_LT(glm::length(f64::cotan_bent_normal(n, v, 0, 0, t) - n), 1e-9);
+    EXPECT_LT(glm::length(f64::cotan_bent_normal(n, v, 1, 1, t) - n), 1e-9);
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,192 @@
+// BC5 and BC4, read back by the definition of their blocks.
+#include "cotan/maps/block.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include "cotan/parallel/loops.hpp"
+
+namespace cotan::maps {
+namespace {
+
+using Half = std::array<double, 16>;
+
+std::array<double, 8> blockLevels(double a, double b)
+{
+    std::array<double, 8> levels{a, b};
+    for (int i = 1; i < 7; ++i) // a is never below b here
+        levels[std::size_t(i) + 1] = ((7 - i) * a + i * b) / 7;
+    return levels;
+}
+
+// Codes, not rounded, as graphics processors have them.
+Half decodedHalf(const std::byte* block)
+{
+    const auto levels = blockLevels(std::to_integer<int>(block[0]), std::to_integer<int>(block[1]));
+    EXPECT_GT(block[0], block[1]) << "the other kind of block";
+    std::uint64_t bits = 0;
+    for (int i = 7; i >= 2; --i)
+        bits = bits << 8 | std::to_integer<std::uint64_t>(block[i]);
+    Half texels{};
+    for (std::size_t i = 0; i < 16; ++i)
+        texels[i] = levels[bits >> 3 * i & 7];
+    return texels;
+}
+
+double degreesOff(glm::dvec2 codes, const glm::dvec3& normal)
+{
+    const glm::dvec2 xy = (codes - 128.0) / 127.0;
+    const glm::dvec3 n = glm::normalize(glm::dvec3(xy, std::sqrt(std::max(0.0, 1 - glm::dot(xy, xy)))));
+    return glm::degrees(std::atan2(glm::length(glm::cross(n, normal)), glm::dot(n, normal)));
+}
+
+Image blockOf(const std::vector<glm::dvec3>& normals, int width)
+{
+    Image image = makeImage(width, int(normals.size()) / width, PixelType::float32);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            image.floats()[4 * i + std::size_t(c)] = float((normals[i][c] + 1) / 2);
+    return image;
+}
+
+// A block of directions around one that is tilted so far.
+std::vector<glm::dvec3> tilted(double tilt, double spread, std::mt19937& random)
+{
+    std::uniform_real_distribution<double> turn(0, glm::radians(360.0)), step(-spread, spread);
+    const double around = turn(random);
+    std::vector<glm::dvec3> normals;
+    for (int i = 0; i < 16; ++i) {
+        const double angle = glm::radians(tilt) + step(random), at = around + step(random);
+        normals.emplace_back(std::sin(angle) * std::cos(at), std::sin(angle) * std::sin(at), std::cos(angle));
+    }
+    return normals;
+}
+
+Half codesOf(const std::vector<glm::dvec3>& normals, int axis)
+{
+    Half codes{};
+    for (std::size_t i = 0; i < 16; ++i)
+        codes[i] = 128 + 127 * normals[i][axis];
+    return codes;
+}
+
+// What fits each channel best by itself, of all ends: the sum of squares of codes.
+Half bestChannel(const Half& values)
+{
+    Half best{};
+    double least = 1e30;
+    for (int a = 1; a < 256; ++a)
+        for (int b = 0; b < a; ++b) {
+            const auto levels = blockLevels(a, b);
+            Half picked{};
+            double sum = 0;
+            for (std::size_t i = 0; i < 16; ++i) {
+                picked[i] = levels[0];
+                for (const double level : levels)
+                    if (std::abs(level - values[i]) < std::abs(picked[i] - values[i]))
+                        picked[i] = level;
+                sum += (picked[i] - values[i]) * (picked[i] - values[i]);
+            }
+            if (sum < least) {
+                least = sum;
+                best = picked;
+            }
+        }
+    return best;
+}
+
+TEST(Block, flatNormalsStayFlatAndOneDirectionIsKeptWithinAFractionOfACode)
+{
+    for (const glm::dvec3& n : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.3, -0.4, 0.7))}) {
+        const auto bytes = encodeBc5(blockOf(std::vector<glm::dvec3>(16, n), 4), {});
+        ASSERT_EQ(bytes.size(), 16u);
+        const Half x = decodedHalf(bytes.data()), y = decodedHalf(bytes.data() + 8);
+        for (std::size_t i = 0; i < 16; ++i) {
+            EXPECT_NEAR(x[i], 128 + 127 * n.x, n.x == 0 ? 0 : 0.5 / 7 + 1e-3); // half a step of ends that are one apart
+            EXPECT_NEAR(y[i], 128 + 127 * n.y, n.y == 0 ? 0 : 0.5 / 7 + 1e-3);
+        }
+    }
+}
+
+// Codes that are each as close as they can be are not the smallest angles: steep normals, whose z the error of x and y
+// is multiplied in.
+TEST(Block, anglesAreSmallerThanThoseOfTheClosestCodes)
+{
+    std::mt19937 random(7);
+    double ours = 0, closest = 0;
+    for (int block = 0; block < 12; ++block) {
+        const auto normals = tilted(65, 0.2, random);
+        const auto bytes = encodeBc5(blockOf(normals, 4), {});
+        const Half x = codesOf(normals, 0), y = codesOf(normals, 1);
+        const Half ourX = decodedHalf(bytes.data()), ourY = decodedHalf(bytes.data() + 8), bestX = bestChannel(x),
+                   bestY = bestChannel(y);
+        for (std::size_t i = 0; i < 16; ++i) {
+            ours += degreesOff({ourX[i], ourY[i]}, normals[i]) / (12 * 16);
+            closest += degreesOff({bestX[i], bestY[i]}, normals[i]) / (12 * 16);
+        }
+    }
+    EXPECT_LT(ours, 0.9 * closest) << ours << " degrees, " << closest;
+}
+
+// Where little is steep the two aims are one, and a search of all ends is the best that there is.
+TEST(Block, ofGentleNormalsTheEndsAreNearlyTheBestThatThereAre)
+{
+    std::mt19937 random(11);
+    double ours = 0, best = 0;
+    for (int block = 0; block < 12; ++block) {
+        const auto normals = tilted(10, 0.1, random);
+        const auto bytes = encodeBc5(blockOf(normals, 4), {});
+        const Half x = codesOf(normals, 0);
+        const Half got = decodedHalf(bytes.data()), all = bestChannel(x);
+        for (std::size_t i = 0; i < 16; ++i) {
+            ours += (got[i] - x[i]) * (got[i] - x[i]);
+            best += (all[i] - x[i]) * (all[i] - x[i]);
+        }
+    }
+    EXPECT_LT(ours, 1.1 * best);
+}
+
+TEST(Block, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
+{
+    std::mt19937 random(3);
+    std::vector<glm::dvec3> normals;
+    for (int i = 0; i < 4; ++i)
+        for (const glm::dvec3& n : tilted(30, 0.4, random))
+            normals.push_back(n);
+    normals.resize(7 * 9, {0, 0, 1});
+    const Image odd = blockOf(normals, 7);
+    Image whole = makeImage(8, 12, PixelType::float32);
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 4; ++c)
+                whole.floats()[(y * 8 + x) * 4 + c] = odd.floats()[(std::min(y, 8) * 7 + std::min(x, 6)) * 4 + c];
+    const auto bytes = encodeBc5(odd, {});
+    EXPECT_EQ(bytes.size(), 2u * 3 * 16);
+    EXPECT_EQ(bytes, encodeBc5(whole, {}));
+    std::vector<std::byte> one;
+    withThreads(1, [&] { one = encodeBc5(odd, {}); });
+    EXPECT_EQ(one, bytes);
+}
+
+TEST(Block, oneChannelIsKeptWithinHalfASeventhOfItsRange)
+{
+    Image ramp = makeImage(4, 4, PixelType::float32);
+    for (int i = 0; i < 16; ++i)
+        ramp.floats()[4 * i] = float(i + 40) / 255;
+    const auto bytes = encodeBc4(ramp);
+    ASSERT_EQ(bytes.size(), 8u);
+    const Half back = decodedHalf(bytes.data());
+    for (int i = 0; i < 16; ++i)
+        EXPECT_NEAR(back[std::size_t(i)], i + 40, 15.0 / 7 / 2 + 0.1) << i;
+}
+
+} // namespace
+} // namespace cotan::maps

@@ -1,0 +1,269 @@
+// Clear coat and anisotropy, which read the frame, on both renderers and on the models that have them.
+#include "models.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "cotan/surface/vertex_frames.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+
+// A quad in the xy plane, uv skewed and mirrored, with a map of one texel that leans.
+Scene leaningQuad()
+{
+    Scene scene;
+    Mesh mesh;
+    for (const glm::vec2 p : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+        mesh.positions.push_back({p, 0});
+        mesh.normals.push_back({0, 0, 1});
+        mesh.texcoords[0].push_back({0.5f - 0.4f * p.x + 0.1f * p.y, 0.5f - 0.45f * p.y});
+    }
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({"", 0, glm::mat4(1)});
+    scene.materials.emplace_back();
+    Image image = makeImage(1, 1, PixelType::unorm8);
+    const int texel[] = {128 + 25, 128 + 40, 128 + 117, 255}; // leans 22 degrees
+    for (int c = 0; c < 4; ++c)
+        image.bytes8()[c] = std::uint8_t(texel[c]);
+    scene.images.push_back(image);
+    return scene;
+}
+
+View quadView(Frame frame)
+{
+    View view = frontView({-1, -1}, {1, 1}, 16);
+    view.output = Output::shaded;
+    view.linearOutput = true;
+    view.samples = 1;
+    view.environment = view.background = view.shadows = false;
+    view.frame = frame;
+    view.lights = {Light{}};
+    view.lights[0].direction = glm::normalize(glm::vec3(-0.3f, 0.2f, -1));
+    return view;
+}
+
+double redAt(const Image& image, int x, int y)
+{
+    return image.floats()[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4];
+}
+
+TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
+{
+    for (const char* device : {"reference", "auto"}) {
+        auto painter = painterFor(device);
+        if (!painter)
+            continue;
+        for (const FrameInfo& frame : frames())
+            for (const bool turned : {false, true}) {
+                Texture map;
+                map.image = 0;
+                if (turned) { // a quarter, and stretched
+                    map.uRow = {0, 1.5f, 0};
+                    map.vRow = {-1, 0, 1};
+                }
+                // A black dielectric reflects by its highlight alone, which is that of a coat.
+                Scene own = leaningQuad();
+                Material& black = own.materials[0];
+                black.baseColor = {0, 0, 0, 1};
+                black.metallic = 0;
+                black.roughness = 0.5f;
+                black.normalMap = map;
+                // A black metal reflects nothing but at grazing angles. Its own map leans otherwise.
+                Scene coated = leaningQuad();
+                Material& metal = coated.materials[0];
+                metal.baseColor = {0, 0, 0, 1};
+                metal.metallic = 1;
+                metal.coat.strength = 1;
+                metal.coat.roughness = 0.5f;
+                metal.coat.normalMap = map;
+                deriveVertexFrames(own, frame.frame, TangentOrigin::stored);
+                deriveVertexFrames(coated, frame.frame, TangentOrigin::stored);
+                // Tangents are made for the surface's own map.
+                const bool stored = readsTangents(frame.frame) && turned;
+                View view = quadView(frame.frame);
+                ASSERT_TRUE(painter->load(own));
+                const Image expected = drawWith(*painter, view);
+                ASSERT_TRUE(painter->load(coated));
+                const Image found = drawWith(*painter, view);
+                const double a = redAt(expected, 12, 17), b = redAt(found, 12, 17);
+                EXPECT_GT(a, 0.001) << device << ", " << frame.name;
+                if (!stored) {
+                    EXPECT_NEAR(b / a, 1, 2e-3) << device << ", " << frame.name << ", " << turned;
+                }
+                if (frame.frame != Frame::cotangent)
+                    continue;
+                // Without its map the highlight lies elsewhere.
+                coated.materials[0].coat.normalMap = {};
+                ASSERT_TRUE(painter->load(coated));
+                EXPECT_GT(std::abs(redAt(drawWith(*painter, view), 12, 17) / a - 1), 0.05) << device << frame.name;
+            }
+    }
+}
+
+TEST(Coat, takesItsShareFromEmission)
+{
+    for (const char* device : {"reference", "auto"}) {
+        auto painter = painterFor(device);
+        if (!painter)
+            continue;
+        Scene scene = leaningQuad();
+        scene.materials[0].emissive = {0.5f, 0.5f, 0.5f};
+        scene.materials[0].coat.strength = 0.5f;
+        View view = quadView(Frame::cotangent);
+        view.lights.clear();
+        ASSERT_TRUE(painter->load(scene));
+        EXPECT_NEAR(redAt(drawWith(*painter, view), 12, 17), 0.5 * (1 - 0.5 * 0.04), 1e-5) << device;
+    }
+}
+
+TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
+{
+    // Seen and lit from straight ahead, leaned along u: stretched along u it is brighter there than across.
+    for (const char* device : {"reference", "auto"}) {
+        auto painter = painterFor(device);
+        if (!painter)
+            continue;
+        Scene scene = leaningQuad();
+        for (glm::vec2& uv : scene.meshes[0].texcoords[0])
+            uv.x = 1 - uv.x; // not mirrored
+        Material& m = scene.materials[0];
+        m.roughness = 0.3f;
+        m.anisotropy.strength = 0.9f;
+        View view = quadView(Frame::cotangent);
+        const auto lit = [&](float rotation, glm::vec3 way) {
+            m.anisotropy.rotation = rotation;
+            view.lights[0].direction = glm::normalize(way);
+            EXPECT_TRUE(painter->load(scene));
+            return redAt(drawWith(*painter, view), 12, 17);
+        };
+        // dp/du is along x: u does not grow along (0.1, 0.4).
+        const glm::vec3 along(-0.8f, 0, -1), across(0, -0.8f, -1), slant(-0.57f, -0.57f, -1);
+        EXPECT_GT(lit(0, along), 5 * lit(0, across)) << device;
+        EXPECT_GT(lit(1.5708f, across), 5 * lit(1.5708f, along)) << device;
+        // From +u towards -v, which is up: an eighth of a turn leans to the upper right.
+        const glm::vec3 other(-0.57f, 0.57f, -1);
+        EXPECT_GT(lit(0.7854f, slant), 5 * lit(0.7854f, other)) << device;
+    }
+}
+
+// Of a shaded picture, in steps of 8 bits: the mean over the largest channel of each pixel.
+double meanStep(const Image& a, const Image& b)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixelCount(); ++i) {
+        int step = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            step = std::max(step, std::abs(int(a.bytes8()[4 * i + c]) - int(b.bytes8()[4 * i + c])));
+        sum += step;
+    }
+    return sum / double(a.pixelCount());
+}
+
+Image pictureOf(Painter& painter, Scene scene, Frame frame, bool layers)
+{
+    for (Material& m : scene.materials)
+        if (!layers)
+            m.coat.strength = m.anisotropy.strength = 0;
+    deriveVertexFrames(scene, frame, TangentOrigin::stored);
+    View view;
+    view.width = 320;
+    view.height = 240;
+    view.camera = fitCamera(bounds(scene), view.width, view.height);
+    view.lights = defaultLights();
+    view.frame = frame;
+    EXPECT_TRUE(painter.load(scene));
+    return drawWith(painter, view);
+}
+
+TEST(MaterialModels, bothRenderersDrawTheSameLayers)
+{
+    auto gpu = painterFor("auto"), reference = painterFor("reference");
+    if (!gpu)
+        GTEST_SKIP() << "no Vulkan device";
+    for (const char* file :
+         {"models/ClearCoatTest/ClearCoatTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
+          "materials/AnisotropyDiscTest.glb"}) {
+        COTAN_NEEDS_MODEL(file);
+        const Scene scene = loadModel(file);
+        const Image plain = pictureOf(*reference, scene, Frame::cotangent, false);
+        const double edges = meanStep(pictureOf(*gpu, scene, Frame::cotangent, false), plain);
+        const Image layered = pictureOf(*reference, scene, Frame::cotangent, true);
+        const double mean = meanStep(pictureOf(*gpu, scene, Frame::cotangent, true), layered);
+        const double layers = meanStep(plain, layered);
+        std::cout << file << ": " << mean << " steps of 255; without its layers " << edges << "; they change " << layers
+                  << "\n";
+        // Edges of triangles and filtered maps differ without layers too; these have sharper highlights.
+        EXPECT_LT(mean, edges + 0.15 * layers) << file;
+    }
+}
+
+// How far the direction of anisotropy from a derived frame lies from that of the file's tangents, in degrees, at four
+// points of every triangle whose material has it.
+std::vector<float> directionsApart(const Scene& scene, Frame derived)
+{
+    std::vector<float> apart;
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& m = scene.materials[std::size_t(mesh.material)];
+        if (!(m.anisotropy.strength > 0) || mesh.tangents.empty())
+            continue;
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const auto at = [&](const auto& values, int corner) {
+                return values[mesh.indices[i + std::size_t(corner)]];
+            };
+            const auto& p = mesh.positions;
+            const auto& uv = mesh.texcoords[0];
+            const glm::vec3 e1 = at(p, 1) - at(p, 0), e2 = at(p, 2) - at(p, 0);
+            const glm::vec2 d1 = at(uv, 1) - at(uv, 0), d2 = at(uv, 2) - at(uv, 0);
+            if (glm::length(glm::cross(e1, e2)) < 1e-12f || std::abs(d1.x * d2.y - d1.y * d2.x) < 1e-12f)
+                continue;
+            for (const glm::vec3 w :
+                 {glm::vec3(1, 1, 1) / 3.0f, {0.8f, 0.1f, 0.1f}, {0.1f, 0.8f, 0.1f}, {0.1f, 0.1f, 0.8f}}) {
+                const auto mixed = [&](const auto& values) {
+                    return at(values, 0) * w.x + at(values, 1) * w.y + at(values, 2) * w.z;
+                };
+                const glm::vec3 raw = mixed(mesh.normals), n = glm::normalize(raw);
+                const f32::cotan_frame own = readsCotangents(derived)
+                    ? evaluateCotangents(derived, n, mixed(mesh.cotangentsU), mixed(mesh.cotangentsV))
+                    : evaluate(derived, n, e1, e2, d1, d2);
+                const glm::vec4 tangent = mixed(mesh.tangents);
+                const f32::cotan_frame stored =
+                    evaluateTangents(Frame::mikktspace, raw, glm::vec3(tangent), -tangent.w);
+                const glm::vec2 along(1, 0);
+                const glm::vec3 a = f32::cotan_direction_on_surface(n, own.t, own.b, along, n);
+                const glm::vec3 b = f32::cotan_direction_on_surface(n, stored.t, stored.b, along, n);
+                // A highlight has no sign.
+                const float cosine = std::abs(glm::dot(a, b)), sine = glm::length(glm::cross(a, b));
+                apart.push_back(float(std::atan2(sine, cosine) * 57.29577951308232));
+            }
+        }
+    }
+    return apart;
+}
+
+TEST(Anisotropy, theDerivedDirectionIsThatOfTheStoredTangents)
+{
+    for (const char* file :
+         {"materials/AnisotropyDiscTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
+        COTAN_NEEDS_MODEL(file);
+        for (const Frame frame : {Frame::cotangent, Frame::smooth}) {
+            Scene scene = loadModel(file);
+            // Where the file has none: MikkTSpace's, as an engine would make them.
+            deriveVertexFrames(scene, Frame::mikktspace, TangentOrigin::stored);
+            deriveVertexFrames(scene, frame, TangentOrigin::stored);
+            const AngleStatistics s = angleStatistics(directionsApart(scene, frame));
+            std::cout << file << ", " << name(frame) << ": " << toText(s) << "\n";
+            EXPECT_GT(s.count, 300u) << file;
+            // Averaged at the vertices as tangents are, derived directions are theirs. In the pixel each triangle has
+            // its own direction, where interpolated tangents turn: on spheres of 24 segments by a few degrees.
+            EXPECT_LT(s.maximum, frame == Frame::smooth ? 0.2 : 6) << file;
+            EXPECT_LT(s.mean, frame == Frame::smooth ? 0.1 : 2.5) << file;
+        }
+    }
+}
+
+} // namespace
+} // namespace cotan
