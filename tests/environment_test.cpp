@@ -120,8 +120,8 @@ TEST(Environment, glossOfDefaultsChangesNothingAndBendsWhereItIsStretched)
     bent.metallic = 1;
     const vec3 n = f32::cotan_bent_normal(s.n, s.v, s.roughness, 1, gloss.t);
     const glm::vec2 albedo = albedoOf(lampMap(), s.n, s.v, s.roughness);
-    const vec3 expected = radianceAlong(lampMap(), f32::cotan_mirrored(n, s.v), s.roughness)
-        * (bent.base_color * albedo.x + albedo.y);
+    const vec3 expected =
+        radianceAlong(lampMap(), f32::cotan_mirrored(n, s.v), s.roughness) * (bent.base_color * albedo.x + albedo.y);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(reflectedGlossy(lampMap(), bent, gloss)[c], expected[c], 1e-5f);
 }
@@ -166,14 +166,15 @@ TEST(Environment, filteredRadianceIsTheLobesMean)
             double weights = 0;
             const dvec3 n(d);
             const dvec3 expected = overSphere([&](dvec3 l) {
-                const double nl = glm::dot(n, l);
-                if (nl <= 0)
-                    return dvec3(0);
-                const double nh2 = (1 + nl) / 2, k = 1 + (alpha2 - 1) * nh2;
-                const double weight = alpha2 / (k * k) * nl;
-                weights += weight;
-                return dvec3(lamp(vec3(l))) * weight;
-            }) / (4 * kPi) * (700.0 * 700.0);
+                                       const double nl = glm::dot(n, l);
+                                       if (nl <= 0)
+                                           return dvec3(0);
+                                       const double nh2 = (1 + nl) / 2, k = 1 + (alpha2 - 1) * nh2;
+                                       const double weight = alpha2 / (k * k) * nl;
+                                       weights += weight;
+                                       return dvec3(lamp(vec3(l))) * weight;
+                                   })
+                / (4 * kPi) * (700.0 * 700.0);
             const vec3 found = radianceAlong(lampMap(), d, roughness);
             // 2 % of the lamp: a sample stands for the mean over its share of the lobe, which widens it.
             for (int c = 0; c < 3; ++c)
@@ -326,8 +327,8 @@ TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
     for (int y = 0; y < 160; ++y)
         for (int x = 0; x < 160; ++x) {
             const float* n = normals->floats() + 4 * (y * 160 + x);
-            const vec3 ray = glm::normalize(
-                vec3(half * ((float(x) + 0.5f) / 80 - 1), half * (1 - (float(y) + 0.5f) / 80), -1));
+            const vec3 ray =
+                glm::normalize(vec3(half * ((float(x) + 0.5f) / 80 - 1), half * (1 - (float(y) + 0.5f) / 80), -1));
             const vec3 normal(n[0], n[1], n[2]);
             if (n[3] > 0 && -glm::dot(normal, ray) < 0.4f)
                 continue; // Fresnel's term is no longer the metal's

@@ -56,7 +56,7 @@ TEST(FrontCamera, verticesFillThePictureInOneDirectionAndAreCentredInBoth)
             const Scene scene = placed(makeTeapot(6), toWorld);
             const Extent e = extentOf(scene, frontCamera(scene, width, height), double(width) / height);
             const double wide = std::max(-e.left, e.right), high = std::max(-e.bottom, e.top);
-            EXPECT_NEAR(std::max(wide, high), 0.92, 0.003); // the eye is a float
+            EXPECT_NEAR(std::max(wide, high), 0.92, 0.003);              // the eye is a float
             EXPECT_NEAR(e.left + e.right, 0, wide > high ? 0.003 : 0.1); // equal room where it is tight
             EXPECT_NEAR(e.bottom + e.top, 0, high > wide ? 0.003 : 0.1);
         }

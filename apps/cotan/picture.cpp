@@ -53,15 +53,15 @@ Status surround(const PictureOptions& options, View& view)
     const bool seen = options.background == "environment" || options.background == "blur";
     if (!surrounded && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
         return usageError(fmt::format("--{}: expected --environment with it; found none",
-                                      seen                                 ? "background " + options.background
+                                      seen                                   ? "background " + options.background
                                           : options.environmentRotation != 0 ? "environment-rotation"
                                                                              : "environment-intensity"));
     view.background = options.background != "none";
     if (!surrounded)
         return Done{};
-    view.backdrop = options.background == "gradient"  ? Backdrop::gradient
-        : options.background == "environment" ? Backdrop::sharp
-                                              : Backdrop::blurred;
+    view.backdrop = options.background == "gradient" ? Backdrop::gradient
+        : options.background == "environment"        ? Backdrop::sharp
+                                                     : Backdrop::blurred;
     auto map = openEnvironment(options);
     if (!map)
         return map.error();

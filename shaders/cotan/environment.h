@@ -5,8 +5,8 @@
 //   tile  9      irradiance of a surface divided by pi
 //   tile  10     what GGX reflects of white light: x to be multiplied by f0, y to be added; by n.v and roughness
 // Tiles of directions are octahedral maps (Meyer et al., On Floating-Point Normal Vectors, 2010) with y up and a border
-// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The split in two factors is B. Karis's (Real Shading in Unreal
-// Engine 4, 2013). World space, y up.
+// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The
+// split in two factors is B. Karis's (Real Shading in Unreal Engine 4, 2013). World space, y up.
 
 #ifndef COTAN_ENVIRONMENT_H
 #define COTAN_ENVIRONMENT_H

@@ -24,8 +24,8 @@ Result<Camera> lookingFromTo(const std::string& text)
         if ((comma == std::string::npos) != last
             || !parseNumber(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
             || !std::isfinite(v[i]))
-            return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '" + text
-                              + "'");
+            return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '"
+                              + text + "'");
         start = comma + 1;
     }
     Camera camera;

@@ -93,8 +93,8 @@ std::vector<LobeSample> lobe(float roughness, unsigned count)
         const double side = std::sqrt(std::max(1 - nl * nl, 0.0)), phi = 2 * std::numbers::pi * u.y;
         const double d = 1 + (alpha2 - 1) * nh2;
         const double density = alpha2 / (std::numbers::pi * d * d) / 4;
-        samples.push_back({glm::vec3(side * std::cos(phi), side * std::sin(phi), nl), float(nl),
-                           float(1 / (count * density))});
+        samples.push_back(
+            {glm::vec3(side * std::cos(phi), side * std::sin(phi), nl), float(nl), float(1 / (count * density))});
         weights += nl;
     }
     for (LobeSample& s : samples)

@@ -43,8 +43,8 @@ glm::vec3 Octahedral::read(glm::vec3 direction) const
     return top * (1 - ky) + (around(x, y + 1) * (1 - kx) + around(x + 1, y + 1) * kx) * ky;
 }
 
-// The map is the octahedron seen from above, unfolded: a square of side 2 there. On the octahedron a direction d ends at
-// d / (|x|+|y|+|z|), whose distance r sets the angle: 1/r^3 times the area seen from above.
+// The map is the octahedron seen from above, unfolded: a square of side 2 there. On the octahedron a direction d ends
+// at d / (|x|+|y|+|z|), whose distance r sets the angle: 1/r^3 times the area seen from above.
 float solidAngleOfPlace(glm::vec3 d)
 {
     const float size = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);

@@ -67,8 +67,8 @@ glm::vec3 evening(glm::vec3 d)
     static const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.16f, 0.6f));
     const float height = std::max(d.y, 0.0f);
     const float toSun = std::max(glm::dot(d, sun), 0.0f);
-    const glm::vec3 sky = glm::mix(glm::vec3(0.70f, 0.42f, 0.30f), glm::vec3(0.07f, 0.12f, 0.30f),
-                                   1 - std::exp(-3.2f * height));
+    const glm::vec3 sky =
+        glm::mix(glm::vec3(0.70f, 0.42f, 0.30f), glm::vec3(0.07f, 0.12f, 0.30f), 1 - std::exp(-3.2f * height));
     const glm::vec3 glow = glm::vec3(1.8f, 0.75f, 0.22f) * (std::pow(toSun, 8.0f) * std::exp(-2.5f * height));
     const glm::vec3 halo = glm::vec3(6, 3.2f, 1.2f) * std::pow(toSun, 120.0f);
     // A disc of three degrees: the light of the real one, softened.

@@ -245,16 +245,16 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorImageInfo environment(*environmentSampler_, *environmentTexture_.view,
                                               vk::ImageLayout::eShaderReadOnlyOptimal);
     using T = vk::DescriptorType;
-    device_->device.updateDescriptorSets({vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
-                                          vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-                                          vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
-                                          vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
-                                          vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
-                                          vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
-                                                                 layered && targets_->multisampled() ? depth : shadow),
-                                          vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler,
-                                                                 environmentMap_ ? environment : shadow)},
-                                         {});
+    device_->device.updateDescriptorSets(
+        {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
+         vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
+         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
+         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
+         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
+         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
+                                layered && targets_->multisampled() ? depth : shadow),
+         vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler, environmentMap_ ? environment : shadow)},
+        {});
 }
 
 void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const

@@ -74,8 +74,7 @@ inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface
 // The same with reflections of its own.
 inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
 {
-    const glm::vec3 n =
-        g.anisotropy > 0 ? f32::cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t) : s.n;
+    const glm::vec3 n = g.anisotropy > 0 ? f32::cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t) : s.n;
     return f32::cotan_reflect_image(s, g.f0, g.f90, irradianceAlong(map, s.n),
                                     radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
                                     albedoOf(map, s.n, s.v, s.roughness));

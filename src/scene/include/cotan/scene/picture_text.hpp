@@ -8,8 +8,8 @@
 
 namespace cotan::f32 {
 using std::log2;
-#include "cotan/tone.h"
 #include "cotan/environment.h"
+#include "cotan/tone.h"
 } // namespace cotan::f32
 
 #undef COTAN_TONE_H
@@ -17,8 +17,8 @@ using std::log2;
 
 namespace cotan::f64 {
 using std::log2;
-#include "cotan/tone.h"
 #include "cotan/environment.h"
+#include "cotan/tone.h"
 } // namespace cotan::f64
 
 #undef COTAN_FUNCTION
