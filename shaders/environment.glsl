@@ -15,23 +15,32 @@ vec3 radianceAlong(vec3 direction, float roughness)
         atlas(cotan_environment_texel(direction, lower + 1.0)), level - lower);
 }
 
-vec2 albedoAt(float nv, float roughness)
+// The factors of what GGX reflects of white light.
+vec2 albedoOf(vec3 n, vec3 v, float roughness)
 {
-    return atlas(cotan_environment_albedo_texel(cotan_saturate(nv), roughness)).xy;
+    return atlas(cotan_environment_albedo_texel(cotan_saturate(dot(n, v)), roughness)).xy;
 }
 
-// What a surface reflects of its surroundings: towards n mirrored, with reflectances as cotan_reflect_image has them.
-vec3 reflectedOfImage(cotan_surface s, vec3 n, vec3 dielectric, float f90)
+// What a surface reflects of its surroundings.
+vec3 reflectedAlong(cotan_surface s, vec3 mirrored, vec3 dielectric, float f90)
 {
-    return cotan_reflect_image(s, dielectric, f90,
-        atlas(cotan_environment_texel(s.n, COTAN_ENVIRONMENT_IRRADIANCE)),
-        radianceAlong(cotan_mirrored(n, s.v), s.roughness), albedoAt(dot(s.n, s.v), s.roughness));
+    return cotan_reflect_image(s, dielectric, f90, atlas(cotan_environment_texel(s.n, COTAN_ENVIRONMENT_IRRADIANCE)),
+        radianceAlong(mirrored, s.roughness), albedoOf(s.n, s.v, s.roughness));
 }
 
-// What its coat reflects.
-vec3 coatReflectedOfImage(cotan_coat coat, vec3 v)
+vec3 reflectedOfImage(cotan_surface s) { return reflectedAlong(s, cotan_mirrored(s.n, s.v), vec3(0.04), 1.0); }
+
+// The same with reflections of its own.
+vec3 reflectedGlossy(cotan_surface s, cotan_gloss g)
 {
-    vec2 share = albedoAt(dot(coat.n, v), coat.roughness);
-    return radianceAlong(cotan_mirrored(coat.n, v), coat.roughness)
-        * (coat.strength * (0.04 * share.x + share.y));
+    vec3 n = s.n;
+    if (g.anisotropy > 0.0)
+        n = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
+    return reflectedAlong(s, cotan_mirrored(n, s.v), g.f0, g.f90);
+}
+
+vec3 reflectedOfCoat(cotan_coat c, vec3 v)
+{
+    return cotan_reflect_coat_image(c, radianceAlong(cotan_mirrored(c.n, v), c.roughness),
+        albedoOf(c.n, v, c.roughness));
 }

@@ -72,16 +72,15 @@ vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
     Reflected sum = Reflected(s.emissive, vec3(0.0));
     for (uint i = 0u; i < view.counts.x; ++i)
         addLight(sum, lights[i], s, over, p, n);
-    if (ENVIRONMENT && ENVIRONMENT_MAP) {
-        sum.base += over.glossy ? reflectedOfImage(s, cotan_reflecting_normal(s, over.gloss), over.gloss.f0, over.gloss.f90)
-                                : reflectedOfImage(s, s.n, vec3(0.04), 1.0);
+    if (ENVIRONMENT) {
+        if (ENVIRONMENT_MAP)
+            sum.base += over.glossy ? reflectedGlossy(s, over.gloss) : reflectedOfImage(s);
+        else
+            sum.base += over.glossy ? cotan_reflect_environment_glossy(s, over.gloss)
+                                    : cotan_reflect_environment(s);
         if (over.coated)
-            sum.coat += coatReflectedOfImage(over.coat, s.v) * s.occlusion;
-    } else if (ENVIRONMENT) {
-        sum.base += over.glossy ? cotan_reflect_environment_glossy(s, over.gloss)
-                                : cotan_reflect_environment(s);
-        if (over.coated)
-            sum.coat += cotan_reflect_coat_environment(over.coat, s.v) * s.occlusion;
+            sum.coat += s.occlusion
+                * (ENVIRONMENT_MAP ? reflectedOfCoat(over.coat, s.v) : cotan_reflect_coat_environment(over.coat, s.v));
     }
     if (!over.coated)
         return sum.base;

@@ -89,6 +89,43 @@ TEST(Environment, whiteSurfacesAndMirrorsVanishInAWhiteFurnace)
         EXPECT_NEAR(reflectedOf(whiteMap(), surface(vec3(1), 1, 0, nv)).x, 1, 0.01) << nv;
 }
 
+// Over what it covers, so that nothing is gained: base times what the coat lets through, plus the coat.
+TEST(Environment, aCoatReflectsAWhiteFurnaceByItsAlbedo)
+{
+    f32::cotan_coat coat;
+    coat.strength = 0.5f;
+    coat.n = glm::normalize(vec3(0.3f, 0.8f, 0.4f));
+    for (const float nv : {1.0f, 0.5f})
+        for (const float roughness : {0.3f, 0.8f}) {
+            coat.roughness = roughness;
+            const vec3 v = surface(vec3(1), 0, 0, nv).v;
+            f64::cotan_coat exact;
+            exact.strength = 0.5, exact.roughness = roughness, exact.n = glm::normalize(dvec3(coat.n));
+            const dvec3 expected = overSphere(
+                [&](dvec3 l) { return dvec3(f64::cotan_reflect_coat(exact, glm::normalize(dvec3(v)), l)); }, 300);
+            EXPECT_NEAR(reflectedOfCoat(whiteMap(), coat, v).y, expected.y, 0.001) << nv << " " << roughness;
+        }
+}
+
+// With the values of glTF's defaults it is the surface as ever; stretched, it mirrors along the bent normal.
+TEST(Environment, glossOfDefaultsChangesNothingAndBendsWhereItIsStretched)
+{
+    const f32::cotan_surface s = surface(vec3(0.8f, 0.5f, 0.3f), 0.5f, 0.3f, 0.6f);
+    f32::cotan_gloss gloss = f32::cotan_gloss_of(1.5f, 1, vec3(1));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(reflectedGlossy(lampMap(), s, gloss)[c], reflectedOf(lampMap(), s)[c], 1e-5f);
+    gloss.anisotropy = 1;
+    gloss.t = glm::normalize(glm::cross(s.n, vec3(0.2f, 0.1f, 1)));
+    f32::cotan_surface bent = s;
+    bent.metallic = 1;
+    const vec3 n = f32::cotan_bent_normal(s.n, s.v, s.roughness, 1, gloss.t);
+    const glm::vec2 albedo = albedoOf(lampMap(), s.n, s.v, s.roughness);
+    const vec3 expected =
+        radianceAlong(lampMap(), f32::cotan_mirrored(n, s.v), s.roughness) * (bent.base_color * albedo.x + albedo.y);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(reflectedGlossy(lampMap(), bent, gloss)[c], expected[c], 1e-5f);
+}
+
 // What lamps of all directions together give the same surface, by the formula for one lamp.
 TEST(Environment, roughMetalsReflectWhatTheSameMetalReflectsOfAllLamps)
 {

@@ -30,8 +30,8 @@ struct Extent {
 Extent extentOf(const Scene& scene, const Camera& camera, double aspect)
 {
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up))),
-                     up = glm::cross(right, forward);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
+    const glm::dvec3 up = glm::cross(right, forward);
     const double tanY = std::tan(camera.verticalFieldOfView / 2.0);
     Extent e;
     for (const glm::vec3& p : scene.meshes[0].positions) {

@@ -1,6 +1,7 @@
 #include "arguments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <utility>
@@ -20,6 +21,11 @@ std::string positiveNumber(const std::string& text)
     const float value = std::strtof(text.c_str(), &end);
     const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
     return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
+}
+
+std::string number(const std::string& text)
+{
+    return std::isnan(std::strtod(text.c_str(), nullptr)) ? "expected a number; found '" + text + "'" : "";
 }
 
 CommandNames namesOf(const CLI::App& app)
@@ -59,6 +65,7 @@ Argument& Argument::within(int least, int most)
 Argument& Argument::within(double least, double most)
 {
     option_->check(CLI::Range(least, most));
+    option_->check(number);
     return *this;
 }
 

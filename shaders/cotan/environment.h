@@ -5,8 +5,8 @@
 //   tile  9      irradiance of a surface divided by pi
 //   tile  10     what GGX reflects of white light: x to be multiplied by f0, y to be added; by n.v and roughness
 // Tiles of directions are octahedral maps (Meyer et al., On Floating-Point Normal Vectors, 2010) with y up and a border
-// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The split in two factors is B. Karis's (Real Shading in Unreal
-// Engine 4, 2013). World space, y up.
+// of one texel, so that no filter sees an edge. Where the map is folded a filtered read is off by half a texel. The
+// split in two factors is B. Karis's (Real Shading in Unreal Engine 4, 2013). World space, y up.
 
 #ifndef COTAN_ENVIRONMENT_H
 #define COTAN_ENVIRONMENT_H
@@ -79,20 +79,25 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_re
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
 }
 
-// What a surface reflects of its surroundings. dielectric, f90: its reflectance facing and grazing where it is no metal,
-// 0.04 and 1 where nothing else is known. irradiance: tile 9 along n. radiance: along cotan_mirrored of light.h,
-// between the two tiles of the roughness. albedo: tile 10. What is not reflected at the surface is scattered below it,
-// so that a white dielectric reflects all light. Rough metals lose what light that bounces more than once would bring.
+// What a surface reflects of its surroundings. dielectric, f90: what a dielectric reflects, facing and grazing.
+// irradiance: tile 9 along n. radiance: along cotan_mirrored, between the two tiles of the roughness. albedo: tile 10.
+// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light. Rough
+// metals lose what light that bounces more than once would bring.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
     cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
+    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
     cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_real bias = albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic);
-    cotan_vec3 specular = f0 * albedo.x + cotan_vec3(bias, bias, bias);
-    cotan_real one = cotan_real(1.0) - albedo.y * f90;
-    cotan_vec3 below = cotan_vec3(one, one, one) - dielectric * albedo.x;
+    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic));
+    cotan_vec3 below = one - (dielectric * albedo.x + one * (albedo.y * f90));
     cotan_vec3 diffuse = s.base_color * below * (cotan_real(1.0) - s.metallic);
     return (irradiance * diffuse + radiance * specular) * s.occlusion;
+}
+
+// What a coat reflects of its surroundings. radiance, albedo: as above, for its normal and roughness.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_coat_image(cotan_coat c, cotan_vec3 radiance, cotan_vec2 albedo)
+{
+    return radiance * (c.strength * (cotan_real(0.04) * albedo.x + albedo.y));
 }
 
 #endif

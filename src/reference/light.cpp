@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -39,6 +40,15 @@ glm::vec3 reflected(const f32::cotan_surface& surface, const std::optional<f32::
     if (shading == Shading::blinnPhong)
         return f32::cotan_reflect_blinn_phong(surface, toLight);
     return gloss ? f32::cotan_reflect_glossy(surface, *gloss, toLight) : f32::cotan_reflect_pbr(surface, toLight);
+}
+
+glm::vec3 surroundings(const f32::cotan_surface& surface, const std::optional<f32::cotan_gloss>& gloss,
+                       const View& view)
+{
+    if (view.environmentMap)
+        return gloss ? reflectedGlossy(*view.environmentMap, surface, *gloss)
+                     : reflectedOf(*view.environmentMap, surface);
+    return gloss ? f32::cotan_reflect_environment_glossy(surface, *gloss) : f32::cotan_reflect_environment(surface);
 }
 
 } // namespace
@@ -79,16 +89,12 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
         if (layers.coat)
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
-    if (view.environment && view.environmentMap) {
-        const EnvironmentMap& map = *view.environmentMap;
-        radiance += layers.gloss ? reflectedOf(map, surface, *layers.gloss) : reflectedOf(map, surface);
+    if (view.environment) {
+        radiance += surroundings(surface, layers.gloss, view);
         if (layers.coat)
-            fromCoat += reflectedOf(map, *layers.coat, surface.v) * surface.occlusion;
-    } else if (view.environment) {
-        radiance += layers.gloss ? f32::cotan_reflect_environment_glossy(surface, *layers.gloss)
-                                 : f32::cotan_reflect_environment(surface);
-        if (layers.coat)
-            fromCoat += f32::cotan_reflect_coat_environment(*layers.coat, surface.v) * surface.occlusion;
+            fromCoat += surface.occlusion
+                * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)
+                                       : f32::cotan_reflect_coat_environment(*layers.coat, surface.v));
     }
     if (!layers.coat)
         return radiance;

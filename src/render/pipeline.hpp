@@ -17,8 +17,8 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    vk::raii::DescriptorSetLayout picture{
-        nullptr}; // set 0: view, lights, shadow map, lists, layers, opaque depth, environment
+    // Set 0: view, lights, shadow map, lists, layers, opaque depth, environment.
+    vk::raii::DescriptorSetLayout picture{nullptr};
     vk::raii::DescriptorSetLayout material{nullptr}; // set 1
     vk::raii::PipelineLayout pipeline{nullptr};
 };

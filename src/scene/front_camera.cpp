@@ -18,35 +18,6 @@ constexpr double kFieldOfView = 0.523599; // 30 degrees
 constexpr double kFilled = 0.92;          // of the picture, so that 4 % stay free on each side
 constexpr float kFlat = 0.05f;            // depth over width or height
 
-// Calls work(point) for every finite point in the world that has to be seen.
-template<class Work> void forEachPoint(const Scene& scene, const Work& work)
-{
-    std::size_t placed = 0;
-    for (const Instance& instance : scene.instances)
-        if (const Mesh* mesh = meshPlacedBy(scene, instance))
-            placed += mesh->positions.size();
-    const auto see = [&](const Instance& instance, glm::vec3 p) {
-        const dvec3 world(glm::dmat4(instance.toWorld) * glm::dvec4(dvec3(p), 1));
-        if (std::isfinite(world.x) && std::isfinite(world.y) && std::isfinite(world.z))
-            work(world);
-    };
-    for (const Instance& instance : scene.instances) {
-        const Mesh* mesh = meshPlacedBy(scene, instance);
-        if (!mesh)
-            continue;
-        if (placed <= kMostPlacedVertices) {
-            for (const glm::vec3& p : mesh->positions)
-                see(instance, p);
-            continue;
-        }
-        const Bounds box = bounds(*mesh);
-        for (int corner = 0; corner < 8 && !box.empty(); ++corner)
-            see(instance,
-                {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                 corner & 4 ? box.high.z : box.low.z});
-    }
-}
-
 } // namespace
 
 Camera frontCamera(const Scene& scene, int width, int height)
@@ -68,8 +39,10 @@ Camera frontCamera(const Scene& scene, int width, int height)
     const double tanX = tanY * (width > 0 && height > 0 ? double(width) / height : 1.0);
     const double least = -std::numeric_limits<double>::infinity();
     double east = least, west = least, north = least, south = least, nearest = least;
-    forEachPoint(scene, [&](dvec3 world) {
-        const dvec3 p = world - middle;
+    forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+        const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - middle;
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return;
         const double x = glm::dot(p, right), y = glm::dot(p, up), z = glm::dot(p, back);
         east = std::max(east, x + tanX * z);
         west = std::max(west, -x + tanX * z);

@@ -53,17 +53,15 @@ inline Bounds bounds(const Mesh& mesh)
     return box;
 }
 
-// The box around all instances in world space; positions that are not finite count for nothing. It is
-// the smallest one up to kMostPlacedVertices; beyond, each instance counts with the corners of its mesh's
-// box, which a matrix that turns makes larger: by sqrt(3) along an axis at most.
-inline Bounds bounds(const Scene& scene)
+// Calls work(toWorld, point) for the points in whose box a scene lies: every vertex of every instance up to
+// kMostPlacedVertices; beyond, the corners of each instance's mesh's box.
+template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& work)
 {
     std::size_t placed = 0;
     for (const Instance& instance : scene.instances)
         if (const Mesh* mesh = meshPlacedBy(scene, instance))
             placed += mesh->positions.size();
 
-    Bounds box = emptyBounds();
     std::vector<std::optional<Bounds>> own(scene.meshes.size());
     for (const Instance& instance : scene.instances) {
         const Mesh* mesh = meshPlacedBy(scene, instance);
@@ -71,17 +69,26 @@ inline Bounds bounds(const Scene& scene)
             continue;
         if (placed <= kMostPlacedVertices) {
             for (const glm::vec3& p : mesh->positions)
-                extend(box, instance.toWorld, p);
+                work(instance.toWorld, p);
             continue;
         }
         std::optional<Bounds>& b = own[std::size_t(instance.mesh)];
         if (!b)
             b = bounds(*mesh);
         for (int corner = 0; corner < 8 && !b->empty(); ++corner)
-            extend(box, instance.toWorld,
-                   {corner & 1 ? b->high.x : b->low.x, corner & 2 ? b->high.y : b->low.y,
-                    corner & 4 ? b->high.z : b->low.z});
+            work(instance.toWorld,
+                 glm::vec3(corner & 1 ? b->high.x : b->low.x, corner & 2 ? b->high.y : b->low.y,
+                           corner & 4 ? b->high.z : b->low.z));
     }
+}
+
+// The box around all instances in world space; positions that are not finite count for nothing. It is
+// the smallest one up to kMostPlacedVertices; beyond, each instance counts with the corners of its mesh's
+// box, which a matrix that turns makes larger: by sqrt(3) along an axis at most.
+inline Bounds bounds(const Scene& scene)
+{
+    Bounds box = emptyBounds();
+    forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& p) { extend(box, toWorld, p); });
     return box;
 }
 

@@ -55,35 +55,35 @@ inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
     return readAtlas(map, f32::cotan_environment_texel(normal, 9));
 }
 
-inline glm::vec2 albedoAt(const EnvironmentMap& map, float nv, float roughness)
+// The factors of what GGX reflects of white light.
+inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, float roughness)
 {
-    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(f32::cotan_saturate(nv), roughness));
+    const float nv = f32::cotan_saturate(glm::dot(n, v));
+    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(nv, roughness));
     return {albedo.x, albedo.y};
 }
 
-// What a surface reflects of its surroundings: towards n mirrored, with reflectances as cotan_reflect_image has them.
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s, glm::vec3 n, glm::vec3 dielectric,
-                             float f90)
-{
-    return f32::cotan_reflect_image(s, dielectric, f90, irradianceAlong(map, s.n),
-                                    radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
-                                    albedoAt(map, glm::dot(s.n, s.v), s.roughness));
-}
+// What a surface reflects of its surroundings.
 inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
 {
-    return reflectedOf(map, s, s.n, glm::vec3(0.04f), 1);
-}
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
-{
-    return reflectedOf(map, s, f32::cotan_reflecting_normal(s, g), g.f0, g.f90);
+    return f32::cotan_reflect_image(s, glm::vec3(0.04f), 1, irradianceAlong(map, s.n),
+                                    radianceAlong(map, f32::cotan_mirrored(s.n, s.v), s.roughness),
+                                    albedoOf(map, s.n, s.v, s.roughness));
 }
 
-// What its coat reflects.
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_coat& coat, glm::vec3 v)
+// The same with reflections of its own.
+inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
 {
-    const glm::vec2 share = albedoAt(map, glm::dot(coat.n, v), coat.roughness);
-    return radianceAlong(map, f32::cotan_mirrored(coat.n, v), coat.roughness)
-        * (coat.strength * (0.04f * share.x + share.y));
+    const glm::vec3 n = g.anisotropy > 0 ? f32::cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t) : s.n;
+    return f32::cotan_reflect_image(s, g.f0, g.f90, irradianceAlong(map, s.n),
+                                    radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
+                                    albedoOf(map, s.n, s.v, s.roughness));
+}
+
+inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)
+{
+    return f32::cotan_reflect_coat_image(c, radianceAlong(map, f32::cotan_mirrored(c.n, v), c.roughness),
+                                         albedoOf(map, c.n, v, c.roughness));
 }
 
 } // namespace cotan
