@@ -159,8 +159,8 @@ TEST(Ktx2, blocksAreDecoded)
     ASSERT_TRUE(bc3) << bc3.error().message;
     EXPECT_EQ(texel(*bc3, 5), (std::vector<double>{255, 255, 255, 90}));
     // BC2: four bits of alpha each.
-    const auto bc2 = ktx2Image(
-        makeKtx2({.format = 135, .width = 4, .height = 4, .levels = {{std::string(8, '\xaa') + white}}}));
+    const auto bc2 =
+        ktx2Image(makeKtx2({.format = 135, .width = 4, .height = 4, .levels = {{std::string(8, '\xaa') + white}}}));
     ASSERT_TRUE(bc2) << bc2.error().message;
     EXPECT_EQ(texel(*bc2, 5), (std::vector<double>{255, 255, 255, 170}));
     // BC7, mode 5 of a block of zeros but its mode: black, and alpha of 0.

@@ -287,17 +287,11 @@ COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
     return cotan_normalize_or(cotan_mix(bent, n, keep2 * keep2), n);
 }
 
-// The normal that such a surface reflects the environment with.
-COTAN_FUNCTION cotan_vec3 cotan_reflecting_normal(cotan_surface s, cotan_gloss g)
-{
-    cotan_vec3 bent = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
-    return g.anisotropy > cotan_real(0.0) ? bent : s.n;
-}
-
 // As cotan_reflect_environment, with reflections of its own.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cotan_gloss g)
 {
-    cotan_vec3 n = cotan_reflecting_normal(s, g);
+    cotan_vec3 bent = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
+    cotan_vec3 n = g.anisotropy > cotan_real(0.0) ? bent : s.n;
     return cotan_reflect_environment_at(s, cotan_mirrored(n, s.v), g.f0, g.f90);
 }
 

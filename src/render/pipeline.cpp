@@ -141,8 +141,8 @@ Layouts::Layouts(const Device& device)
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
     picture = makeSetLayout(
-        device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage,
-                           kImage});
+        device,
+        std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
     material = makeSetLayout(device, ofMaterial);

@@ -321,9 +321,8 @@ std::string toCsv(const CostReport& report)
     for (const DeviceTiming& d : report.timing)
         for (const TimedRow& r : d.rows)
             for (std::size_t i = 0; i < r.nanosecondsPerMillionPixels.size(); ++i)
-                text +=
-                    fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
-                                quoted(d.name), quoted(d.driver), d.cases[i].leg, r.nanosecondsPerMillionPixels[i]);
+                text += fmt::format("{},timing,{},{},ns per million pixels with legs of {} px,{:.0f}\n", r.row,
+                                    quoted(d.name), quoted(d.driver), d.cases[i].leg, r.nanosecondsPerMillionPixels[i]);
     return text;
 }
 

@@ -143,7 +143,7 @@ struct Texture {
 
 // Extensions that put an image of another format in the place of a texture's, which is read.
 inline constexpr std::array<std::string_view, 3> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
-                                                                           "KHR_texture_basisu"};
+                                                                      "KHR_texture_basisu"};
 
 struct Image {
     std::string name;
