@@ -9,8 +9,8 @@ layout(constant_id = 5) const bool NORMAL_MAPS = true;
 layout(constant_id = 6) const bool ENVIRONMENT = true;
 layout(constant_id = 7) const bool SHADOWS = true;
 layout(constant_id = 8) const bool TONE_MAP = true;
-// Which maps and layers the material may have, COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. Drivers for the CPU execute
-// both sides of a branch, so a map that is left out here is what saves its reads.
+// Which maps and layers the material may have, COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. Drivers for the
+// CPU execute both sides of a branch, so a map that is left out here is what saves its reads.
 layout(constant_id = 9) const uint MAPS = 0xffffffffu;
 layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // where TONE_MAP
 layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // where ENVIRONMENT: the picture, not the formula

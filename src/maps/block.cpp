@@ -9,6 +9,11 @@
 
 #include "cotan/parallel/loops.hpp"
 
+// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace cotan::maps {
 
 namespace {
