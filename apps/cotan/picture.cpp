@@ -69,6 +69,11 @@ Status surround(const PictureOptions& options, View& view)
     return Done{};
 }
 
+std::vector<Light> lightsOf(const PictureOptions& options, const Scene& scene)
+{
+    return scene.lights.empty() && options.environment.empty() ? defaultLights() : scene.lights;
+}
+
 Result<View> makeView(const PictureOptions& options, const Scene& scene)
 {
     View view;
@@ -83,7 +88,6 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     if (!parsed)
         return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
-    view.lights = scene.lights.empty() && options.environment.empty() ? defaultLights() : scene.lights;
     if (Status lit = surround(options, view); !lit)
         return lit.error();
     view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
@@ -161,7 +165,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
 }
 
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
-                            std::initializer_list<Frame> frames)
+                            std::initializer_list<Frame> frames, const View* like)
 {
     Stopwatch watch;
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
@@ -189,10 +193,11 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
                            options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
     for (const std::string& line : picture.scene.warnings)
         warn(common, line);
-    auto view = makeView(options, picture.scene);
+    auto view = like ? Result<View>(*like) : makeView(options, picture.scene);
     if (!view)
         return view.error();
     picture.view = std::move(*view);
+    picture.view.lights = lightsOf(options, picture.scene);
     picture.loadSeconds = watch.lap();
     return picture;
 }

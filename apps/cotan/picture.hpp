@@ -48,9 +48,9 @@ struct Picture {
 };
 
 // Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and
-// sets up the view. Warnings are printed.
+// sets up the view: that of `like`, but for the lights, where it is given. Warnings are printed.
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
-                            std::initializer_list<Frame> frames);
+                            std::initializer_list<Frame> frames, const View* like = nullptr);
 
 // Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
 Status checkLighting(const PictureOptions& options, Frame frame);

@@ -56,17 +56,17 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     return image;
 }
 
-// Draws one picture into o.output. Several of a sequence share the camera that is found for the first: `camera`.
-Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<Camera>& camera)
+// Draws one picture into o.output. The pictures of a sequence share the view that is made for the first: its camera,
+// and surroundings that take a second to make.
+Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>& shared)
 {
     Stopwatch total;
-    auto picture = openPicture(o.picture, o, {frame, Frame::exact});
+    auto picture = openPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
     if (!picture)
         return picture.error();
-    camera = camera.value_or(picture->view.camera);
-    picture->view.camera = *camera;
     picture->view.frame = frame;
     picture->view.output = kShows.at(o.show);
+    shared = picture->view;
 
     Stopwatch watch;
     auto painter = openPicturePainter(o.picture, o, *picture);
@@ -147,17 +147,18 @@ Status run(const RenderCommandOptions& o)
         outputs.push_back({"-o", o.output});
     if (Status planned = planOutputs(o, outputs); !planned)
         return planned;
-    std::optional<Camera> camera;
+    std::optional<View> shared;
     if (numbers->empty())
-        return renderOne(o, *frame, camera);
+        return renderOne(o, *frame, shared);
     RenderCommandOptions one = o;
     for (const int number : *numbers) {
         one.output = numbered(o.output, number);
         one.picture.time = number / o.rate;
-        if (Status drawn = renderOne(one, *frame, camera); !drawn)
+        if (Status drawn = renderOne(one, *frame, shared); !drawn)
             return drawn;
+        if (one.quiet) // the first speaks for itself
+            say(o, "{}", one.output.string());
         one.quiet = true; // what is to be warned of was said for the first
-        say(o, "{}", one.output.string());
     }
     return Done{};
 }
