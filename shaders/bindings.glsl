@@ -16,10 +16,6 @@ layout(set = 1, binding = 6) uniform sampler2D coatMap;
 layout(set = 1, binding = 7) uniform sampler2D coatRoughnessMap;
 layout(set = 1, binding = 8) uniform sampler2D coatNormalMap;
 layout(set = 1, binding = 9) uniform sampler2D anisotropyMap;
-layout(set = 1, binding = 10) uniform sampler2D specularMap;
-layout(set = 1, binding = 11) uniform sampler2D specularColorMap;
-layout(set = 1, binding = 12) uniform sampler2D sheenColorMap;
-layout(set = 1, binding = 13) uniform sampler2D sheenRoughnessMap;
 
 layout(push_constant, std430) uniform DrawBlock { CotanDraw draw; };
 

@@ -96,7 +96,7 @@ cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
 // frame, smoothNormal: outwards on the front side. n: perturbed.
 cotan_gloss glossOf(cotan_frame frame, vec3 smoothNormal, vec3 n)
 {
-    cotan_gloss g = cotan_gloss_of(material.anisotropy.w, material.specular.w, material.specular.rgb);
+    cotan_gloss g = cotan_gloss_of(1.5, 1.0, vec3(1.0));
     float strength = material.anisotropy.x;
     vec2 direction = material.anisotropy.yz;
     if (present(COTAN_MAP_ANISOTROPY, material.anisotropyMap)) {

@@ -17,9 +17,7 @@ struct CotanMaterial {
     ivec4 normalMap;   // expansion, channels, green (+1 along v, -1 against it), 1 if unlit
     vec4 coat;         // strength, roughness, normal scale; w unused
     ivec4 coatNormalMap; // as normalMap; w: 1 if its uv are those of the normal map
-    vec4 anisotropy;   // strength, direction along +u and +v; w: index of refraction
-    vec4 specular;     // linear colour of a dielectric's reflection; w: strength
-    vec4 sheen;        // linear; w: roughness
+    vec4 anisotropy;   // strength, direction along +u and +v; w unused
     CotanTextureUse baseColorMap;
     CotanTextureUse metallicRoughnessMap;
     CotanTextureUse normalMapUse;
@@ -29,14 +27,10 @@ struct CotanMaterial {
     CotanTextureUse coatRoughnessMap;
     CotanTextureUse coatNormalMapUse;
     CotanTextureUse anisotropyMap;
-    CotanTextureUse specularMap;
-    CotanTextureUse specularColorMap;
-    CotanTextureUse sheenColorMap;
-    CotanTextureUse sheenRoughnessMap;
 };
 
 // A bit for each map, in the order above, which is that of the bindings from 1 on.
-#define COTAN_MAP_COUNT 13
+#define COTAN_MAP_COUNT 9
 #define COTAN_MAP_BASE_COLOR 1u
 #define COTAN_MAP_METALLIC_ROUGHNESS 2u
 #define COTAN_MAP_NORMAL 4u
@@ -46,15 +40,10 @@ struct CotanMaterial {
 #define COTAN_MAP_COAT_ROUGHNESS 64u
 #define COTAN_MAP_COAT_NORMAL 128u
 #define COTAN_MAP_ANISOTROPY 256u
-#define COTAN_MAP_SPECULAR 512u
-#define COTAN_MAP_SPECULAR_COLOR 1024u
-#define COTAN_MAP_SHEEN_COLOR 2048u
-#define COTAN_MAP_SHEEN_ROUGHNESS 4096u
 #define COTAN_MAP_OCCLUSION_SHARED 65536u // occlusion is in r of the metallic-roughness texel
 // What the material has besides metallic-roughness.
 #define COTAN_LAYER_COAT 131072u
-#define COTAN_LAYER_GLOSS 262144u // anisotropy, specular or index of refraction
-#define COTAN_LAYER_SHEEN 524288u
+#define COTAN_LAYER_GLOSS 262144u // anisotropy
 
 // Storage buffer, an array.
 struct CotanLight {

@@ -13,7 +13,7 @@ namespace cotan::gltf {
 struct MaterialSource {
     Material factors;
     TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
-    TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness;
+    TextureUse coat, coatRoughness, coatNormal, anisotropy;
 };
 
 // Lights and cameras stand at the origin and look along -z, until a node places them.

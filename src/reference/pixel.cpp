@@ -88,7 +88,7 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
     if (all.view.shading == Shading::blinnPhong)
         return layers;
     if (m.anisotropy.strength > 0) {
-        layers.gloss = f32::cotan_gloss_of(m.specular.ior, m.specular.strength, m.specular.color);
+        layers.gloss = f32::cotan_gloss_of(1.5f, 1, glm::vec3(1));
         stretch(*layers.gloss, in, quad, lane, normal);
     }
     if (m.coat.strength > 0) {

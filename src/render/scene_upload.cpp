@@ -194,13 +194,10 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.coatNormalMap = normalConstants(scene, m.coat.normalMap, {});
     g.coatNormalMap.w = sameUv(m.coat.normalMap, m.normalMap.present() ? m.normalMap : Texture{}) ? 1 : 0;
     const Anisotropy& a = m.anisotropy;
-    g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
-    g.specular = gpu::vec4(m.specular.color, m.specular.strength);
-    g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
-    gpu::CotanTextureUse* const uses[] = {
-        &g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,     &g.occlusionMap,  &g.emissiveMap,
-        &g.coatMap,          &g.coatRoughnessMap,     &g.coatNormalMapUse, &g.anisotropyMap, &g.specularMap,
-        &g.specularColorMap, &g.sheenColorMap,        &g.sheenRoughnessMap};
+    g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), 0);
+    gpu::CotanTextureUse* const uses[] = {&g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,
+                                          &g.occlusionMap,     &g.emissiveMap,          &g.coatMap,
+                                          &g.coatRoughnessMap, &g.coatNormalMapUse,     &g.anisotropyMap};
     std::size_t k = 0;
     for (const MapUse& use : mapUses(m))
         *uses[k++] = useConstants(*use.texture, textures.present(use));

@@ -60,23 +60,6 @@ struct Anisotropy {
     Texture map;        // linear: r and g the direction, 2c - 1, along +u and -v; b, times strength
 };
 
-// What a dielectric reflects (KHR_materials_ior, KHR_materials_specular).
-struct Specular {
-    float ior = 1.5f; // index of refraction; 0: as if infinite
-    float strength = 1;
-    glm::vec3 color{1, 1, 1}; // linear, of light from the front
-    Texture map;              // linear: a, times strength
-    Texture colorMap;         // sRGB
-};
-
-// The fibres of cloth (KHR_materials_sheen).
-struct Sheen {
-    glm::vec3 color{0, 0, 0}; // linear; black: none
-    float roughness = 0;
-    Texture colorMap;     // sRGB
-    Texture roughnessMap; // linear: a, times roughness
-};
-
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
@@ -97,8 +80,6 @@ struct Material {
     bool unlit = false;
     Coat coat;
     Anisotropy anisotropy;
-    Specular specular;
-    Sheen sheen;
     std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; empty if none
 };
 
