@@ -79,18 +79,19 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_re
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
 }
 
-// What a surface reflects of its surroundings. dielectric, f90: what a dielectric reflects, facing and grazing.
-// irradiance: tile 9 along n. radiance: along cotan_mirrored, between the two tiles of the roughness. albedo: tile 10.
+// What a surface reflects of its surroundings. irradiance: tile 9 along n. radiance: where cotan_reflecting_normal
+// mirrors the eye, between the two tiles of the roughness. albedo: tile 10.
 // What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light. Rough
 // metals lose what light that bounces more than once would bring.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
-    cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
+COTAN_FUNCTION cotan_vec3 cotan_reflect_image(
+    cotan_surface s, cotan_gloss g, cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
-    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic));
-    cotan_vec3 below = one - (dielectric * albedo.x + one * (albedo.y * f90));
-    cotan_vec3 diffuse = s.base_color * below * (cotan_real(1.0) - s.metallic);
+    cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
+    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(g.f90, cotan_real(1.0), s.metallic));
+    cotan_vec3 below = one - (g.f0 * albedo.x + one * (albedo.y * g.f90));
+    cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
+    cotan_vec3 diffuse = s.base_color * below * scattered;
     return (irradiance * diffuse + radiance * specular) * s.occlusion;
 }
 
