@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The picture: material, frame, perturbed normal, light. Compiled a second time with COTAN_EXACT
-// for the frame `exact`, which reads the triangle's vertices and so asks more of the device, and with
-// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order.
+// for the frame `exact`, which reads the triangle's vertices and so asks more of the device, with
+// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order, and with
+// COTAN_EXTENDED for materials that extensions add to.
 #ifdef COTAN_EXACT
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -13,6 +14,7 @@
 #include "cotan/frame.h"
 #include "cotan/triangle.h"
 #include "cotan/light.h"
+#include "cotan/sheen.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
 #include "bindings.glsl"
@@ -66,51 +68,6 @@ vec3 perturbed(cotan_frame frame, vec3 n)
     return cotan_normalize_or(cotan_apply(frame, m), n);
 }
 
-// The coat's normal, outwards on the front side. frame: of the surface beneath.
-vec3 coatNormal(cotan_frame frame, vec3 n)
-{
-    CotanTextureUse use = material.coatNormalMapUse;
-    if (!NORMAL_MAPS || !present(COTAN_MAP_COAT_NORMAL, use) || !hasTexcoords(use))
-        return n;
-    if (material.coatNormalMap.w == 0)
-        frame = frameOf(n, screenDifferences(inPosition, transformedDifference(use, inTexcoords)), use, false);
-    cotan_normal_format format = cotan_normal_format(material.coatNormalMap.x,
-        material.coatNormalMap.y, float(material.coatNormalMap.z), material.coat.z);
-    vec3 m = cotan_decode(sampled(coatNormalMap, use).xyz, format);
-    return cotan_normalize_or(cotan_apply(frame, m), n);
-}
-
-cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
-{
-    cotan_coat c;
-    c.strength = material.coat.x;
-    if (present(COTAN_MAP_COAT, material.coatMap))
-        c.strength *= sampled(coatMap, material.coatMap).r;
-    c.roughness = material.coat.y;
-    if (present(COTAN_MAP_COAT_ROUGHNESS, material.coatRoughnessMap))
-        c.roughness *= sampled(coatRoughnessMap, material.coatRoughnessMap).g;
-    c.n = coatNormal(frame, n) * side;
-    return c;
-}
-
-// frame, smoothNormal: outwards on the front side. n: perturbed.
-cotan_gloss glossOf(cotan_frame frame, vec3 smoothNormal, vec3 n)
-{
-    cotan_gloss g = cotan_gloss_of(1.5, 1.0, vec3(1.0));
-    float strength = material.anisotropy.x;
-    vec2 direction = material.anisotropy.yz;
-    if (present(COTAN_MAP_ANISOTROPY, material.anisotropyMap)) {
-        vec3 texel = sampled(anisotropyMap, material.anisotropyMap).rgb;
-        vec2 turned = vec2(texel.r, -texel.g) * 2.0 + vec2(-1.0, 1.0);
-        direction = vec2(turned.x * direction.x - turned.y * direction.y,
-            turned.x * direction.y + turned.y * direction.x);
-        strength *= texel.b;
-    }
-    g.t = cotan_direction_on_surface(smoothNormal, frame.t, frame.b, direction, n);
-    g.anisotropy = dot(g.t, g.t) > 0.5 ? strength : 0.0;
-    return g;
-}
-
 cotan_surface surfaceOf(vec3 base, vec3 n)
 {
     cotan_surface s;
@@ -135,6 +92,10 @@ cotan_surface surfaceOf(vec3 base, vec3 n)
     return s;
 }
 
+#ifdef COTAN_EXTENDED
+#include "material_layers.glsl"
+#endif
+
 vec3 finiteVector(vec3 v) { return cotan_sum_abs(v) <= COTAN_HUGE ? v : vec3(0.0); }
 
 // Everything but `shaded`: a vector, and 1 for "here is a surface".
@@ -153,25 +114,22 @@ vec4 vectorOutput(cotan_frame frame, vec3 n, vec2 uv)
 }
 
 #ifdef COTAN_LAYERS
-void keepLayer(vec4 value, float depthX, float depthY)
+void keepLayer(vec3 light, vec3 through, float depthX, float depthY)
 {
     uint index = atomicAdd(lists.count, 1u);
     if (index >= lists.capacity)
         return;
     CotanLayer layer;
-    layer.value = value;
-    layer.depth = gl_FragCoord.z;
-    layer.depthX = depthX;
+    layer.light = vec4(light, gl_FragCoord.z);
+    layer.through = vec4(through, depthX);
     layer.depthY = depthY;
-    layer.samples = uint(gl_SampleMaskIn[0]);
-    layer.instance = draw.order;
+    layer.place = draw.order * 16u + uint(gl_SampleMaskIn[0]);
 #ifdef COTAN_EXACT
     layer.triangle = uint(gl_PrimitiveID);
 #else
     layer.triangle = 0u;
 #endif
     layer.before = atomicExchange(newest[pixelInBand()], index + 1u);
-    layer.spare = 0u;
     layers[index] = layer;
 }
 #endif
@@ -192,18 +150,19 @@ void main()
 
     vec4 base = baseColor();
     vec4 value;
+    vec3 passing = vec3(0.0);
     if (OUTPUT == OUTPUT_SHADED) {
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
             cotan_surface s = surfaceOf(base.rgb, n);
             Layers over;
-            over.glossy = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_GLOSS) != 0u;
-            over.coated = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_COAT) != 0u;
-            if (over.glossy)
-                over.gloss = glossOf(frame, smoothNormal, n);
-            if (over.coated)
-                over.coat = coatOf(frame, smoothNormal, side);
+            over.glossy = over.sheened = over.coated = false;
+#ifdef COTAN_EXTENDED
+            addLayers(over, frame, smoothNormal, n, side);
+#endif
             color = lit(s, over, inPosition, smoothNormal * side);
+            if (over.glossy && (MAPS & COTAN_LAYER_TRANSMISSION) != 0u)
+                passing = finiteVector(transmittance(s, over));
         }
         float alpha = ALPHA_MODE == ALPHA_BLEND ? clamp(base.a, 0.0, 1.0) : 1.0;
         value = vec4(finished(color), alpha);
@@ -213,8 +172,8 @@ void main()
 #ifdef COTAN_LAYERS
     float depthX = dFdx(gl_FragCoord.z);
     float depthY = dFdy(gl_FragCoord.z);
-    if (value.a > 0.0)
-        keepLayer(value, depthX, depthY);
+    if (value.a > 0.0 && !(ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w))
+        keepLayer(value.rgb * value.a, (1.0 - value.a) + passing * value.a, depthX, depthY);
 #else
     outColor = value;
     // After every texture read: derivatives end where a neighbour is discarded.

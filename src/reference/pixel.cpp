@@ -87,9 +87,21 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
     const Material& m = *in.material;
     if (all.view.shading == Shading::blinnPhong)
         return layers;
-    if (m.anisotropy.strength > 0) {
-        layers.gloss = f32::cotan_gloss_of(1.5f, 1, glm::vec3(1));
-        stretch(*layers.gloss, in, quad, lane, normal);
+    if (m.glossy()) {
+        const glm::vec4 strength = mapTexel(in, in.maps->specular, m.specular.map, quad, lane);
+        const glm::vec4 color = mapTexel(in, in.maps->specularColor, m.specular.colorMap, quad, lane);
+        layers.gloss = f32::cotan_gloss_of(m.specular.ior, f32::cotan_saturate(m.specular.strength * strength.w),
+                                           m.specular.color * glm::vec3(color));
+        layers.gloss->transmission = f32::cotan_saturate(
+            m.transmission.strength * mapTexel(in, in.maps->transmission, m.transmission.map, quad, lane).x);
+        if (m.anisotropy.strength > 0)
+            stretch(*layers.gloss, in, quad, lane, normal);
+    }
+    if (m.sheen.present()) {
+        const glm::vec4 color = mapTexel(in, in.maps->sheenColor, m.sheen.colorMap, quad, lane);
+        const glm::vec4 roughness = mapTexel(in, in.maps->sheenRoughness, m.sheen.roughnessMap, quad, lane);
+        layers.sheen =
+            f32::cotan_sheen{m.sheen.color * glm::vec3(color), f32::cotan_saturate(m.sheen.roughness * roughness.w)};
     }
     if (m.coat.strength > 0) {
         f32::cotan_coat coat;
@@ -102,18 +114,24 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
     return layers;
 }
 
-glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad,
-                      int lane)
+// What leaves the surface, and the factors of what is behind it.
+struct Lit {
+    glm::vec3 radiance{0};
+    glm::vec3 through{0};
+};
+
+Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad, int lane)
 {
     if (in.material->unlit)
-        return baseColor;
+        return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, quad, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
     LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
     const Layers layers = layersOf(all, in, quad, lane, normal);
-    return radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
+    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr),
+            transmittanceOf(surface, layers)};
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -144,8 +162,10 @@ Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints
         fragment.value = glm::vec4(finite(dataOutput(all, in, quad, lane)), 1);
         return fragment;
     }
-    glm::vec3 radiance = shadedColor(all, in, glm::vec3(base.value), quad, lane);
-    fragment.value = glm::vec4(displayed(all.view, radiance), f32::cotan_saturate(base.value.w));
+    const Lit lit = shadedColor(all, in, glm::vec3(base.value), quad, lane);
+    const float alpha = f32::cotan_saturate(base.value.w);
+    fragment.value = glm::vec4(displayed(all.view, lit.radiance), alpha);
+    fragment.through = (1 - alpha) + finite(lit.through) * alpha;
     return fragment;
 }
 

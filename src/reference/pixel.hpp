@@ -12,7 +12,8 @@
 namespace cotan::reference {
 
 struct Fragment {
-    glm::vec4 value{0}; // shaded: linear colour and alpha; otherwise the output's x y z, and 1
+    glm::vec4 value{0};   // shaded: linear colour and alpha; otherwise the output's x y z, and 1
+    glm::vec3 through{0}; // factors of what is behind, where the material is translucent
     bool discarded = false;
 };
 

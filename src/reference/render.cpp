@@ -66,7 +66,7 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
     const Material& material = scene.materials[std::size_t(draw.material)];
     const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
     SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
-    bool blended = material.alphaMode == AlphaMode::blend && all.view.output == Output::shaded;
+    bool blended = material.translucent() && all.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
     for (int lane = 0; lane < 4; ++lane) {
         int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
@@ -79,7 +79,7 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
         if (fragment.discarded)
             continue;
         if (blended)
-            tile.blend(x, y, samples, fragment.value, triangle.z, pattern);
+            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z, pattern);
         else
             tile.write(x, y, samples, fragment.value, triangle.z, pattern);
     }

@@ -56,7 +56,7 @@ void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
     for (std::uint32_t index : tiled.tiles[tile]) {
         const RasterTriangle& triangle = tiled.triangles[index];
         const Draw& draw = draws[triangle.draw];
-        if (scene.materials[std::size_t(draw.material)].alphaMode == AlphaMode::blend)
+        if (scene.materials[std::size_t(draw.material)].translucent())
             continue;
         forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
     }

@@ -34,9 +34,9 @@ private:
     };
     // All of them, in the order in which they are drawn.
     struct DrawLists {
-        std::vector<Item> opaque; // near to far
-        std::vector<Item> mask;   // near to far
-        std::vector<Item> blend;  // as in the scene
+        std::vector<Item> opaque;      // near to far
+        std::vector<Item> mask;        // near to far
+        std::vector<Item> translucent; // as in the scene
     };
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
@@ -73,7 +73,7 @@ private:
     Texture2D environmentTexture_;
     vk::raii::Sampler environmentSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::DescriptorSet pictureSet_; // owned by the pool
+    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;
     std::unique_ptr<LayerLists> layers_; // once there is something translucent
     vk::raii::Sampler depthSampler_{nullptr};

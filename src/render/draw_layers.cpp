@@ -12,12 +12,11 @@ std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, 
 {
     PipelineKey key = forwardKey(view, *targets_);
     key.pass = Pass::layers;
-    key.alphaMode = AlphaMode::blend;
     key.format = vk::Format::eUndefined;
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
     targets_->beginLayers(commands, band);
-    drawItems(commands, scene, lists.blend, key);
+    drawItems(commands, scene, lists.translucent, key);
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
@@ -33,6 +32,7 @@ void Drawer::composeLayers(const vk::Rect2D& band)
     key.samples = targets_->kind().samples;
     key.format = targets_->kind().format;
     const vk::raii::CommandBuffer& commands = begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
     targets_->beginCompose(commands, band);
     for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(key.samples); ++sample) {
         commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);

@@ -57,14 +57,19 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers: return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
+    case Pass::layers: {
+        const Shader plain = exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag;
+        const Shader extended = exact ? Shader::forwardExactLayersExtendedFrag : Shader::forwardLayersExtendedFrag;
+        return {Shader::forwardVert, key.extended ? extended : plain};
+    }
     case Pass::compose:
         return {Shader::composeVert,
                 key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
     case Pass::forward: break;
     }
-    return {Shader::forwardVert,
-            info(key.frame).source == FrameSource::triangle ? Shader::forwardExactFrag : Shader::forwardFrag};
+    if (info(key.frame).source == FrameSource::triangle)
+        return {Shader::forwardVert, key.extended ? Shader::forwardExactExtendedFrag : Shader::forwardExactFrag};
+    return {Shader::forwardVert, key.extended ? Shader::forwardExtendedFrag : Shader::forwardFrag};
 }
 
 // One triangle, made by the vertex stage, over everything.
@@ -98,15 +103,16 @@ struct VertexInput {
     VertexInput(const VertexInput&) = delete;
 };
 
-// Of colours that are multiplied by their alpha.
-vk::PipelineColorBlendAttachmentState blending(bool blend)
+// Of colours that are multiplied by their alpha. What is there counts by a factor of its own for each channel, or,
+// where the device cannot, by the mean of the three.
+vk::PipelineColorBlendAttachmentState blending(bool blend, bool dualSource)
 {
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState state;
     state.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
     state.blendEnable = blend;
     state.srcColorBlendFactor = vk::BlendFactor::eOne;
-    state.dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    state.dstColorBlendFactor = dualSource ? vk::BlendFactor::eSrc1Color : vk::BlendFactor::eOneMinusSrcAlpha;
     state.srcAlphaBlendFactor = vk::BlendFactor::eOne;
     state.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
     return state;
@@ -141,14 +147,19 @@ Layouts::Layouts(const Device& device)
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
     picture = makeSetLayout(
-        device,
-        std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage});
+        device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
+    extendedMaterial = makeSetLayout(device, ofMaterial);
+    ofMaterial.resize(1 + COTAN_MAP_COUNT_PLAIN);
     material = makeSetLayout(device, ofMaterial);
-    const std::array sets{*picture, *material};
     const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
-    pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    const auto pipelineWith = [&](const vk::raii::DescriptorSetLayout& layout) {
+        const std::array sets{*picture, *layout};
+        return vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    };
+    pipeline = pipelineWith(material);
+    extendedPipeline = pipelineWith(extendedMaterial);
 }
 
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
@@ -189,7 +200,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
     const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key.pass);
-    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose);
+    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose, device_->dualSource);
     const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
     std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                           vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
@@ -199,7 +210,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineRenderingCreateInfo rendering(
         0, colors, &key.format, key.pass == Pass::compose ? vk::Format::eUndefined : vk::Format::eD32Sfloat);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
-                                        &multisample, &depth, &color, &dynamicState, *layouts_->pipeline);
+                                        &multisample, &depth, &color, &dynamicState,
+                                        layouts_->pipelineOf(key.extended));
     info.pNext = &rendering;
     return vk::raii::Pipeline(device_->device, nullptr, info);
 }

@@ -12,6 +12,10 @@ enum class Shader {
     forwardExactFrag, // needs the features geometryShader (for gl_PrimitiveID) and buffer addresses
     forwardLayersFrag,
     forwardExactLayersFrag, // as forwardExactFrag
+    forwardExtendedFrag,    // from here on with what extensions add to materials
+    forwardExactExtendedFrag,
+    forwardLayersExtendedFrag,
+    forwardExactLayersExtendedFrag,
     composeVert,
     composeFrag,
     composeMultisampledFrag,
@@ -21,7 +25,7 @@ enum class Shader {
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 12;
+inline constexpr int kShaderCount = 16;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);
