@@ -5,6 +5,7 @@
 // COTAN_MULTISAMPLED; with one sample the depth test has already left out what opaque surfaces hide.
 #include "gpu_structs.glsl"
 #include "layers.glsl"
+#include "sample_places.glsl"
 
 layout(push_constant) uniform SampleBlock { uint sampleIndex; };
 layout(location = 0, index = 0) out vec4 outColor;   // multiplied by alpha
@@ -33,13 +34,10 @@ bool nearer(Place a, Place b)
     return a.name > b.name;
 }
 
-// From the middle of the pixel to the sample, in pixels: the standard places of four.
 vec2 toSample()
 {
 #ifdef COTAN_MULTISAMPLED
-    const vec2 places[4] =
-        vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
-    return places[sampleIndex];
+    return kSamplePlaces[sampleIndex];
 #else
     return vec2(0.0);
 #endif

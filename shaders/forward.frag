@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // The picture: material, frame, perturbed normal, light. Compiled a second time with COTAN_EXACT
 // for the frame `exact`, which reads the triangle's vertices and so asks more of the device, with
-// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order, and with
-// COTAN_EXTENDED for materials that extensions add to.
+// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order, with COTAN_MASKED
+// for masked ones, which say what samples they cover, and with COTAN_EXTENDED for those that extensions add to.
 #ifdef COTAN_EXACT
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -19,6 +19,7 @@
 #include "cotan/environment.h"
 #include "bindings.glsl"
 #include "constants.glsl"
+#include "sample_places.glsl"
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -113,8 +114,20 @@ vec4 vectorOutput(cotan_frame frame, vec3 n, vec2 uv)
     return vec4(finiteVector(v), 1.0);
 }
 
+// The samples that a masked material covers: where alpha, taken as a plane over the pixel, is not below the cutoff. So
+// an edge is as smooth as that of a triangle (B. Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017,
+// sharpens alpha by the same differences).
+uint samplesOfMask(float alpha)
+{
+    vec2 slope = FOUR_SAMPLES ? vec2(dFdxFine(alpha), dFdyFine(alpha)) : vec2(0.0);
+    uint samples = 0u;
+    for (int i = 0; i < 4; ++i)
+        samples |= alpha + dot(slope, kSamplePlaces[i]) < material.emissive.w ? 0u : 1u << i;
+    return samples;
+}
+
 #ifdef COTAN_LAYERS
-void keepLayer(vec3 light, vec3 through, float depthX, float depthY)
+void keepLayer(vec3 light, vec3 through, uint samples, float depthX, float depthY)
 {
     uint index = atomicAdd(lists.count, 1u);
     if (index >= lists.capacity)
@@ -123,7 +136,7 @@ void keepLayer(vec3 light, vec3 through, float depthX, float depthY)
     layer.light = vec4(light, gl_FragCoord.z);
     layer.through = vec4(through, depthX);
     layer.depthY = depthY;
-    layer.place = draw.order * 16u + uint(gl_SampleMaskIn[0]);
+    layer.place = draw.order * 16u + (uint(gl_SampleMaskIn[0]) & samples);
 #ifdef COTAN_EXACT
     layer.triangle = uint(gl_PrimitiveID);
 #else
@@ -172,13 +185,14 @@ void main()
 #ifdef COTAN_LAYERS
     float depthX = dFdx(gl_FragCoord.z);
     float depthY = dFdy(gl_FragCoord.z);
-    if (value.a > 0.0 && !(ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w))
-        keepLayer(value.rgb * value.a, (1.0 - value.a) + passing * value.a, depthX, depthY);
+    uint samples = ALPHA_MODE == ALPHA_MASK ? samplesOfMask(base.a) : 15u;
+    if (value.a > 0.0 && samples != 0u)
+        keepLayer(value.rgb * value.a, (1.0 - value.a) + passing * value.a, samples, depthX, depthY);
 #else
     outColor = value;
-    // After every texture read: derivatives end where a neighbour is discarded.
-    if (ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w)
-        discard;
+#ifdef COTAN_MASKED
+    gl_SampleMask[0] = int(samplesOfMask(base.a));
+#endif
     if (ALPHA_MODE == ALPHA_BLEND && OUTPUT != OUTPUT_SHADED && base.a < 1.0 / 255.0)
         discard;
 #endif

@@ -32,6 +32,8 @@ TEST(ReferenceLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowT
 
 TEST(ReferenceLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
 
+TEST(ReferenceLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
+
 TEST(ReferenceLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
 
 TEST(ReferenceLayers, over1024LayersInAWholeTileAreRefused)

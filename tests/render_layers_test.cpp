@@ -71,6 +71,8 @@ TEST_F(RenderLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowTh
 
 TEST_F(RenderLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
 
+TEST_F(RenderLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
+
 TEST_F(RenderLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
 
 // The lists hold 2.8 million layers: these make 3.5 and are drawn in bands.

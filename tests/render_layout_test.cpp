@@ -75,7 +75,7 @@ TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
 TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
 {
     for (const Shader shader : {Shader::forwardExtendedFrag, Shader::forwardExactExtendedFrag,
-                                Shader::forwardLayersExtendedFrag, Shader::forwardExactLayersExtendedFrag}) {
+                                Shader::forwardExtendedMaskedFrag, Shader::forwardExactExtendedLayersFrag}) {
         const auto offsets = memberOffsets(spirv(shader));
         EXPECT_OFFSET(CotanMaterial, coat);
         EXPECT_OFFSET(CotanMaterial, coatNormalMap);

@@ -154,16 +154,17 @@ glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const Quad
 Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     Fragment fragment;
-    BaseColor base = baseColorOf(in, quad, lane);
-    fragment.discarded = base.discarded;
-    if (base.discarded)
+    const glm::vec4 base = baseColorOf(in, quad, lane);
+    const bool blend = in.material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
+    fragment.discarded = blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f);
+    if (fragment.discarded)
         return fragment;
-    if (all.view.output != Output::shaded) {
+    if (!shaded) {
         fragment.value = glm::vec4(finite(dataOutput(all, in, quad, lane)), 1);
         return fragment;
     }
-    const Lit lit = shadedColor(all, in, glm::vec3(base.value), quad, lane);
-    const float alpha = f32::cotan_saturate(base.value.w);
+    const Lit lit = shadedColor(all, in, glm::vec3(base), quad, lane);
+    const float alpha = blend ? f32::cotan_saturate(base.w) : 1;
     fragment.value = glm::vec4(displayed(all.view, lit.radiance), alpha);
     fragment.through = (1 - alpha) + finite(lit.through) * alpha;
     return fragment;

@@ -44,7 +44,7 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
         float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
         if (!(z > stored))
             continue;
-        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).discarded)
+        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w < material.alphaCutoff)
             continue;
         stored = z;
     }

@@ -146,26 +146,31 @@ UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Der
             uvDifference(texture, quad, y)};
 }
 
-BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     const Material& m = *in.material;
-    BaseColor base;
-    base.value = m.baseColor;
+    glm::vec4 base = m.baseColor;
     if (in.maps->baseColor)
-        base.value *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
-                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
+        base *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
+                       uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
     const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
     if (colors.size() >= in.draw->positions.size())
-        base.value *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
-
-    bool blending = in.view->output == Output::shaded;
-    if (m.alphaMode == AlphaMode::mask)
-        base.discarded = base.value.w < m.alphaCutoff;
-    if (m.alphaMode == AlphaMode::blend)
-        base.discarded = blending ? !(base.value.w > 0) : base.value.w < 1.0f / 255.0f;
-    if (m.alphaMode != AlphaMode::blend)
-        base.value.w = 1;
+        base *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
     return base;
+}
+
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern)
+{
+    const float alpha = alphas[std::size_t(lane)];
+    const float slopeX = alphas[std::size_t(lane | 1)] - alphas[std::size_t(lane & 2)];
+    const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
+    unsigned samples = 0;
+    for (int s = 0; s < pattern.count; ++s) {
+        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
+        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
+            samples |= 1u << s;
+    }
+    return samples;
 }
 
 namespace {

@@ -42,14 +42,12 @@ struct SurfaceInputs {
 // Texture coordinates of a map in one lane, transformed as it asks, with their differences.
 UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives);
 
-// The base colour: factor, map and vertex colour; alpha 1 unless the material is blended.
-// discarded: cut out by a mask, or, where nothing is blended, all but invisible.
-struct BaseColor {
-    glm::vec4 value{1};
-    bool discarded = false;
-};
+// The base colour and alpha: factor, map and vertex colour, whatever the material does with alpha.
+glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
 
-BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+// The samples of a pixel that a masked material covers: where alpha, taken as a plane over the pixel, is not below the
+// cutoff. alphas: of the quad's lanes.
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern);
 
 struct SurfaceNormal {
     glm::vec3 interpolated{0}; // unit, as the mesh has it

@@ -223,15 +223,6 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, b
     writePictureSet(layered);
 }
 
-void Drawer::prepareLayers()
-{
-    const std::uint32_t width = targets_->kind().width;
-    if (layers_ && layers_->width() == width)
-        return;
-    layers_.reset(); // its memory may be needed for the new ones
-    layers_ = std::make_unique<LayerLists>(*device_, width);
-}
-
 // Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
 // driver (22.3) does.
 void Drawer::writePictureSet(bool layered)

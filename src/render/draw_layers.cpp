@@ -6,6 +6,15 @@
 
 namespace cotan {
 
+void Drawer::prepareLayers()
+{
+    const std::uint32_t width = targets_->kind().width;
+    if (layers_ && layers_->width() == width)
+        return;
+    layers_.reset(); // its memory may be needed for the new ones
+    layers_ = std::make_unique<LayerLists>(*device_, width);
+}
+
 // Draws the translucent fragments of a band into their lists; returns how many there are.
 std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
                                  const vk::Rect2D& band)

@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 12> values;
-    std::array<vk::SpecializationMapEntry, 12> entries;
+    std::array<std::uint32_t, 13> values;
+    std::array<vk::SpecializationMapEntry, 13> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -35,7 +35,8 @@ struct Specialization {
                  key.toneMap,
                  key.maps,
                  static_cast<std::uint32_t>(key.tone),
-                 key.environmentMap}
+                 key.environmentMap,
+                 key.samples != vk::SampleCountFlagBits::e1}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -50,6 +51,13 @@ struct StageShaders {
     std::optional<Shader> fragment;
 };
 
+// The shader of a surface. exact: fragments are told their triangle.
+Shader forwardShader(const PipelineKey& key, bool exact)
+{
+    const int kind = key.pass == Pass::layers ? 2 : key.alphaMode == AlphaMode::mask ? 1 : 0;
+    return Shader(int(Shader::forwardFrag) + 4 * kind + (key.extended ? 2 : 0) + (exact ? 1 : 0));
+}
+
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
@@ -57,19 +65,13 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers: {
-        const Shader plain = exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag;
-        const Shader extended = exact ? Shader::forwardExactLayersExtendedFrag : Shader::forwardLayersExtendedFrag;
-        return {Shader::forwardVert, key.extended ? extended : plain};
-    }
+    case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
     case Pass::compose:
         return {Shader::composeVert,
                 key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
     case Pass::forward: break;
     }
-    if (info(key.frame).source == FrameSource::triangle)
-        return {Shader::forwardVert, key.extended ? Shader::forwardExactExtendedFrag : Shader::forwardExactFrag};
-    return {Shader::forwardVert, key.extended ? Shader::forwardExtendedFrag : Shader::forwardFrag};
+    return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
 // One triangle, made by the vertex stage, over everything.
