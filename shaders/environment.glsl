@@ -9,8 +9,8 @@ vec3 atlas(vec2 texel)
 // Radiance along a direction, as a mirror of that roughness sees it.
 vec3 radianceAlong(vec3 direction, float roughness)
 {
-    float level = cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
-    float lower = min(floor(level), COTAN_ENVIRONMENT_STEPS - 1.0);
+    float level = cotan_saturate(roughness) * float(COTAN_ENVIRONMENT_STEPS);
+    float lower = min(floor(level), float(COTAN_ENVIRONMENT_STEPS - 1));
     return mix(atlas(cotan_environment_texel(direction, lower)),
         atlas(cotan_environment_texel(direction, lower + 1.0)), level - lower);
 }
@@ -24,7 +24,8 @@ vec2 albedoOf(vec3 n, vec3 v, float roughness)
 // What a surface reflects of its surroundings.
 vec3 reflectedAlong(cotan_surface s, vec3 mirrored, vec3 dielectric, float f90)
 {
-    return cotan_reflect_image(s, dielectric, f90, atlas(cotan_environment_texel(s.n, COTAN_ENVIRONMENT_IRRADIANCE)),
+    return cotan_reflect_image(s, dielectric, f90,
+        atlas(cotan_environment_texel(s.n, float(COTAN_ENVIRONMENT_IRRADIANCE))),
         radianceAlong(mirrored, s.roughness), albedoOf(s.n, s.v, s.roughness));
 }
 

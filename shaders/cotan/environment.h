@@ -13,9 +13,9 @@
 
 #define COTAN_ENVIRONMENT_WIDTH 970
 #define COTAN_ENVIRONMENT_HEIGHT 524
-#define COTAN_ENVIRONMENT_STEPS cotan_real(8.0)       // tiles from roughness 0 to 1
-#define COTAN_ENVIRONMENT_IRRADIANCE cotan_real(9.0)  // tiles
-#define COTAN_ENVIRONMENT_ALBEDO cotan_real(10.0)
+#define COTAN_ENVIRONMENT_STEPS 8      // tiles from roughness 0 to 1
+#define COTAN_ENVIRONMENT_IRRADIANCE 9 // tiles
+#define COTAN_ENVIRONMENT_ALBEDO 10
 
 // Where a tile starts in the atlas, and its texels a side; the border not counted. tile: a whole number.
 COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
@@ -73,7 +73,7 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_texel(cotan_vec3 direction, cotan_re
 // Where the factors of n.v and roughness are, in texels: from the first texel's middle to the last one's.
 COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_real roughness)
 {
-    cotan_vec3 t = cotan_environment_tile(COTAN_ENVIRONMENT_ALBEDO);
+    cotan_vec3 t = cotan_environment_tile(cotan_real(COTAN_ENVIRONMENT_ALBEDO));
     cotan_real last = t.z - cotan_real(1.0);
     return cotan_vec2(t.x + cotan_real(0.5) + cotan_saturate(nv) * last,
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);

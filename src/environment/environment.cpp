@@ -37,19 +37,9 @@ using Pyramid = std::vector<Octahedral>;
 Pyramid pyramidOf(Octahedral finest)
 {
     Pyramid levels{std::move(finest)};
-    while (levels.back().size > 4)
+    while (levels.back().size() > 4)
         levels.push_back(halved(levels.back()));
     return levels;
-}
-
-glm::vec3 readLevel(const Pyramid& pyramid, glm::vec3 direction, float level)
-{
-    level = std::clamp(level, 0.0f, float(pyramid.size() - 1));
-    const auto lower = std::size_t(level);
-    const glm::vec3 a = pyramid[lower].read(direction);
-    if (lower + 1 == pyramid.size())
-        return a;
-    return a + (pyramid[lower + 1].read(direction) - a) * (level - float(lower));
 }
 
 Octahedral sampled(const Radiance& radiance, int size, int samples, const EnvironmentOptions& options)
@@ -65,9 +55,10 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
                 const glm::vec3 d = map.direction(x, y, inside);
                 sum += sound(radiance({c * d.x - s * d.z, d.y, s * d.x + c * d.z})); // turned back
             }
-            map.at(x, y) = sound(sum * (options.intensity / float(samples * samples)));
+            map.at(x, y) = glm::vec4(sound(sum * (options.intensity / float(samples * samples))), 0);
         }
     });
+    map.fold();
     return map;
 }
 
@@ -102,25 +93,38 @@ std::vector<LobeSample> lobe(float roughness, unsigned count)
     return samples;
 }
 
+// log2 of a number from 1 to sqrt(3), to 0.02.
+float smallLog2(float x) { return (x - 1) * (1.386f - 0.415f * (x - 1)); }
+
 // Every sample reads the level whose texels cover what it stands for: no dots, however bright a small light is.
 Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned count)
 {
     const std::vector<LobeSample> samples = lobe(roughness, count);
-    const float texelsOfAll = float(pyramid[0].size) * float(pyramid[0].size);
+    const float texelsOfAll = float(pyramid[0].size()) * float(pyramid[0].size());
+    std::vector<float> levels; // where a texel's solid angle is least
+    for (const LobeSample& s : samples)
+        levels.push_back(0.5f * std::log2(s.solidAngle * texelsOfAll / solidAngleOfPlace({0, 1, 0})));
+    const float last = float(pyramid.size()) - 1.01f;
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) {
             const glm::vec3 n = map.direction(x, y);
             const f32::cotan_basis basis = f32::cotan_basis_of_normal(n);
-            glm::vec3 sum(0);
-            for (const LobeSample& s : samples) {
+            glm::vec4 sum(0);
+            for (std::size_t i = 0; i < samples.size(); ++i) {
+                const LobeSample& s = samples[i];
                 const glm::vec3 l = basis.x * s.direction.x + basis.y * s.direction.y + n * s.direction.z;
-                const float texel = solidAngleOfPlace(l) / texelsOfAll;
-                sum += readLevel(pyramid, l, 0.5f * std::log2(s.solidAngle / texel) + 0.25f) * s.weight;
+                const float extent = std::abs(l.x) + std::abs(l.y) + std::abs(l.z);
+                const float level = std::clamp(levels[i] - 1.5f * smallLog2(extent), 0.0f, last);
+                const auto finer = std::size_t(level);
+                const glm::vec2 place = f32::cotan_octahedral_place(l);
+                const glm::vec4 a = pyramid[finer].read(place), b = pyramid[finer + 1].read(place);
+                sum += (a + (b - a) * (level - float(finer))) * s.weight;
             }
             map.at(x, y) = sum;
         }
     });
+    map.fold();
     return map;
 }
 
@@ -128,29 +132,25 @@ Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned 
 Octahedral irradiance(const Octahedral& source, int size)
 {
     struct Light {
-        glm::vec3 direction, radiance;
-        float solidAngle;
+        glm::vec4 direction, radiance; // times its solid angle; 1 in the last place, times that too
     };
     std::vector<Light> lights;
-    for (int y = 0; y < source.size; ++y)
-        for (int x = 0; x < source.size; ++x) {
+    for (int y = 0; y < source.size(); ++y)
+        for (int x = 0; x < source.size(); ++x) {
             const glm::vec3 d = source.direction(x, y);
-            lights.push_back({d, source.at(x, y), solidAngleOfPlace(d)});
+            lights.push_back({glm::vec4(d, 0), (source.at(x, y) + glm::vec4(0, 0, 0, 1)) * solidAngleOfPlace(d)});
         }
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            glm::vec3 sum(0);
-            float weights = 0;
-            for (const Light& light : lights) {
-                const float weight = std::max(glm::dot(n, light.direction), 0.0f) * light.solidAngle;
-                sum += light.radiance * weight;
-                weights += weight;
-            }
-            map.at(x, y) = sum / weights;
+            const glm::vec4 n(map.direction(x, y), 0);
+            glm::vec4 sum(0);
+            for (const Light& light : lights)
+                sum += light.radiance * std::max(glm::dot(n, light.direction), 0.0f);
+            map.at(x, y) = glm::vec4(glm::vec3(sum) / sum.w, 0);
         }
     });
+    map.fold();
     return map;
 }
 
@@ -166,14 +166,14 @@ void put(Image& atlas, int x, int y, glm::vec3 value)
 void putTile(Image& atlas, int tile, const Octahedral& map)
 {
     const glm::vec3 place = f32::cotan_environment_tile(float(tile));
-    for (int y = -1; y <= map.size; ++y)
-        for (int x = -1; x <= map.size; ++x)
-            put(atlas, int(place.x) + x, int(place.y) + y, map.around(x, y));
+    for (int y = -1; y <= map.size(); ++y)
+        for (int x = -1; x <= map.size(); ++x)
+            put(atlas, int(place.x) + x, int(place.y) + y, glm::vec3(map.at(x, y)));
 }
 
 void putAlbedo(Image& atlas)
 {
-    const glm::vec3 place = f32::cotan_environment_tile(10);
+    const glm::vec3 place = f32::cotan_environment_tile(COTAN_ENVIRONMENT_ALBEDO);
     const int size = int(place.z);
     parallelFor(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) {
@@ -191,14 +191,14 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
     const Pyramid pyramid = pyramidOf(sampled(radiance, sizeOfTile(0), samples, options));
     putTile(map.atlas, 0, pyramid[0]);
-    for (int tile = 1; tile <= 8; ++tile) {
+    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
         const int size = sizeOfTile(tile);
-        const unsigned count = size == 256 ? 64 : size == 128 ? 128 : 256;
-        putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / 8, count));
+        const unsigned count = size == 256 ? 40 : size == 128 ? 80 : 192;
+        putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / COTAN_ENVIRONMENT_STEPS, count));
     }
     const auto coarse =
-        std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size == 32; });
-    putTile(map.atlas, 9, irradiance(*coarse, sizeOfTile(9)));
+        std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size() == 16; });
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, irradiance(*coarse, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE)));
     putAlbedo(map.atlas);
     return map;
 }
