@@ -62,6 +62,65 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
     return map;
 }
 
+// Texels as lamps, four side by side, since processors count with four at once.
+struct FourLamps {
+    glm::vec4 x, y, z; // unit directions
+    glm::vec4 solidAngle;
+    std::array<glm::vec4, 3> light; // radiance times solid angle
+};
+
+std::vector<FourLamps> lampsOf(const Octahedral& source)
+{
+    std::vector<FourLamps> lamps(std::size_t(source.size()) * std::size_t(source.size()) / 4);
+    for (int y = 0; y < source.size(); ++y)
+        for (int x = 0; x < source.size(); ++x) {
+            FourLamps& four = lamps[(std::size_t(y) * std::size_t(source.size()) + std::size_t(x)) / 4];
+            const int lane = x % 4;
+            const glm::vec3 d = source.direction(x, y);
+            four.x[lane] = d.x, four.y[lane] = d.y, four.z[lane] = d.z;
+            four.solidAngle[lane] = solidAngleOfPlace(d);
+            for (int c = 0; c < 3; ++c)
+                four.light[std::size_t(c)][lane] = source.at(x, y)[c] * four.solidAngle[lane];
+        }
+    return lamps;
+}
+
+float sumOf(glm::vec4 v) { return (v.x + v.y) + (v.z + v.w); }
+
+// The mean of all lamps around each direction n, weighed by weight(n.l), from n.l = 0 on.
+template<class Weight> Octahedral meanOf(const std::vector<FourLamps>& lamps, int size, const Weight& weight)
+{
+    Octahedral map(size);
+    parallelFor(0, size, [&](int y) {
+        for (int x = 0; x < size; ++x) {
+            const glm::vec3 n = map.direction(x, y);
+            std::array<glm::vec4, 3> light{glm::vec4(0), glm::vec4(0), glm::vec4(0)};
+            glm::vec4 weights(0);
+            for (const FourLamps& four : lamps) {
+                const glm::vec4 nl = glm::max(four.x * n.x + four.y * n.y + four.z * n.z, glm::vec4(0));
+                const glm::vec4 w = weight(nl);
+                weights += four.solidAngle * w;
+                for (std::size_t c = 0; c < 3; ++c)
+                    light[c] += four.light[c] * w;
+            }
+            map.at(x, y) = glm::vec4(sumOf(light[0]), sumOf(light[1]), sumOf(light[2]), 0) / sumOf(weights);
+        }
+    });
+    map.fold();
+    return map;
+}
+
+// What a mirror of that roughness reflects, seen straight on, from all texels of a level of the pyramid. The lobe must
+// be wide beside them.
+Octahedral filteredWide(const Octahedral& source, int size, float roughness)
+{
+    const float alpha2 = std::pow(roughness, 4.0f);
+    return meanOf(lampsOf(source), size, [&](glm::vec4 nl) { // GGX times n.l, h half-way between n and l
+        const glm::vec4 d = glm::vec4(1) + (nl + 1.0f) * (0.5f * (alpha2 - 1));
+        return nl / (d * d);
+    });
+}
+
 // A direction around z of what a mirror of that roughness reflects, seen straight on.
 struct LobeSample {
     glm::vec3 direction;
@@ -128,32 +187,6 @@ Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned 
     return map;
 }
 
-// Over all directions of a level of the pyramid, by solid angle and cosine.
-Octahedral irradiance(const Octahedral& source, int size)
-{
-    struct Light {
-        glm::vec4 direction, radiance; // times its solid angle; 1 in the last place, times that too
-    };
-    std::vector<Light> lights;
-    for (int y = 0; y < source.size(); ++y)
-        for (int x = 0; x < source.size(); ++x) {
-            const glm::vec3 d = source.direction(x, y);
-            lights.push_back({glm::vec4(d, 0), (source.at(x, y) + glm::vec4(0, 0, 0, 1)) * solidAngleOfPlace(d)});
-        }
-    Octahedral map(size);
-    parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec4 n(map.direction(x, y), 0);
-            glm::vec4 sum(0);
-            for (const Light& light : lights)
-                sum += light.radiance * std::max(glm::dot(n, light.direction), 0.0f);
-            map.at(x, y) = glm::vec4(glm::vec3(sum) / sum.w, 0);
-        }
-    });
-    map.fold();
-    return map;
-}
-
 void put(Image& atlas, int x, int y, glm::vec3 value)
 {
     float* p = atlas.floats() + 4 * (std::size_t(y) * std::size_t(atlas.width) + std::size_t(x));
@@ -183,6 +216,11 @@ void putAlbedo(Image& atlas)
     });
 }
 
+const Octahedral& levelOf(const Pyramid& pyramid, int size)
+{
+    return *std::find_if(pyramid.begin(), pyramid.end(), [&](const Octahedral& level) { return level.size() == size; });
+}
+
 } // namespace
 
 EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const EnvironmentOptions& options)
@@ -193,12 +231,16 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, pyramid[0]);
     for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
         const int size = sizeOfTile(tile);
-        const unsigned count = size == 256 ? 40 : size == 128 ? 80 : 192;
-        putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / COTAN_ENVIRONMENT_STEPS, count));
+        const float roughness = float(tile) / COTAN_ENVIRONMENT_STEPS;
+        // A texel of 64 a side is 3 degrees wide, of 32, 6; lobes of tiles 3 and 5 fall to half at 10 degrees and
+        // at 28.
+        putTile(map.atlas, tile,
+                size == 256 ? filtered(pyramid, size, roughness, 40)
+                            : filteredWide(levelOf(pyramid, tile == 3 ? 64 : 32), size, roughness));
     }
-    const auto coarse =
-        std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size() == 16; });
-    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, irradiance(*coarse, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE)));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE,
+            meanOf(lampsOf(levelOf(pyramid, 16)), sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE),
+                   [](glm::vec4 nl) { return nl; }));
     putAlbedo(map.atlas);
     return map;
 }
