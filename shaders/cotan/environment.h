@@ -22,9 +22,10 @@ COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
 {
     if (tile < cotan_real(0.5))
         return cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(512.0));
+    if (tile < cotan_real(1.5))
+        return cotan_vec3(cotan_real(515.0), cotan_real(1.0), cotan_real(256.0));
     if (tile < cotan_real(2.5))
-        return cotan_vec3(cotan_real(515.0), cotan_real(1.0) + cotan_real(258.0) * (tile - cotan_real(1.0)),
-            cotan_real(256.0));
+        return cotan_vec3(cotan_real(515.0), cotan_real(259.0), cotan_real(128.0));
     if (tile < cotan_real(4.5))
         return cotan_vec3(cotan_real(773.0), cotan_real(1.0) + cotan_real(130.0) * (tile - cotan_real(3.0)),
             cotan_real(128.0));

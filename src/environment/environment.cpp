@@ -11,6 +11,7 @@
 
 #include "albedo.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "lamps.hpp"
 #include "octahedral.hpp"
 
 namespace cotan {
@@ -30,17 +31,6 @@ glm::vec3 sound(glm::vec3 c)
 }
 
 int sizeOfTile(int tile) { return int(f32::cotan_environment_tile(float(tile)).z); }
-
-// Finest first, each level half of the one before, down to 4 texels a side.
-using Pyramid = std::vector<Octahedral>;
-
-Pyramid pyramidOf(Octahedral finest)
-{
-    Pyramid levels{std::move(finest)};
-    while (levels.back().size() > 4)
-        levels.push_back(halved(levels.back()));
-    return levels;
-}
 
 Octahedral sampled(const Radiance& radiance, int size, int samples, const EnvironmentOptions& options)
 {
@@ -62,126 +52,13 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
     return map;
 }
 
-// Texels as lamps, four side by side, since processors count with four at once.
-struct FourLamps {
-    glm::vec4 x, y, z; // unit directions
-    glm::vec4 solidAngle;
-    std::array<glm::vec4, 3> light; // radiance times solid angle
-};
-
-std::vector<FourLamps> lampsOf(const Octahedral& source)
-{
-    std::vector<FourLamps> lamps(std::size_t(source.size()) * std::size_t(source.size()) / 4);
-    for (int y = 0; y < source.size(); ++y)
-        for (int x = 0; x < source.size(); ++x) {
-            FourLamps& four = lamps[(std::size_t(y) * std::size_t(source.size()) + std::size_t(x)) / 4];
-            const int lane = x % 4;
-            const glm::vec3 d = source.direction(x, y);
-            four.x[lane] = d.x, four.y[lane] = d.y, four.z[lane] = d.z;
-            four.solidAngle[lane] = solidAngleOfPlace(d);
-            for (int c = 0; c < 3; ++c)
-                four.light[std::size_t(c)][lane] = source.at(x, y)[c] * four.solidAngle[lane];
-        }
-    return lamps;
-}
-
-float sumOf(glm::vec4 v) { return (v.x + v.y) + (v.z + v.w); }
-
-// The mean of all lamps around each direction n, weighed by weight(n.l), from n.l = 0 on.
-template<class Weight> Octahedral meanOf(const std::vector<FourLamps>& lamps, int size, const Weight& weight)
+// The lobe of that alpha along every direction of a map.
+Octahedral filtered(const LampTree& lamps, int size, float alpha2)
 {
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            std::array<glm::vec4, 3> light{glm::vec4(0), glm::vec4(0), glm::vec4(0)};
-            glm::vec4 weights(0);
-            for (const FourLamps& four : lamps) {
-                const glm::vec4 nl = glm::max(four.x * n.x + four.y * n.y + four.z * n.z, glm::vec4(0));
-                const glm::vec4 w = weight(nl);
-                weights += four.solidAngle * w;
-                for (std::size_t c = 0; c < 3; ++c)
-                    light[c] += four.light[c] * w;
-            }
-            map.at(x, y) = glm::vec4(sumOf(light[0]), sumOf(light[1]), sumOf(light[2]), 0) / sumOf(weights);
-        }
-    });
-    map.fold();
-    return map;
-}
-
-// What a mirror of that roughness reflects, seen straight on, from all texels of a level of the pyramid. The lobe must
-// be wide beside them.
-Octahedral filteredWide(const Octahedral& source, int size, float roughness)
-{
-    const float alpha2 = std::pow(roughness, 4.0f);
-    return meanOf(lampsOf(source), size, [&](glm::vec4 nl) { // GGX times n.l, h half-way between n and l
-        const glm::vec4 d = glm::vec4(1) + (nl + 1.0f) * (0.5f * (alpha2 - 1));
-        return nl / (d * d);
-    });
-}
-
-// A direction around z of what a mirror of that roughness reflects, seen straight on.
-struct LobeSample {
-    glm::vec3 direction;
-    float weight = 0;
-    float solidAngle = 0; // that it stands for
-};
-
-// In order of the microfacets' distribution; each weighs as its cosine.
-std::vector<LobeSample> lobe(float roughness, unsigned count)
-{
-    const double alpha = std::pow(std::max(roughness, 0.045f), 2), alpha2 = alpha * alpha;
-    std::vector<LobeSample> samples;
-    double weights = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        const glm::dvec2 u = hammersley(i, count);
-        const double nh2 = (1 - u.x) / (1 + (alpha2 - 1) * u.x);
-        const double nl = 2 * nh2 - 1;
-        if (nl <= 0)
-            continue;
-        const double side = std::sqrt(std::max(1 - nl * nl, 0.0)), phi = 2 * std::numbers::pi * u.y;
-        const double d = 1 + (alpha2 - 1) * nh2;
-        const double density = alpha2 / (std::numbers::pi * d * d) / 4;
-        samples.push_back(
-            {glm::vec3(side * std::cos(phi), side * std::sin(phi), nl), float(nl), float(1 / (count * density))});
-        weights += nl;
-    }
-    for (LobeSample& s : samples)
-        s.weight /= float(weights);
-    return samples;
-}
-
-// log2 of a number from 1 to sqrt(3), to 0.02.
-float smallLog2(float x) { return (x - 1) * (1.386f - 0.415f * (x - 1)); }
-
-// Every sample reads the level whose texels cover what it stands for: no dots, however bright a small light is.
-Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned count)
-{
-    const std::vector<LobeSample> samples = lobe(roughness, count);
-    const float texelsOfAll = float(pyramid[0].size()) * float(pyramid[0].size());
-    std::vector<float> levels; // where a texel's solid angle is least
-    for (const LobeSample& s : samples)
-        levels.push_back(0.5f * std::log2(s.solidAngle * texelsOfAll / solidAngleOfPlace({0, 1, 0})));
-    const float last = float(pyramid.size()) - 1.01f;
-    Octahedral map(size);
-    parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            const f32::cotan_basis basis = f32::cotan_basis_of_normal(n);
-            glm::vec4 sum(0);
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                const LobeSample& s = samples[i];
-                const glm::vec3 l = basis.x * s.direction.x + basis.y * s.direction.y + n * s.direction.z;
-                const float extent = std::abs(l.x) + std::abs(l.y) + std::abs(l.z);
-                const float level = std::clamp(levels[i] - 1.5f * smallLog2(extent), 0.0f, last);
-                const auto finer = std::size_t(level);
-                const glm::vec2 place = f32::cotan_octahedral_place(l);
-                const glm::vec4 a = pyramid[finer].read(place), b = pyramid[finer + 1].read(place);
-                sum += (a + (b - a) * (level - float(finer))) * s.weight;
-            }
-            map.at(x, y) = sum;
-        }
+        for (int x = 0; x < size; ++x)
+            map.at(x, y) = glm::vec4(lamps.lobe(map.direction(x, y), alpha2), 0);
     });
     map.fold();
     return map;
@@ -216,31 +93,19 @@ void putAlbedo(Image& atlas)
     });
 }
 
-const Octahedral& levelOf(const Pyramid& pyramid, int size)
-{
-    return *std::find_if(pyramid.begin(), pyramid.end(), [&](const Octahedral& level) { return level.size() == size; });
-}
-
 } // namespace
 
 EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const EnvironmentOptions& options)
 {
     EnvironmentMap map;
     map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
-    const Pyramid pyramid = pyramidOf(sampled(radiance, sizeOfTile(0), samples, options));
-    putTile(map.atlas, 0, pyramid[0]);
-    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
-        const int size = sizeOfTile(tile);
-        const float roughness = float(tile) / COTAN_ENVIRONMENT_STEPS;
-        // A texel of 64 a side is 3 degrees wide, of 32, 6; lobes of tiles 3 and 5 fall to half at 10 degrees and
-        // at 28.
+    const Octahedral finest = sampled(radiance, sizeOfTile(0), samples, options);
+    const LampTree lamps(finest);
+    putTile(map.atlas, 0, finest);
+    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile)
         putTile(map.atlas, tile,
-                size == 256 ? filtered(pyramid, size, roughness, 40)
-                            : filteredWide(levelOf(pyramid, tile == 3 ? 64 : 32), size, roughness));
-    }
-    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE,
-            meanOf(lampsOf(levelOf(pyramid, 16)), sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE),
-                   [](glm::vec4 nl) { return nl; }));
+                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f)));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1));
     putAlbedo(map.atlas);
     return map;
 }
