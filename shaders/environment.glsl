@@ -9,8 +9,8 @@ vec3 atlas(vec2 texel)
 // Radiance along a direction, as a mirror of that roughness sees it.
 vec3 radianceAlong(vec3 direction, float roughness)
 {
-    float level = cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
-    float lower = min(floor(level), COTAN_ENVIRONMENT_STEPS - 1.0);
+    float level = cotan_saturate(roughness) * float(COTAN_ENVIRONMENT_STEPS);
+    float lower = min(floor(level), float(COTAN_ENVIRONMENT_STEPS - 1));
     return mix(atlas(cotan_environment_texel(direction, lower)),
         atlas(cotan_environment_texel(direction, lower + 1.0)), level - lower);
 }
@@ -22,7 +22,7 @@ vec2 albedoOf(vec3 n, vec3 v, float roughness)
 }
 
 // Irradiance of a surface with that normal, divided by pi.
-vec3 irradianceOf(vec3 n) { return atlas(cotan_environment_texel(n, COTAN_ENVIRONMENT_IRRADIANCE)); }
+vec3 irradianceOf(vec3 n) { return atlas(cotan_environment_texel(n, float(COTAN_ENVIRONMENT_IRRADIANCE))); }
 
 // What a surface reflects of its surroundings.
 vec3 reflectedGlossy(cotan_surface s, cotan_gloss g)

@@ -13,18 +13,19 @@
 
 #define COTAN_ENVIRONMENT_WIDTH 970
 #define COTAN_ENVIRONMENT_HEIGHT 524
-#define COTAN_ENVIRONMENT_STEPS cotan_real(8.0)       // tiles from roughness 0 to 1
-#define COTAN_ENVIRONMENT_IRRADIANCE cotan_real(9.0)  // tiles
-#define COTAN_ENVIRONMENT_ALBEDO cotan_real(10.0)
+#define COTAN_ENVIRONMENT_STEPS 8      // tiles from roughness 0 to 1
+#define COTAN_ENVIRONMENT_IRRADIANCE 9 // tiles
+#define COTAN_ENVIRONMENT_ALBEDO 10
 
 // Where a tile starts in the atlas, and its texels a side; the border not counted. tile: a whole number.
 COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
 {
     if (tile < cotan_real(0.5))
         return cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(512.0));
+    if (tile < cotan_real(1.5))
+        return cotan_vec3(cotan_real(515.0), cotan_real(1.0), cotan_real(256.0));
     if (tile < cotan_real(2.5))
-        return cotan_vec3(cotan_real(515.0), cotan_real(1.0) + cotan_real(258.0) * (tile - cotan_real(1.0)),
-            cotan_real(256.0));
+        return cotan_vec3(cotan_real(515.0), cotan_real(259.0), cotan_real(128.0));
     if (tile < cotan_real(4.5))
         return cotan_vec3(cotan_real(773.0), cotan_real(1.0) + cotan_real(130.0) * (tile - cotan_real(3.0)),
             cotan_real(128.0));
@@ -73,26 +74,45 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_texel(cotan_vec3 direction, cotan_re
 // Where the factors of n.v and roughness are, in texels: from the first texel's middle to the last one's.
 COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_real roughness)
 {
-    cotan_vec3 t = cotan_environment_tile(COTAN_ENVIRONMENT_ALBEDO);
+    cotan_vec3 t = cotan_environment_tile(cotan_real(COTAN_ENVIRONMENT_ALBEDO));
     cotan_real last = t.z - cotan_real(1.0);
     return cotan_vec2(t.x + cotan_real(0.5) + cotan_saturate(nv) * last,
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
 }
 
+// The share of white light that leaves a rough surface after one bounce between its facets (xyz), and after more
+// (as a factor on what the first bounces have left over, 1 - albedo.x - albedo.y), by its f0 and f90: C. Fdez-Agueera,
+// A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting, 2019, equations 12 and 17. Without the
+// second a white metal of roughness 1 shows a third of the light that it gets, seen straight on.
+struct cotan_bounces {
+    cotan_vec3 once;
+    cotan_vec3 more;
+};
+COTAN_FUNCTION cotan_bounces cotan_bounces_of(cotan_vec3 f0, cotan_real f90, cotan_vec2 albedo)
+{
+    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
+    cotan_real left_over = max(cotan_real(1.0) - albedo.x - albedo.y, cotan_real(0.0));
+    cotan_vec3 mean = f0 + (one * f90 - f0) * cotan_real(1.0 / 21.0); // of Schlick's term over the cosine
+    cotan_bounces b;
+    b.once = f0 * albedo.x + one * (albedo.y * f90);
+    b.more = b.once * mean / (one - mean * left_over) * left_over;
+    return b;
+}
+
 // What a surface reflects of its surroundings. irradiance: tile 9 along n. radiance: where cotan_reflecting_normal
 // mirrors the eye, between the two tiles of the roughness. albedo: tile 10.
-// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light. Rough
-// metals lose what light that bounces more than once would bring.
+// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light; a white
+// metal does, too.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_image(
     cotan_surface s, cotan_gloss g, cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
     cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
-    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(g.f90, cotan_real(1.0), s.metallic));
-    cotan_vec3 below = one - (g.f0 * albedo.x + one * (albedo.y * g.f90));
+    cotan_bounces all = cotan_bounces_of(f0, cotan_mix(g.f90, cotan_real(1.0), s.metallic), albedo);
+    cotan_bounces shallow = cotan_bounces_of(g.f0, g.f90, albedo);
     cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
-    cotan_vec3 diffuse = s.base_color * below * scattered;
-    return (irradiance * diffuse + radiance * specular) * s.occlusion;
+    cotan_vec3 below = (one - shallow.once - shallow.more) * s.base_color * scattered;
+    return (irradiance * (below + all.more) + radiance * all.once) * s.occlusion;
 }
 
 // What a coat reflects of its surroundings. radiance, albedo: as above, for its normal and roughness.

@@ -7,11 +7,13 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/portable.hpp"
+
 namespace cotan::environment {
 
 namespace {
 
-constexpr unsigned kSamples = 256;
+constexpr unsigned kSamples = 64;
 
 // A microfacet normal as often as it is seen along v; n = z.
 glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)
@@ -58,7 +60,7 @@ glm::dvec2 albedoFactors(double nv, double roughness)
         // Smith's term for both directions over the one for the eye, which the sampling has in it.
         const double rootL = std::sqrt(alpha2 + (1 - alpha2) * nl * nl);
         const double share = nl * (nv + rootV) / (nl * rootV + nv * rootL);
-        const double fresnel = std::pow(1 - std::min(vh, 1.0), 5);
+        const double fresnel = f64::cotan_grazing(std::min(vh, 1.0));
         sum += share * glm::dvec2(1 - fresnel, fresnel);
     }
     return sum / double(kSamples);

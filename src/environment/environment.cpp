@@ -11,6 +11,7 @@
 
 #include "albedo.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "lamps.hpp"
 #include "octahedral.hpp"
 
 namespace cotan {
@@ -31,27 +32,6 @@ glm::vec3 sound(glm::vec3 c)
 
 int sizeOfTile(int tile) { return int(f32::cotan_environment_tile(float(tile)).z); }
 
-// Finest first, each level half of the one before, down to 4 texels a side.
-using Pyramid = std::vector<Octahedral>;
-
-Pyramid pyramidOf(Octahedral finest)
-{
-    Pyramid levels{std::move(finest)};
-    while (levels.back().size > 4)
-        levels.push_back(halved(levels.back()));
-    return levels;
-}
-
-glm::vec3 readLevel(const Pyramid& pyramid, glm::vec3 direction, float level)
-{
-    level = std::clamp(level, 0.0f, float(pyramid.size() - 1));
-    const auto lower = std::size_t(level);
-    const glm::vec3 a = pyramid[lower].read(direction);
-    if (lower + 1 == pyramid.size())
-        return a;
-    return a + (pyramid[lower + 1].read(direction) - a) * (level - float(lower));
-}
-
 Octahedral sampled(const Radiance& radiance, int size, int samples, const EnvironmentOptions& options)
 {
     Octahedral map(size);
@@ -65,92 +45,22 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
                 const glm::vec3 d = map.direction(x, y, inside);
                 sum += sound(radiance({c * d.x - s * d.z, d.y, s * d.x + c * d.z})); // turned back
             }
-            map.at(x, y) = sound(sum * (options.intensity / float(samples * samples)));
+            map.at(x, y) = glm::vec4(sound(sum * (options.intensity / float(samples * samples))), 0);
         }
     });
+    map.fold();
     return map;
 }
 
-// A direction around z of what a mirror of that roughness reflects, seen straight on.
-struct LobeSample {
-    glm::vec3 direction;
-    float weight = 0;
-    float solidAngle = 0; // that it stands for
-};
-
-// In order of the microfacets' distribution; each weighs as its cosine.
-std::vector<LobeSample> lobe(float roughness, unsigned count)
+// The lobe of that alpha along every direction of a map.
+Octahedral filtered(const LampTree& lamps, int size, float alpha2)
 {
-    const double alpha = std::pow(std::max(roughness, 0.045f), 2), alpha2 = alpha * alpha;
-    std::vector<LobeSample> samples;
-    double weights = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        const glm::dvec2 u = hammersley(i, count);
-        const double nh2 = (1 - u.x) / (1 + (alpha2 - 1) * u.x);
-        const double nl = 2 * nh2 - 1;
-        if (nl <= 0)
-            continue;
-        const double side = std::sqrt(std::max(1 - nl * nl, 0.0)), phi = 2 * std::numbers::pi * u.y;
-        const double d = 1 + (alpha2 - 1) * nh2;
-        const double density = alpha2 / (std::numbers::pi * d * d) / 4;
-        samples.push_back(
-            {glm::vec3(side * std::cos(phi), side * std::sin(phi), nl), float(nl), float(1 / (count * density))});
-        weights += nl;
-    }
-    for (LobeSample& s : samples)
-        s.weight /= float(weights);
-    return samples;
-}
-
-// Every sample reads the level whose texels cover what it stands for: no dots, however bright a small light is.
-Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned count)
-{
-    const std::vector<LobeSample> samples = lobe(roughness, count);
-    const float texelsOfAll = float(pyramid[0].size) * float(pyramid[0].size);
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            const f32::cotan_basis basis = f32::cotan_basis_of_normal(n);
-            glm::vec3 sum(0);
-            for (const LobeSample& s : samples) {
-                const glm::vec3 l = basis.x * s.direction.x + basis.y * s.direction.y + n * s.direction.z;
-                const float texel = solidAngleOfPlace(l) / texelsOfAll;
-                sum += readLevel(pyramid, l, 0.5f * std::log2(s.solidAngle / texel) + 0.25f) * s.weight;
-            }
-            map.at(x, y) = sum;
-        }
+        for (int x = 0; x < size; ++x)
+            map.at(x, y) = glm::vec4(lamps.lobe(map.direction(x, y), alpha2), 0);
     });
-    return map;
-}
-
-// Over all directions of a level of the pyramid, by solid angle and cosine.
-Octahedral irradiance(const Octahedral& source, int size)
-{
-    struct Light {
-        glm::vec3 direction, radiance;
-        float solidAngle;
-    };
-    std::vector<Light> lights;
-    for (int y = 0; y < source.size; ++y)
-        for (int x = 0; x < source.size; ++x) {
-            const glm::vec3 d = source.direction(x, y);
-            lights.push_back({d, source.at(x, y), solidAngleOfPlace(d)});
-        }
-    Octahedral map(size);
-    parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            glm::vec3 sum(0);
-            float weights = 0;
-            for (const Light& light : lights) {
-                const float weight = std::max(glm::dot(n, light.direction), 0.0f) * light.solidAngle;
-                sum += light.radiance * weight;
-                weights += weight;
-            }
-            map.at(x, y) = sum / weights;
-        }
-    });
+    map.fold();
     return map;
 }
 
@@ -166,14 +76,14 @@ void put(Image& atlas, int x, int y, glm::vec3 value)
 void putTile(Image& atlas, int tile, const Octahedral& map)
 {
     const glm::vec3 place = f32::cotan_environment_tile(float(tile));
-    for (int y = -1; y <= map.size; ++y)
-        for (int x = -1; x <= map.size; ++x)
-            put(atlas, int(place.x) + x, int(place.y) + y, map.around(x, y));
+    for (int y = -1; y <= map.size(); ++y)
+        for (int x = -1; x <= map.size(); ++x)
+            put(atlas, int(place.x) + x, int(place.y) + y, glm::vec3(map.at(x, y)));
 }
 
 void putAlbedo(Image& atlas)
 {
-    const glm::vec3 place = f32::cotan_environment_tile(10);
+    const glm::vec3 place = f32::cotan_environment_tile(COTAN_ENVIRONMENT_ALBEDO);
     const int size = int(place.z);
     parallelFor(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) {
@@ -189,16 +99,13 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
 {
     EnvironmentMap map;
     map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
-    const Pyramid pyramid = pyramidOf(sampled(radiance, sizeOfTile(0), samples, options));
-    putTile(map.atlas, 0, pyramid[0]);
-    for (int tile = 1; tile <= 8; ++tile) {
-        const int size = sizeOfTile(tile);
-        const unsigned count = size == 256 ? 64 : size == 128 ? 128 : 256;
-        putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / 8, count));
-    }
-    const auto coarse =
-        std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size == 32; });
-    putTile(map.atlas, 9, irradiance(*coarse, sizeOfTile(9)));
+    const Octahedral finest = sampled(radiance, sizeOfTile(0), samples, options);
+    const LampTree lamps(finest);
+    putTile(map.atlas, 0, finest);
+    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile)
+        putTile(map.atlas, tile,
+                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f)));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1));
     putAlbedo(map.atlas);
     return map;
 }

@@ -6,32 +6,36 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace cotan::environment {
 
-struct Octahedral {
-    int size = 0; // texels a side, even
-    std::vector<glm::vec3> texels;
+// Texels have four floats, the last one 0, since processors add four at once.
+class Octahedral {
+public:
+    // side: texels, even.
+    explicit Octahedral(int side) : size_(side), texels_(std::size_t(side + 2) * std::size_t(side + 2), glm::vec4(0)) {}
 
-    explicit Octahedral(int side) : size(side), texels(std::size_t(side) * std::size_t(side), glm::vec3(0)) {}
+    int size() const { return size_; }
 
-    glm::vec3& at(int x, int y) { return texels[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
-    const glm::vec3& at(int x, int y) const { return texels[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
+    // x, y: -1 to size(): there is a border of one texel around the map.
+    glm::vec4& at(int x, int y) { return texels_[index(x, y)]; }
+    const glm::vec4& at(int x, int y) const { return texels_[index(x, y)]; }
 
-    // Up to one texel over the edge: the one beside it on the sphere.
-    const glm::vec3& around(int x, int y) const;
+    // Fills the border with what is beside it on the sphere. Due after writing, before reading.
+    void fold();
 
     // The unit direction of a place inside a texel, (0,0) to (1,1).
     glm::vec3 direction(int x, int y, glm::vec2 inside = glm::vec2(0.5f)) const;
 
-    // Filtered between the four nearest texels. direction: of any length but 0.
-    glm::vec3 read(glm::vec3 direction) const;
+private:
+    std::size_t index(int x, int y) const { return std::size_t(y + 1) * std::size_t(size_ + 2) + std::size_t(x + 1); }
+
+    int size_;
+    std::vector<glm::vec4> texels_;
 };
 
 // Solid angle of a square of side 1 in the map, around a unit direction.
 float solidAngleOfPlace(glm::vec3 direction);
-
-// Half as many texels a side; each the mean of four, by their solid angles.
-Octahedral halved(const Octahedral& finer);
 
 } // namespace cotan::environment

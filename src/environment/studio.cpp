@@ -16,17 +16,22 @@ float smooth(float low, float high, float x) { return f32::cotan_smooth(low, hig
 
 // A rectangular light at distance 1 along `axis`, upright; half sizes and soft rim in the same unit. 0 to 1.
 struct SoftBox {
-    glm::vec3 axis; // unit
-    float halfWidth = 0, halfHeight = 0, rim = 0;
+    glm::vec3 axis, right, up; // unit
+    float halfWidth, halfHeight, rim;
+
+    SoftBox(glm::vec3 towards, float width, float height, float soft)
+        : axis(glm::normalize(towards)), halfWidth(width), halfHeight(height), rim(soft)
+    {
+        const glm::vec3 upright = std::abs(axis.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
+        right = glm::normalize(glm::cross(axis, upright));
+        up = glm::cross(right, axis);
+    }
 
     float seen(glm::vec3 d) const
     {
         const float along = glm::dot(d, axis);
         if (along <= 0.01f)
             return 0;
-        const glm::vec3 upright = std::abs(axis.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
-        const glm::vec3 right = glm::normalize(glm::cross(axis, upright));
-        const glm::vec3 up = glm::cross(right, axis);
         const float x = std::abs(glm::dot(d, right)) / along, y = std::abs(glm::dot(d, up)) / along;
         return (1 - smooth(halfWidth - rim, halfWidth + rim, x)) * (1 - smooth(halfHeight - rim, halfHeight + rim, y));
     }
@@ -36,11 +41,11 @@ struct SoftBox {
 // the right, a ceiling light and two strips at the sides, a little behind, for edges. Models look along +z.
 glm::vec3 studio(glm::vec3 d)
 {
-    static const SoftBox key{glm::normalize(glm::vec3(-0.75f, 0.62f, 0.75f)), 0.55f, 0.5f, 0.05f};
-    static const SoftBox fill{glm::normalize(glm::vec3(0.95f, 0.15f, 0.45f)), 0.35f, 0.75f, 0.06f};
+    static const SoftBox key{glm::vec3(-0.75f, 0.62f, 0.75f), 0.55f, 0.5f, 0.05f};
+    static const SoftBox fill{glm::vec3(0.95f, 0.15f, 0.45f), 0.35f, 0.75f, 0.06f};
     static const SoftBox ceiling{glm::vec3(0, 1, 0), 0.75f, 0.35f, 0.06f};
-    static const SoftBox left{glm::normalize(glm::vec3(-1, 0.25f, -0.2f)), 0.16f, 0.8f, 0.03f};
-    static const SoftBox right{glm::normalize(glm::vec3(1, 0.3f, -0.35f)), 0.16f, 0.8f, 0.03f};
+    static const SoftBox left{glm::vec3(-1, 0.25f, -0.2f), 0.16f, 0.8f, 0.03f};
+    static const SoftBox right{glm::vec3(1, 0.3f, -0.35f), 0.16f, 0.8f, 0.03f};
     const glm::vec3 wall = glm::vec3(0.30f, 0.30f, 0.31f) * (1 - 0.55f * smooth(0, 0.9f, d.y));
     const glm::vec3 floor = glm::vec3(0.34f, 0.33f, 0.32f) * (1 - 0.35f * smooth(0, 1, -d.y));
     glm::vec3 c = glm::mix(floor, wall, smooth(-0.12f, 0.12f, d.y));

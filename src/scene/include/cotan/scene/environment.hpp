@@ -42,8 +42,8 @@ inline glm::vec3 readAtlas(const EnvironmentMap& map, glm::vec2 texel)
 // Radiance along a direction of any length, as a mirror of that roughness sees it.
 inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, float roughness)
 {
-    const float level = f32::cotan_saturate(roughness) * 8;
-    const float lower = std::min(std::floor(level), 7.0f);
+    const float level = f32::cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
+    const float lower = std::min(std::floor(level), float(COTAN_ENVIRONMENT_STEPS - 1));
     const glm::vec3 a = readAtlas(map, f32::cotan_environment_texel(direction, lower));
     const glm::vec3 b = readAtlas(map, f32::cotan_environment_texel(direction, lower + 1));
     return a + (b - a) * (level - lower);
@@ -52,7 +52,7 @@ inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, f
 // Irradiance of a surface with that normal, divided by pi.
 inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
 {
-    return readAtlas(map, f32::cotan_environment_texel(normal, 9));
+    return readAtlas(map, f32::cotan_environment_texel(normal, COTAN_ENVIRONMENT_IRRADIANCE));
 }
 
 // The factors of what GGX reflects of white light.
