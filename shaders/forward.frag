@@ -41,6 +41,13 @@ layout(location = 0) out vec4 outColor;
 #include "environment.glsl"
 #include "lights.glsl"
 
+// The spread of normals by the surface's own turn.
+float turnOf(vec3 smoothNormal)
+{
+    return COARSE_DERIVATIVES ? cotan_spread_of_turn(dFdxCoarse(smoothNormal), dFdyCoarse(smoothNormal))
+                              : cotan_spread_of_turn(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
+}
+
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }
 
 vec4 sampled(sampler2D map, CotanTextureUse use)
@@ -56,8 +63,8 @@ vec4 baseColor()
     return color;
 }
 
-// The perturbed normal, outwards on the front side.
-vec3 perturbed(cotan_frame frame, vec3 n)
+// The perturbed normal, outwards on the front side. spread: what the texel's length says is added to it.
+vec3 perturbed(cotan_frame frame, vec3 n, inout float spread)
 {
     bool mapped = NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse)
         && hasTexcoords(material.normalMapUse);
@@ -65,11 +72,14 @@ vec3 perturbed(cotan_frame frame, vec3 n)
         return n;
     cotan_normal_format format = cotan_normal_format(material.normalMap.x, material.normalMap.y,
         float(material.normalMap.z), material.factors.w);
-    vec3 m = cotan_decode(sampled(normalMap, material.normalMapUse).xyz, format);
-    return cotan_normalize_or(cotan_apply(frame, m), n);
+    vec4 texel = sampled(normalMap, material.normalMapUse);
+    if (SPECULAR_ANTIALIASING)
+        spread += cotan_spread_of_length(texel.w);
+    return cotan_normalize_or(cotan_apply(frame, cotan_decode(texel.xyz, format)), n);
 }
 
-cotan_surface surfaceOf(vec3 base, vec3 n)
+// spread: of the normals in the pixel.
+cotan_surface surfaceOf(vec3 base, vec3 n, float spread)
 {
     cotan_surface s;
     s.base_color = base;
@@ -82,6 +92,8 @@ cotan_surface surfaceOf(vec3 base, vec3 n)
         s.metallic *= texel.b;
         occlusion = (MAPS & COTAN_MAP_OCCLUSION_SHARED) != 0u ? texel.r : 1.0;
     }
+    if (SPECULAR_ANTIALIASING)
+        s.roughness = cotan_roughness_of_spread(s.roughness, spread);
     if (present(COTAN_MAP_OCCLUSION, material.occlusionMap))
         occlusion = sampled(occlusionMap, material.occlusionMap).r;
     s.occlusion = 1.0 + material.factors.z * (occlusion - 1.0);
@@ -156,7 +168,9 @@ void main()
     cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
     vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
     cotan_frame frame = frameOf(smoothNormal, d, material.normalMapUse, true);
-    vec3 n = perturbed(frame, smoothNormal);
+    float turn = SPECULAR_ANTIALIASING ? turnOf(smoothNormal) : 0.0;
+    float spread = turn;
+    vec3 n = perturbed(frame, smoothNormal, spread);
     // Seen from behind, the sheet shows the other side of the same bumps.
     float side = gl_FrontFacing ? 1.0 : -1.0;
     n *= side;
@@ -167,11 +181,11 @@ void main()
     if (OUTPUT == OUTPUT_SHADED) {
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
-            cotan_surface s = surfaceOf(base.rgb, n);
+            cotan_surface s = surfaceOf(base.rgb, n, spread);
             Layers over;
             over.glossy = over.sheened = over.coated = false;
 #ifdef COTAN_EXTENDED
-            addLayers(over, frame, smoothNormal, n, side);
+            addLayers(over, frame, smoothNormal, n, side, turn);
 #endif
             color = lit(s, over, inPosition, smoothNormal * side);
             if (over.glossy && (MAPS & COTAN_LAYER_TRANSMISSION) != 0u)

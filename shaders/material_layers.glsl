@@ -1,7 +1,7 @@
 // What extensions of glTF add to a material: its maps as layers of cotan/light.h and cotan/sheen.h.
 
-// The coat's normal, outwards on the front side. frame: of the surface beneath.
-vec3 coatNormal(cotan_frame frame, vec3 n)
+// The coat's normal, outwards on the front side. frame: of the surface beneath. spread: as in perturbed.
+vec3 coatNormal(cotan_frame frame, vec3 n, inout float spread)
 {
     CotanTextureUse use = material.coatNormalMapUse;
     if (!NORMAL_MAPS || !present(COTAN_MAP_COAT_NORMAL, use) || !hasTexcoords(use))
@@ -10,11 +10,14 @@ vec3 coatNormal(cotan_frame frame, vec3 n)
         frame = frameOf(n, screenDifferences(inPosition, transformedDifference(use, inTexcoords)), use, false);
     cotan_normal_format format = cotan_normal_format(material.coatNormalMap.x,
         material.coatNormalMap.y, float(material.coatNormalMap.z), material.coat.z);
-    vec3 m = cotan_decode(sampled(coatNormalMap, use).xyz, format);
-    return cotan_normalize_or(cotan_apply(frame, m), n);
+    vec4 texel = sampled(coatNormalMap, use);
+    if (SPECULAR_ANTIALIASING)
+        spread += cotan_spread_of_length(texel.w);
+    return cotan_normalize_or(cotan_apply(frame, cotan_decode(texel.xyz, format)), n);
 }
 
-cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
+// turn: the spread of the surface's normals without a map.
+cotan_coat coatOf(cotan_frame frame, vec3 n, float side, float turn)
 {
     cotan_coat c;
     c.strength = material.coat.x;
@@ -23,7 +26,10 @@ cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
     c.roughness = material.coat.y;
     if (present(COTAN_MAP_COAT_ROUGHNESS, material.coatRoughnessMap))
         c.roughness *= sampled(coatRoughnessMap, material.coatRoughnessMap).g;
-    c.n = coatNormal(frame, n) * side;
+    float spread = turn;
+    c.n = coatNormal(frame, n, spread) * side;
+    if (SPECULAR_ANTIALIASING)
+        c.roughness = cotan_roughness_of_spread(c.roughness, spread);
     return c;
 }
 
@@ -73,7 +79,7 @@ cotan_sheen sheenOf()
 }
 
 // frame, smoothNormal: outwards on the front side. n: perturbed. side: -1 on the back.
-void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, float side)
+void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, float side, float turn)
 {
     over.glossy = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_GLOSS) != 0u;
     over.sheened = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_SHEEN) != 0u;
@@ -85,5 +91,5 @@ void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, 
     if (over.sheened)
         over.sheen = sheenOf();
     if (over.coated)
-        over.coat = coatOf(frame, smoothNormal, side);
+        over.coat = coatOf(frame, smoothNormal, side, turn);
 }

@@ -32,6 +32,35 @@ COTAN_FUNCTION cotan_real cotan_smooth(cotan_real edge0, cotan_real edge1, cotan
     return k * k * (cotan_real(3.0) - cotan_real(2.0) * k);
 }
 
+// ---- highlights that are smaller than a pixel ----
+
+// The perceptual roughness of a surface whose normals spread within what is seen at once: squares of
+// slopes add up. roughness: its own, [0,1]. spread: variance of the slopes, of both directions
+// together, >= 0.
+COTAN_FUNCTION cotan_real cotan_roughness_of_spread(cotan_real roughness, cotan_real spread)
+{
+    cotan_real alpha = roughness * roughness;
+    return sqrt(sqrt(min(alpha * alpha + spread, cotan_real(1.0))));
+}
+
+// The spread of normals by the turn of the surface within a pixel: the variance over a square of its
+// width. dndx, dndy: differences of the unit normal without a map to the next pixels. Over 0.18, where
+// differences say little, it stays at that (Y. Tokuyoshi, A. Kaplanyan, Improved Geometric Specular
+// Antialiasing, 2019; their pixel is a Gaussian and gives four times as much, which measures worse).
+COTAN_FUNCTION cotan_real cotan_spread_of_turn(cotan_vec3 dndx, cotan_vec3 dndy)
+{
+    return min((dot(dndx, dndx) + dot(dndy, dndy)) / cotan_real(12.0), cotan_real(0.18));
+}
+
+// The spread of unit normals whose mean is that long, [0,1]: what the levels of a normal map lose, to be
+// kept in a channel of theirs. They lie as exp(kappa cos), kappa by J. Banerjee and others (2005). A
+// step of 8 bits is taken as rounding.
+COTAN_FUNCTION cotan_real cotan_spread_of_length(cotan_real length_of_mean)
+{
+    cotan_real r = min(max(length_of_mean, cotan_real(0.05)) + cotan_real(1.0 / 255.0), cotan_real(1.0));
+    return cotan_real(2.0) * (cotan_real(1.0) - r * r) / (r * (cotan_real(3.0) - r * r));
+}
+
 // A half vector that is zero when l = -v.
 COTAN_FUNCTION cotan_vec3 cotan_half_vector(cotan_vec3 l, cotan_vec3 v)
 {

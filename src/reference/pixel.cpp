@@ -108,7 +108,10 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
         coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, quad, lane).x);
         coat.roughness = f32::cotan_saturate(m.coat.roughness
                                              * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
-        coat.n = coatNormalOf(in, quad, lane, normal);
+        const CoatNormal own = coatNormalOf(in, quad, lane, normal);
+        coat.n = own.n;
+        if (all.view.specularAntialiasing)
+            coat.roughness = f32::cotan_roughness_of_spread(coat.roughness, own.spread);
         layers.coat = coat;
     }
     return layers;
@@ -126,6 +129,8 @@ Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseC
         return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, quad, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
+    if (all.view.specularAntialiasing)
+        surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
     LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);

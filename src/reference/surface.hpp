@@ -56,6 +56,8 @@ struct SurfaceNormal {
     glm::vec3 b{0};
     glm::vec2 uv{0};          // of the normal map
     f32::cotan_frame frame{}; // that `finished` was made with
+    float turn = 0;           // spread of `interpolated` in the pixel, where the view asks for it
+    float spread = 0;         // the same of `finished`
     bool mapped = false;      // there is a normal map, and what follows is set
     glm::vec3 texel{0, 0, 1}; // decoded, unit, in the frame; turned towards the camera's side
 };
@@ -63,8 +65,12 @@ struct SurfaceNormal {
 // As the material's normal map has it.
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
 
-// The coat's normal, from its own map and a frame of the same name, turned towards the camera's side.
-// base: of the surface beneath.
-glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
+struct CoatNormal {
+    glm::vec3 n{0}; // unit, turned towards the camera's side
+    float spread = 0;
+};
+
+// The coat's normal, from its own map and a frame of the same name. base: of the surface beneath.
+CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
 
 } // namespace cotan::reference

@@ -131,6 +131,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environment = view.environment;
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
+        key.specularAntialiasing = view.specularAntialiasing;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;
     }

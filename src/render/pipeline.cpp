@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 13> values;
-    std::array<vk::SpecializationMapEntry, 13> entries;
+    std::array<std::uint32_t, 14> values;
+    std::array<vk::SpecializationMapEntry, 14> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -36,7 +36,8 @@ struct Specialization {
                  key.maps,
                  static_cast<std::uint32_t>(key.tone),
                  key.environmentMap,
-                 key.samples != vk::SampleCountFlagBits::e1}
+                 key.samples != vk::SampleCountFlagBits::e1,
+                 key.specularAntialiasing}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);

@@ -50,6 +50,7 @@ struct PipelineKey {
     bool environment = true;
     bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
+    bool specularAntialiasing = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
