@@ -296,6 +296,7 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
         clear.transmission = 1;
         const glm::dvec3 bare = f64::cotan_reflect_highlight(s, clear, r.l, 3);
         EXPECT_LT(glm::length(glint - (bare * g.transmission + whole * (1 - g.transmission))), 1e-9);
+        EXPECT_EQ(f64::cotan_reflect_highlight(s, clear, r.l, 0), glm::dvec3(0));
         s.metallic = 1;
         EXPECT_EQ(f64::cotan_transmittance(s, g), glm::dvec3(0));
     }
