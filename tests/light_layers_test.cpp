@@ -284,7 +284,8 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
         const glm::dvec3 white(1), back = f64::cotan_reflect_image(s, g, white, white, albedo);
         const glm::dvec3 through = f64::cotan_transmittance(s, g);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(back[c] + through[c], 1, 0.02); // light that bounces more than once is not taken from what passes
+            EXPECT_NEAR(back[c] + through[c], 1,
+                        0.02); // light that bounces more than once is not taken from what passes
             EXPECT_LE(through[c], g.transmission);
         }
         // What is scattered of a lamp is less by the same share.
