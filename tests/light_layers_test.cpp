@@ -284,7 +284,8 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
         const glm::dvec3 white(1), back = f64::cotan_reflect_image(s, g, white, white, albedo);
         const glm::dvec3 through = f64::cotan_transmittance(s, g);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(back[c] + through[c], 1, 0.02); // light that bounces more than once is not taken from what passes
+            EXPECT_NEAR(back[c] + through[c], 1,
+                        0.02); // light that bounces more than once is not taken from what passes
             EXPECT_LE(through[c], g.transmission);
         }
         // What is scattered of a lamp is less by the same share.
@@ -296,6 +297,7 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
         clear.transmission = 1;
         const glm::dvec3 bare = f64::cotan_reflect_highlight(s, clear, r.l, 3);
         EXPECT_LT(glm::length(glint - (bare * g.transmission + whole * (1 - g.transmission))), 1e-9);
+        EXPECT_EQ(f64::cotan_reflect_highlight(s, clear, r.l, 0), glm::dvec3(0));
         s.metallic = 1;
         EXPECT_EQ(f64::cotan_transmittance(s, g), glm::dvec3(0));
     }
