@@ -222,6 +222,9 @@ std::vector<Case> litCases()
     all.push_back(COTAN_LIT_CASE("falloff",
                                  cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)),
                                             cotan_light_falloff(y, cotan_real(0.0)))));
+    all.push_back(COTAN_LIT_CASE("roughness of a spread",
+                                 cotan_vec3(cotan_roughness_of_spread(s.roughness, y), cotan_spread_of_turn(l, s.v),
+                                            cotan_spread_of_length(y))));
     all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
     all.push_back(COTAN_LIT_CASE("linear to sRGB",
                                  cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y),
