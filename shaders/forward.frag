@@ -15,6 +15,7 @@
 #include "cotan/light.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
+#include "cotan/shadow.h"
 #include "bindings.glsl"
 #include "constants.glsl"
 

@@ -193,7 +193,7 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, pyramid[0]);
     for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
         const int size = sizeOfTile(tile);
-        const unsigned count = size == 256 ? 40 : size == 128 ? 80 : 192;
+        const unsigned count = tile == 1 ? 16 : size == 256 ? 40 : size == 128 ? 80 : 192;
         putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / COTAN_ENVIRONMENT_STEPS, count));
     }
     const auto coarse =

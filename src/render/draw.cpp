@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "cotan/portable.hpp"
+#include "cotan/scene/environment.hpp"
+#include "cotan/scene/ground.hpp"
 
 namespace cotan {
 
@@ -98,6 +100,16 @@ Status checkView(const Device& device, const View& view)
     return Done{};
 }
 
+// BACKDROP_... of background.frag.
+int backdropOf(const View& view)
+{
+    if (!view.background)
+        return 3;
+    if (view.backdrop == Backdrop::paper)
+        return 2;
+    return view.environmentMap && view.backdrop != Backdrop::gradient ? 1 : 0;
+}
+
 // Blending onto transparent black leaves colours multiplied by alpha; pictures with 8 bits are
 // stored without.
 void divideByAlpha(Image& image)
@@ -130,6 +142,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environment = view.environment;
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
+        key.softShadows = key.shadows && view.shadowSoftness > 0;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;
     }
@@ -143,6 +156,7 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     vk::SamplerCreateInfo sampler;
     sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
     sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear; // of what comparisons give
     sampler.compareEnable = VK_TRUE;
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
@@ -150,10 +164,10 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     vk::SamplerCreateInfo filtering;
     filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
     filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    environmentSampler_ = vk::raii::Sampler(device.device, filtering);
+    pictureSampler_ = vk::raii::Sampler(device.device, filtering);
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 3)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 5)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
 }
@@ -216,7 +230,10 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, b
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
-    prepareEnvironment(view);
+    if (view.environmentMap)
+        environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
+    if (view.ground)
+        ground_.hold(*device_, view.ground, view.ground->shares);
     if (layered)
         prepareLayers();
     writePictureSet(layered);
@@ -242,8 +259,13 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
-    const vk::DescriptorImageInfo environment(*environmentSampler_, *environmentTexture_.view,
-                                              vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const auto held = [&](const HeldPicture& picture) {
+        return picture.owner
+            ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, vk::ImageLayout::eShaderReadOnlyOptimal)
+            : shadow;
+    };
+    const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
     using T = vk::DescriptorType;
     device_->device.updateDescriptorSets(
         {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
@@ -253,7 +275,9 @@ void Drawer::writePictureSet(bool layered)
          vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
          vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
                                 layered && targets_->multisampled() ? depth : shadow),
-         vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler, environmentMap_ ? environment : shadow)},
+         vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler, environment),
+         vk::WriteDescriptorSet(pictureSet_, 7, 0, T::eCombinedImageSampler, found),
+         vk::WriteDescriptorSet(pictureSet_, 8, 0, T::eCombinedImageSampler, ground)},
         {});
 }
 
@@ -337,12 +361,13 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
     drawItems(commands, scene, lists.opaque, key);
     key.alphaMode = AlphaMode::mask;
     drawItems(commands, scene, lists.mask, key);
-    if (shaded && view.background) {
+    if (shaded && (view.background || view.ground)) {
         PipelineKey background;
         background.pass = Pass::background;
         background.toneMap = key.toneMap;
         background.tone = key.tone;
-        background.environmentMap = view.environmentMap && view.backdrop != Backdrop::gradient;
+        background.backdrop = backdropOf(view);
+        background.ground = view.ground != nullptr;
         background.samples = key.samples;
         background.format = key.format;
         drawOver(commands, background);

@@ -16,6 +16,15 @@ namespace cotan {
 // The pipeline that draws opaque surfaces of a view, without the maps.
 PipelineKey forwardKey(const View& view, const Targets& targets);
 
+// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
+struct HeldPicture {
+    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
+    std::unique_ptr<Memory> memory;
+    Texture2D texture;
+
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+};
+
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
 class Drawer {
 public:
@@ -42,7 +51,6 @@ private:
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
     void prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered);
     void prepareShadowMap(bool needed);
-    void prepareEnvironment(const View& view);
     void prepareLayers();
     void writePictureSet(bool layered);
     void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists);
@@ -68,10 +76,9 @@ private:
     std::unique_ptr<Memory> shadowMemory_;
     Texture2D shadowMap_;
     vk::raii::Sampler shadowSampler_{nullptr};
-    std::shared_ptr<const EnvironmentMap> environmentMap_; // what the texture holds
-    std::unique_ptr<Memory> environmentMemory_;
-    Texture2D environmentTexture_;
-    vk::raii::Sampler environmentSampler_{nullptr};
+    HeldPicture environment_;
+    HeldPicture ground_;
+    vk::raii::Sampler pictureSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
     vk::DescriptorSet pictureSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;

@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 12> values;
-    std::array<vk::SpecializationMapEntry, 12> entries;
+    std::array<std::uint32_t, 15> values;
+    std::array<vk::SpecializationMapEntry, 15> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -35,7 +35,10 @@ struct Specialization {
                  key.toneMap,
                  key.maps,
                  static_cast<std::uint32_t>(key.tone),
-                 key.environmentMap}
+                 key.environmentMap,
+                 key.softShadows,
+                 static_cast<std::uint32_t>(key.backdrop),
+                 key.ground}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -140,9 +143,9 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    picture = makeSetLayout(
-        device,
-        std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage});
+    picture = makeSetLayout(device,
+                            std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
+                                       T::eStorageBuffer, kImage, kImage, kImage, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
     material = makeSetLayout(device, ofMaterial);

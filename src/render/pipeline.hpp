@@ -17,7 +17,7 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    // Set 0: view, lights, shadow map, lists, layers, opaque depth, environment.
+    // Set 0: view, lights, shadow map, lists, layers, opaque depth, environment, shadow map as depth, ground.
     vk::raii::DescriptorSetLayout picture{nullptr};
     vk::raii::DescriptorSetLayout material{nullptr}; // set 1
     vk::raii::PipelineLayout pipeline{nullptr};
@@ -43,8 +43,11 @@ struct PipelineKey {
     bool environment = true;
     bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
+    bool softShadows = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
+    int backdrop = 0; // BACKDROP_... of background.frag
+    bool ground = false;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;

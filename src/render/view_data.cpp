@@ -8,6 +8,7 @@
 
 #include "cotan/covector.hpp"
 #include "cotan/scene/environment.hpp"
+#include "cotan/scene/ground.hpp"
 
 namespace cotan {
 
@@ -117,7 +118,7 @@ const Light* shadowLight(const View& view)
 }
 
 // An orthographic view along the light, square, just around the scene.
-void shadowRows(gpu::CotanView& g, const Light& light, const Axes& axes, const Bounds& bounds)
+void shadowRows(gpu::CotanView& g, const Light& light, float softness, const Axes& axes, const Bounds& bounds)
 {
     const dvec3 forward = unitOr(dvec3(light.direction), dvec3(0, -1, 0));
     dvec3 right;
@@ -139,6 +140,15 @@ void shadowRows(gpu::CotanView& g, const Light& light, const Axes& axes, const B
     const double texel = size / kShadowSize;
     // Half a texel of depth, for what the offset along the normal leaves.
     g.shadow = gpu::vec4(float(texel), float(kShadowSize), float(0.5 * texel / deep), 0);
+    g.soft = gpu::vec4(float(softness * deep / size), kWidestPenumbra, float(size / deep), 0);
+}
+
+void groundRows(gpu::CotanView& g, const GroundMap& map, const Axes& axes)
+{
+    const glm::dvec2 scale = 1.0 / glm::dvec2(map.extent);
+    const glm::dvec2 offset = (glm::dvec2(axes.eye.x, axes.eye.z) - glm::dvec2(map.low)) * scale;
+    g.ground = gpu::vec4(float(scale.x), float(offset.x), float(scale.y), float(offset.y));
+    g.tone.z = float(map.height - axes.eye.y);
 }
 
 } // namespace
@@ -160,8 +170,10 @@ gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& b
     else
         perspectiveRows(g, view, axes, bounds);
     if (const Light* light = shadowLight(view))
-        shadowRows(g, *light, axes, bounds);
+        shadowRows(g, *light, view.shadowSoftness, axes, bounds);
     g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
+    if (view.ground)
+        groundRows(g, *view.ground, axes);
     g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), 0, 0, 0);
     return g;
 }
