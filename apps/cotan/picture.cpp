@@ -1,5 +1,8 @@
 #include "picture.hpp"
 
+#include <future>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cotan/draw/camera_words.hpp"
@@ -88,6 +91,9 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
         return size.error();
     Picture picture;
+    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings; // made while the model is read
+    if (!like)
+        surroundings = std::async(std::launch::async, openSurroundings, options);
     if (options.animation.empty() ? options.time > 0 : options.model.empty())
         return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
                                                     : "--animation: expected a model; found the built-in scene");
@@ -114,9 +120,14 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (!view)
         return view.error();
     picture.view = std::move(*view);
+    if (!like) {
+        auto opened = surroundings.get();
+        if (!opened)
+            return opened.error();
+        picture.view.environmentMap = std::move(*opened);
+    }
     picture.meter = !like && options.exposure == "auto" && options.use == PictureUse::shown;
-    if (like)
-        relightPicture(options, picture.scene, picture.view);
+    picture.view.lights = lightsOf(options, picture.scene);
     picture.loadSeconds = watch.lap();
     return picture;
 }
@@ -125,11 +136,14 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
                                                     Picture& picture)
 {
     const bool reference = options.device == "auto" && options.lighting != "world";
+    auto ground =
+        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
     auto painter = openDevice(reference ? "reference" : options.device, common);
     if (!painter)
         return painter;
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
+    picture.view.ground = ground.get();
     if (picture.meter) {
         const auto exposure = meterExposure(**painter, picture.view);
         if (!exposure)

@@ -50,7 +50,8 @@ Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
     made.rotation = float(o.environmentRotation * kRadians);
     made.intensity = o.environmentIntensity;
     if (const auto radiance = builtinRadiance(o.environment)) {
-        EnvironmentMap map = makeEnvironment(*radiance, 2, made);
+        const int samples = o.environment == "evening" ? 2 : 1; // only its sun is small
+        EnvironmentMap map = makeEnvironment(*radiance, samples, made);
         map.name = o.environment;
         return map;
     }
@@ -74,15 +75,6 @@ std::vector<Light> studioLights(const PictureOptions& o)
                 s = float(std::sin(o.environmentRotation * kRadians));
     key.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
     return {key};
-}
-
-std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
-{
-    if (!scene.lights.empty())
-        return scene.lights;
-    if (!surrounded(o))
-        return defaultLights();
-    return o.environment == "studio" ? studioLights(o) : std::vector<Light>{};
 }
 
 } // namespace
@@ -124,16 +116,34 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
 }
 
-void relightPicture(const PictureOptions& options, const Scene& scene, View& view)
+std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
 {
-    view.lights = lightsOf(options, scene);
+    if (!scene.lights.empty())
+        return scene.lights;
+    if (!surrounded(o))
+        return defaultLights();
+    return o.environment == "studio" ? studioLights(o) : std::vector<Light>{};
+}
+
+std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
+{
     if (options.use == PictureUse::data || options.ground == "off")
-        return;
+        return nullptr;
     GroundOptions under;
     if (view.ground) // the model moves, not the ground
         under.height = view.ground->height;
     auto map = makeGround(scene, view, under);
-    view.ground = map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
+    return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
+}
+
+Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options)
+{
+    if (!surrounded(options) || options.use == PictureUse::data)
+        return std::shared_ptr<const EnvironmentMap>();
+    auto map = openEnvironment(options);
+    if (!map)
+        return map.error();
+    return std::shared_ptr<const EnvironmentMap>(std::make_shared<const EnvironmentMap>(std::move(*map)));
 }
 
 Status lightPicture(const PictureOptions& options, const Scene& scene, View& view)
@@ -156,13 +166,7 @@ Status lightPicture(const PictureOptions& options, const Scene& scene, View& vie
     view.background = background != "none";
     if (view.background)
         view.backdrop = kBackdrops.at(background);
-    if (surrounded(options) && options.use != PictureUse::data) {
-        auto map = openEnvironment(options);
-        if (!map)
-            return map.error();
-        view.environmentMap = std::make_shared<const EnvironmentMap>(std::move(*map));
-    }
-    relightPicture(options, scene, view);
+    view.lights = lightsOf(options, scene);
     return Done{};
 }
 

@@ -8,10 +8,16 @@ namespace cotan::app {
 
 void addLightOptions(Arguments& a, PictureOptions& options);
 
-// Sets what the view has of light, by the options, for a picture of the scene.
+// The surroundings that the options name; null for none.
+Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options);
+
+// Sets what else the view has of light, by the options, for a picture of the scene; all but the ground.
 Status lightPicture(const PictureOptions& options, const Scene& scene, View& view);
 
-// The lights and the shadow of another pose of the scene, under the same sky.
-void relightPicture(const PictureOptions& options, const Scene& scene, View& view);
+// The lights of the scene, or those that the options give it.
+std::vector<Light> lightsOf(const PictureOptions& options, const Scene& scene);
+
+// The shadow on the ground, if the options want it; where the view has a ground, at its height.
+std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view);
 
 } // namespace cotan::app

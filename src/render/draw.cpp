@@ -100,6 +100,11 @@ Status checkView(const Device& device, const View& view)
     return Done{};
 }
 
+vk::Rect2D rectangle(const PixelArea& a)
+{
+    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
+}
+
 // BACKDROP_... of background.frag.
 int backdropOf(const View& view)
 {
@@ -185,7 +190,8 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         addMesh(item.constants, scene, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
-        item.distance = eyeDistance(instance.toWorld, item.mesh->centre, axes);
+        item.distance =
+            eyeDistance(instance.toWorld, item.mesh->box.empty() ? glm::vec3(0) : item.mesh->box.centre(), axes);
         switch (item.material->alphaMode) {
         case AlphaMode::opaque: lists.opaque.push_back(item); break;
         case AlphaMode::mask: lists.mask.push_back(item); break;
@@ -201,6 +207,19 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
     return lists;
 }
 
+// What of the picture the lists may cover.
+void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
+{
+    const auto areaOfItems = [&](const std::vector<Item>& items) {
+        PixelArea all;
+        for (const Item& item : items)
+            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
+        return all;
+    };
+    lists.blendArea = areaOfItems(lists.blend);
+    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.blendArea);
+}
+
 // A single texel where no shadow is wanted: the descriptor must exist all the same.
 void Drawer::prepareShadowMap(bool needed)
 {
@@ -213,13 +232,13 @@ void Drawer::prepareShadowMap(bool needed)
     info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
     info.aspect = vk::ImageAspectFlagBits::eDepth;
     shadowMap_ = {};
+    shadowDrawn_.reset();
     shadowMemory_ = std::make_unique<Memory>(*device_);
     shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
 }
 
-void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered)
+void Drawer::prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered)
 {
-    const gpu::CotanView constants = viewConstants(view, axes, bounds);
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
     const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);
     const vk::DeviceSize size = lights.size() * sizeof(gpu::CotanLight);
@@ -312,12 +331,19 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
     }
 }
 
-void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists)
+// Kept from one picture to the next, as long as it shows the same.
+void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                          const ShadowView& shown)
 {
+    if (shadowDrawn_ == shown)
+        return;
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
     const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
     const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
     const bool draws = shadowMap_.extent.width > 1;
+    shadowDrawn_.reset();
+    if (draws)
+        shadowDrawn_ = shown;
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
     if (draws) {
@@ -352,6 +378,40 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
     commands.draw(3, 1, 0, 0);
 }
 
+PipelineKey Drawer::backgroundKey(const View& view) const
+{
+    const PipelineKey picture = forwardKey(view, *targets_);
+    PipelineKey key;
+    key.pass = Pass::background;
+    key.toneMap = picture.toneMap;
+    key.tone = picture.tone;
+    key.backdrop = backdropOf(view);
+    key.ground = view.ground != nullptr;
+    key.samples = picture.samples;
+    key.format = picture.format;
+    return key;
+}
+
+// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
+void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
+{
+    targets_->beginSurround(commands);
+    if (view.background || view.ground) {
+        PipelineKey key = backgroundKey(view);
+        key.pass = Pass::surround;
+        key.samples = vk::SampleCountFlagBits::e1;
+        const PixelArea& a = inside;
+        for (const PixelArea& part :
+             {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},
+              PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
+            if (!part.empty()) {
+                commands.setScissor(0, rectangle(part));
+                drawOver(commands, key);
+            }
+    }
+    commands.endRendering();
+}
+
 // Everything that writes depth, and the background.
 void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
                            const View& view)
@@ -361,17 +421,8 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
     drawItems(commands, scene, lists.opaque, key);
     key.alphaMode = AlphaMode::mask;
     drawItems(commands, scene, lists.mask, key);
-    if (shaded && (view.background || view.ground)) {
-        PipelineKey background;
-        background.pass = Pass::background;
-        background.toneMap = key.toneMap;
-        background.tone = key.tone;
-        background.backdrop = backdropOf(view);
-        background.ground = view.ground != nullptr;
-        background.samples = key.samples;
-        background.format = key.format;
-        drawOver(commands, background);
-    }
+    if (shaded && (view.background || view.ground))
+        drawOver(commands, backgroundKey(view));
     key.alphaMode = AlphaMode::blend;
     if (!shaded)
         drawItems(commands, scene, lists.blend, key);
@@ -397,14 +448,21 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     }
     const Axes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
-    const DrawLists lists = makeLists(scene, view, axes);
+    DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.blend.empty();
-    prepare(view, axes, scene.bounds, layered);
+    const gpu::CotanView constants = viewConstants(view, axes, scene.bounds);
+    prepare(view, axes, constants, layered);
+    setAreas(lists, view, constants);
+    PixelArea area{0, 0, view.width, view.height};
+    if (targets_->multisampled())
+        area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;
 
     const double start = now();
     const vk::raii::CommandBuffer& commands = begin();
-    recordShadow(commands, scene, lists);
-    targets_->begin(commands, layered);
+    recordShadow(commands, scene, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
+    if (targets_->multisampled())
+        recordSurround(commands, view, area);
+    targets_->begin(commands, rectangle(area), layered);
     recordPicture(commands, scene, lists, view);
     if (layered) {
         targets_->endOpaque(commands);

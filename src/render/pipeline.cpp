@@ -59,6 +59,7 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     switch (key.pass) {
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::surround:
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
     case Pass::layers: return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
     case Pass::compose:
@@ -70,8 +71,10 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
             info(key.frame).source == FrameSource::triangle ? Shader::forwardExactFrag : Shader::forwardFrag};
 }
 
+bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround; }
+
 // One triangle, made by the vertex stage, over everything.
-bool coversPicture(Pass pass) { return pass == Pass::background || pass == Pass::compose; }
+bool coversPicture(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
 
 // One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
 struct VertexInput {
@@ -120,8 +123,8 @@ vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
 {
     const bool camera = pass == Pass::forward || pass == Pass::layers;
     vk::PipelineDepthStencilStateCreateInfo state;
-    state.depthTestEnable = pass != Pass::compose;
-    state.depthWriteEnable = pass != Pass::compose && pass != Pass::background && pass != Pass::layers;
+    state.depthTestEnable = hasDepth(pass);
+    state.depthWriteEnable = hasDepth(pass) && pass != Pass::background && pass != Pass::layers;
     state.depthCompareOp = camera  ? vk::CompareOp::eGreater
         : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
                                    : vk::CompareOp::eLess;
@@ -200,7 +203,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(
-        0, colors, &key.format, key.pass == Pass::compose ? vk::Format::eUndefined : vk::Format::eD32Sfloat);
+        0, colors, &key.format, hasDepth(key.pass) ? vk::Format::eD32Sfloat : vk::Format::eUndefined);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
                                         &multisample, &depth, &color, &dynamicState, *layouts_->pipeline);
     info.pNext = &rendering;

@@ -28,7 +28,8 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
                               const vk::raii::DescriptorSetLayout& layout);
 
 // layers: translucent fragments into their lists; compose: these lists over the picture.
-enum class Pass { shadow, shadowMask, forward, background, layers, compose };
+// surround: the background in one sample, without depths.
+enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose };
 
 // Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
 // defaults, so that equal pipelines have equal keys.

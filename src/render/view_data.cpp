@@ -178,6 +178,33 @@ gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& b
     return g;
 }
 
+PixelArea areaOf(const gpu::CotanView& view, const gpu::CotanDraw& draw, const Bounds& box, int width, int height)
+{
+    if (box.empty())
+        return {};
+    float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f;
+    for (const dvec3& corner : corners(box)) {
+        const gpu::vec4 p(corner, 1);
+        const gpu::vec4 seen(glm::dot(draw.rowX, p), glm::dot(draw.rowY, p), glm::dot(draw.rowZ, p), 1);
+        const float w = glm::dot(view.clipW, seen);
+        if (!(w > glm::dot(view.clipZ, seen) && w > 0)) // before the near plane, or not finite
+            return {0, 0, width, height};
+        const float x = (glm::dot(view.clipX, seen) / w * 0.5f + 0.5f) * float(width);
+        const float y = (glm::dot(view.clipY, seen) / w * 0.5f + 0.5f) * float(height);
+        left = std::min(left, x), right = std::max(right, x);
+        top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+    const auto inside = [](float x, int most) { return int(std::clamp(x, 0.0f, float(most))); };
+    return {inside(left - 2, width), inside(top - 2, height), inside(right + 3, width), inside(bottom + 3, height)};
+}
+
+PixelArea around(const PixelArea& a, const PixelArea& b)
+{
+    if (a.empty() || b.empty())
+        return a.empty() ? b : a;
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
 bool castsShadow(const View& view) { return view.shadows && shadowLight(view) != nullptr; }
 
 std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes)
