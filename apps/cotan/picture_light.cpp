@@ -83,6 +83,7 @@ void addLightOptions(Arguments& a, PictureOptions& o)
 {
     a.option("--exposure", o.exposure,
              "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
+        .above0Or("auto")
         .in("X|auto");
     a.option("--tone-mapping", o.toneMapping,
              "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
@@ -149,10 +150,8 @@ Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOpti
 Status lightPicture(const PictureOptions& options, const Scene& scene, View& view)
 {
     view.exposure = 1;
-    if (options.exposure != "auto"
-        && (!parseNumber(std::string_view(options.exposure), view.exposure) || !(view.exposure > 0)
-            || !std::isfinite(view.exposure)))
-        return usageError(fmt::format("--exposure: expected auto or a number above 0; found '{}'", options.exposure));
+    if (options.exposure != "auto")
+        parseNumber(std::string_view(options.exposure), view.exposure); // it is one, see addLightOptions
     const std::string background = backgroundOf(options);
     const bool seen = background == "environment" || background == "blur";
     if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))

@@ -8,7 +8,7 @@
 #ifndef COTAN_SHADOW_H
 #define COTAN_SHADOW_H
 
-#define COTAN_SHADOW_SEARCH 12
+#define COTAN_SHADOW_SEARCH 8
 #define COTAN_SHADOW_TAPS 24
 
 // Directions that fill a disc evenly, with cotan_tap_radius: each is the last one turned by the golden angle.

@@ -11,7 +11,7 @@ namespace cotan {
 
 namespace {
 
-constexpr double kMostPixels = 40000;
+constexpr double kMostPixels = 20000;
 constexpr float kProbe = 0.25f; // exposure of the small picture: so much more fits under a tone curve's end
 constexpr float kGrey = 0.2f;   // where the mean goes
 constexpr float kPart = 0.35f;  // of the way, in stops

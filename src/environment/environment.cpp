@@ -193,8 +193,12 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, pyramid[0]);
     for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
         const int size = sizeOfTile(tile);
+        // All but the sharpest are smoother than half as many texels can show.
         const unsigned count = tile == 1 ? 16 : size == 256 ? 40 : size == 128 ? 80 : 192;
-        putTile(map.atlas, tile, filtered(pyramid, size, float(tile) / COTAN_ENVIRONMENT_STEPS, count));
+        const float roughness = float(tile) / COTAN_ENVIRONMENT_STEPS;
+        putTile(map.atlas, tile,
+                tile == 1 ? filtered(pyramid, size, roughness, count)
+                          : doubled(filtered(pyramid, size / 2, roughness, count)));
     }
     const auto coarse =
         std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size() == 16; });

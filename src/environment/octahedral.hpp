@@ -54,4 +54,7 @@ float solidAngleOfPlace(glm::vec3 direction);
 // Half as many texels a side; each the mean of four, by their solid angles.
 Octahedral halved(const Octahedral& finer);
 
+// Twice as many texels a side, read between the given ones.
+Octahedral doubled(const Octahedral& coarser);
+
 } // namespace cotan::environment
