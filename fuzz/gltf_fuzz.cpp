@@ -1,4 +1,4 @@
-// Whole .gltf and .glb files to a scene, and the tangents of its meshes.
+// Whole .gltf and .glb files to a scene, and the tangents of its meshes; in the pose of the first animation, too.
 #include "scene_checks.hpp"
 
 using namespace cotan;
@@ -8,8 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     static const Scratch scratch;
     const std::span bytes(data, size);
-    const auto scene =
-        loadGltf(scratch.write(startsWith(bytes, "glTF") ? "model.glb" : "model.gltf", bytes), smallLimits());
+    const auto file = scratch.write(startsWith(bytes, "glTF") ? "model.glb" : "model.gltf", bytes);
+    LoadLimits limits = smallLimits();
+    const auto scene = loadGltf(file, limits);
     if (!scene) {
         checkError(scene.error());
         return 0;
@@ -17,5 +18,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     checkScene(*scene);
     for (const Mesh& mesh : scene->meshes)
         checkTangents(viewOf(mesh));
+    if (std::string_view(reinterpret_cast<const char*>(data), size).find("animations") == std::string_view::npos)
+        return 0;
+    limits.pose = {"0", 0.4};
+    if (const auto posed = loadGltf(file, limits))
+        checkScene(*posed);
+    else
+        checkError(posed.error());
     return 0;
 }

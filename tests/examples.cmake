@@ -1,10 +1,17 @@
 # The integration examples, run as they are shipped.
 cotan_test(examples_test FIXTURE npm
-  SOURCES examples_browser_test.cpp examples_triangle_web_test.cpp
+  SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
   LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json)
 target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)
+
+# Pictures of real models beside those of three.js.
+cotan_test(second_opinion_test FIXTURE npm
+  SOURCES second_opinion_test.cpp browser_pages.cpp flip.cpp flip_test.cpp
+  LIBRARIES cotan_model cotan_draw cotan_environment cotan_surface cotan_report nlohmann_json::nlohmann_json)
+target_compile_definitions(second_opinion_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
+  COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/second_opinion")
 
 # As their own CMakeLists.txt build them, but within this build.
 target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp examples_deforming_test.cpp)

@@ -14,8 +14,11 @@
 namespace cotan::test {
 
 // Shows pages that lie in the folder, in one launch of Chromium. What they report, by the name that each gives itself;
-// a string that says why where they cannot run.
-nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages);
+// a string that says why where they cannot run. seconds: the browser is ended after that.
+nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages, int seconds = 120);
+
+// Puts `value` in the place of each `word`.
+void put(std::string& text, const std::string& word, const std::string& value);
 
 inline void write(const std::filesystem::path& file, const std::string& text)
 {

@@ -16,13 +16,6 @@ const std::string kSources = COTAN_SOURCE_DIR;
 // introduction promises 0.002 degrees at 1e-3; times five for the slopes of up to 53 degrees.
 constexpr double kDegrees = 0.01;
 
-// Puts `value` in the place of each `word`.
-void put(std::string& text, const std::string& word, const std::string& value)
-{
-    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += value.size())
-        text.replace(at, word.size(), value);
-}
-
 // The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet
 // with stored tangents.
 void writeOwnNormals(const TemporaryFolder& folder)
@@ -212,26 +205,5 @@ TEST(ExampleBabylon, cotansFrameIsRightWhereverBabylonsOwnIsAndInFlippedTargetsA
 }
 
 } // namespace
-
-json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages)
-{
-    if (std::system("command -v chromium > /dev/null 2>&1") != 0)
-        return "no chromium";
-    std::string harness = readWhole(kSources + "/tests/examples_harness.html.in");
-    put(harness, "PAGES", json(pages).dump());
-    write(folder / "all.html", harness);
-    const std::string f = folder.path().string();
-    const std::string line =
-        "timeout 120 chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
-        + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
-          "--use-webgpu-adapter=swiftshader --dump-dom 'file://"
-        + f + "/all.html' > '" + f + "/dom' 2> '" + f + "/log'";
-    const int code = std::system(line.c_str());
-    const std::string dom = readWhole(folder / "dom");
-    const std::size_t begin = dom.find("\">RESULT"), end = dom.find("END<", begin);
-    if (begin == std::string::npos || end == std::string::npos)
-        return {{"error", "chromium printed no result, exit " + std::to_string(code) + ": " + dom.substr(0, 80)}};
-    return json::parse(dom.substr(begin + 8, end - begin - 8));
-}
 
 } // namespace cotan::test

@@ -22,9 +22,10 @@ COTAN_FUNCTION cotan_vec3 cotan_environment_tile(cotan_real tile)
 {
     if (tile < cotan_real(0.5))
         return cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(512.0));
+    if (tile < cotan_real(1.5))
+        return cotan_vec3(cotan_real(515.0), cotan_real(1.0), cotan_real(256.0));
     if (tile < cotan_real(2.5))
-        return cotan_vec3(cotan_real(515.0), cotan_real(1.0) + cotan_real(258.0) * (tile - cotan_real(1.0)),
-            cotan_real(256.0));
+        return cotan_vec3(cotan_real(515.0), cotan_real(259.0), cotan_real(128.0));
     if (tile < cotan_real(4.5))
         return cotan_vec3(cotan_real(773.0), cotan_real(1.0) + cotan_real(130.0) * (tile - cotan_real(3.0)),
             cotan_real(128.0));
@@ -79,19 +80,38 @@ COTAN_FUNCTION cotan_vec2 cotan_environment_albedo_texel(cotan_real nv, cotan_re
         t.y + cotan_real(0.5) + cotan_saturate(roughness) * last);
 }
 
+// The share of white light that leaves a rough surface after one bounce between its facets (xyz), and after more
+// (as a factor on what the first bounces have left over, 1 - albedo.x - albedo.y), by its f0 and f90: C. Fdez-Agueera,
+// A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting, 2019, equations 12 and 17. Without the
+// second a white metal of roughness 1 shows a third of the light that it gets, seen straight on.
+struct cotan_bounces {
+    cotan_vec3 once;
+    cotan_vec3 more;
+};
+COTAN_FUNCTION cotan_bounces cotan_bounces_of(cotan_vec3 f0, cotan_real f90, cotan_vec2 albedo)
+{
+    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
+    cotan_real left_over = max(cotan_real(1.0) - albedo.x - albedo.y, cotan_real(0.0));
+    cotan_vec3 mean = f0 + (one * f90 - f0) * cotan_real(1.0 / 21.0); // of Schlick's term over the cosine
+    cotan_bounces b;
+    b.once = f0 * albedo.x + one * (albedo.y * f90);
+    b.more = b.once * mean / (one - mean * left_over) * left_over;
+    return b;
+}
+
 // What a surface reflects of its surroundings. dielectric, f90: what a dielectric reflects, facing and grazing.
 // irradiance: tile 9 along n. radiance: along cotan_mirrored, between the two tiles of the roughness. albedo: tile 10.
-// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light. Rough
-// metals lose what light that bounces more than once would bring.
+// What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light; a white
+// metal does, too.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
     cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
     cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_vec3 specular = f0 * albedo.x + one * (albedo.y * cotan_mix(f90, cotan_real(1.0), s.metallic));
-    cotan_vec3 below = one - (dielectric * albedo.x + one * (albedo.y * f90));
-    cotan_vec3 diffuse = s.base_color * below * (cotan_real(1.0) - s.metallic);
-    return (irradiance * diffuse + radiance * specular) * s.occlusion;
+    cotan_bounces all = cotan_bounces_of(f0, cotan_mix(f90, cotan_real(1.0), s.metallic), albedo);
+    cotan_bounces shallow = cotan_bounces_of(dielectric, f90, albedo);
+    cotan_vec3 below = (one - shallow.once - shallow.more) * s.base_color * (cotan_real(1.0) - s.metallic);
+    return (irradiance * (below + all.more) + radiance * all.once) * s.occlusion;
 }
 
 // What a coat reflects of its surroundings. radiance, albedo: as above, for its normal and roughness.

@@ -38,7 +38,9 @@ bool applyWord(std::string_view text, Convention& convention)
 Error unknownWord(std::string_view word)
 {
     const std::string found = word.empty() ? "nothing" : "'" + std::string(word) + "'";
-    return {ErrorKind::usage, "expected " + conventionWords() + "; found " + found};
+    std::string message = "expected ";
+    message += conventionWords(); // gcc 12 warns wrongly where a string is put before one that is moved
+    return {ErrorKind::usage, message + "; found " + found};
 }
 
 } // namespace

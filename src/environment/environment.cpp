@@ -11,6 +11,7 @@
 
 #include "albedo.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "lamps.hpp"
 #include "octahedral.hpp"
 
 namespace cotan {
@@ -30,17 +31,6 @@ glm::vec3 sound(glm::vec3 c)
 }
 
 int sizeOfTile(int tile) { return int(f32::cotan_environment_tile(float(tile)).z); }
-
-// Finest first, each level half of the one before, down to 4 texels a side.
-using Pyramid = std::vector<Octahedral>;
-
-Pyramid pyramidOf(Octahedral finest)
-{
-    Pyramid levels{std::move(finest)};
-    while (levels.back().size() > 4)
-        levels.push_back(halved(levels.back()));
-    return levels;
-}
 
 Octahedral sampled(const Radiance& radiance, int size, int samples, const EnvironmentOptions& options)
 {
@@ -62,93 +52,15 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
     return map;
 }
 
-// A direction around z of what a mirror of that roughness reflects, seen straight on.
-struct LobeSample {
-    glm::vec3 direction;
-    float weight = 0;
-    float solidAngle = 0; // that it stands for
-};
-
-// In order of the microfacets' distribution; each weighs as its cosine.
-std::vector<LobeSample> lobe(float roughness, unsigned count)
+// The lobe of that alpha along every direction of a map. smooth: half as many texels a side would show it, too.
+Octahedral filtered(const LampTree& lamps, int size, float alpha2, bool smooth)
 {
-    const double alpha = std::pow(std::max(roughness, 0.045f), 2), alpha2 = alpha * alpha;
-    std::vector<LobeSample> samples;
-    double weights = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        const glm::dvec2 u = hammersley(i, count);
-        const double nh2 = (1 - u.x) / (1 + (alpha2 - 1) * u.x);
-        const double nl = 2 * nh2 - 1;
-        if (nl <= 0)
-            continue;
-        const double side = std::sqrt(std::max(1 - nl * nl, 0.0)), phi = 2 * std::numbers::pi * u.y;
-        const double d = 1 + (alpha2 - 1) * nh2;
-        const double density = alpha2 / (std::numbers::pi * d * d) / 4;
-        samples.push_back(
-            {glm::vec3(side * std::cos(phi), side * std::sin(phi), nl), float(nl), float(1 / (count * density))});
-        weights += nl;
-    }
-    for (LobeSample& s : samples)
-        s.weight /= float(weights);
-    return samples;
-}
-
-// log2 of a number from 1 to sqrt(3), to 0.02.
-float smallLog2(float x) { return (x - 1) * (1.386f - 0.415f * (x - 1)); }
-
-// Every sample reads the level whose texels cover what it stands for: no dots, however bright a small light is.
-Octahedral filtered(const Pyramid& pyramid, int size, float roughness, unsigned count)
-{
-    const std::vector<LobeSample> samples = lobe(roughness, count);
-    const float texelsOfAll = float(pyramid[0].size()) * float(pyramid[0].size());
-    std::vector<float> levels; // where a texel's solid angle is least
-    for (const LobeSample& s : samples)
-        levels.push_back(0.5f * std::log2(s.solidAngle * texelsOfAll / solidAngleOfPlace({0, 1, 0})));
-    const float last = float(pyramid.size()) - 1.01f;
+    if (smooth)
+        return doubled(filtered(lamps, size / 2, alpha2, false));
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec3 n = map.direction(x, y);
-            const f32::cotan_basis basis = f32::cotan_basis_of_normal(n);
-            glm::vec4 sum(0);
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                const LobeSample& s = samples[i];
-                const glm::vec3 l = basis.x * s.direction.x + basis.y * s.direction.y + n * s.direction.z;
-                const float extent = std::abs(l.x) + std::abs(l.y) + std::abs(l.z);
-                const float level = std::clamp(levels[i] - 1.5f * smallLog2(extent), 0.0f, last);
-                const auto finer = std::size_t(level);
-                const glm::vec2 place = f32::cotan_octahedral_place(l);
-                const glm::vec4 a = pyramid[finer].read(place), b = pyramid[finer + 1].read(place);
-                sum += (a + (b - a) * (level - float(finer))) * s.weight;
-            }
-            map.at(x, y) = sum;
-        }
-    });
-    map.fold();
-    return map;
-}
-
-// Over all directions of a level of the pyramid, by solid angle and cosine.
-Octahedral irradiance(const Octahedral& source, int size)
-{
-    struct Light {
-        glm::vec4 direction, radiance; // times its solid angle; 1 in the last place, times that too
-    };
-    std::vector<Light> lights;
-    for (int y = 0; y < source.size(); ++y)
-        for (int x = 0; x < source.size(); ++x) {
-            const glm::vec3 d = source.direction(x, y);
-            lights.push_back({glm::vec4(d, 0), (source.at(x, y) + glm::vec4(0, 0, 0, 1)) * solidAngleOfPlace(d)});
-        }
-    Octahedral map(size);
-    parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x) {
-            const glm::vec4 n(map.direction(x, y), 0);
-            glm::vec4 sum(0);
-            for (const Light& light : lights)
-                sum += light.radiance * std::max(glm::dot(n, light.direction), 0.0f);
-            map.at(x, y) = glm::vec4(glm::vec3(sum) / sum.w, 0);
-        }
+        for (int x = 0; x < size; ++x)
+            map.at(x, y) = glm::vec4(lamps.lobe(map.direction(x, y), alpha2), 0);
     });
     map.fold();
     return map;
@@ -189,20 +101,14 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
 {
     EnvironmentMap map;
     map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
-    const Pyramid pyramid = pyramidOf(sampled(radiance, sizeOfTile(0), samples, options));
-    putTile(map.atlas, 0, pyramid[0]);
-    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile) {
-        const int size = sizeOfTile(tile);
-        // All but the sharpest are smoother than half as many texels can show.
-        const unsigned count = tile == 1 ? 16 : size == 256 ? 40 : size == 128 ? 80 : 192;
-        const float roughness = float(tile) / COTAN_ENVIRONMENT_STEPS;
+    const Octahedral finest = sampled(radiance, sizeOfTile(0), samples, options);
+    const LampTree lamps(finest);
+    putTile(map.atlas, 0, finest);
+    for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile)
         putTile(map.atlas, tile,
-                tile == 1 ? filtered(pyramid, size, roughness, count)
-                          : doubled(filtered(pyramid, size / 2, roughness, count)));
-    }
-    const auto coarse =
-        std::find_if(pyramid.begin(), pyramid.end(), [](const Octahedral& level) { return level.size() == 16; });
-    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, irradiance(*coarse, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE)));
+                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f), tile > 1));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE,
+            filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1, true));
     putAlbedo(map.atlas);
     return map;
 }

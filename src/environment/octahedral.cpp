@@ -38,25 +38,6 @@ float solidAngleOfPlace(glm::vec3 d)
     return 4 * size * size * size;
 }
 
-Octahedral halved(const Octahedral& finer)
-{
-    Octahedral coarse(finer.size() / 2);
-    for (int y = 0; y < coarse.size(); ++y)
-        for (int x = 0; x < coarse.size(); ++x) {
-            glm::vec4 sum(0);
-            float weights = 0;
-            for (int i = 0; i < 4; ++i) {
-                const int fx = 2 * x + (i & 1), fy = 2 * y + (i >> 1);
-                const float weight = solidAngleOfPlace(finer.direction(fx, fy));
-                sum += finer.at(fx, fy) * weight;
-                weights += weight;
-            }
-            coarse.at(x, y) = sum / weights;
-        }
-    coarse.fold();
-    return coarse;
-}
-
 Octahedral doubled(const Octahedral& coarser)
 {
     Octahedral fine(2 * coarser.size());

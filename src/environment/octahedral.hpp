@@ -28,19 +28,6 @@ public:
     // The unit direction of a place inside a texel, (0,0) to (1,1).
     glm::vec3 direction(int x, int y, glm::vec2 inside = glm::vec2(0.5f)) const;
 
-    // Filtered between the four nearest texels. place: in [0,1]^2.
-    glm::vec4 read(glm::vec2 place) const
-    {
-        const float px = place.x * float(size_) + 0.5f, py = place.y * float(size_) + 0.5f; // from the border's corner
-        const int x = int(px), y = int(py);
-        const float kx = px - float(x), ky = py - float(y);
-        const glm::vec4* row = texels_.data() + std::size_t(y) * std::size_t(size_ + 2) + std::size_t(x);
-        const glm::vec4* next = row + size_ + 2;
-        const glm::vec4 top = row[0] + (row[1] - row[0]) * kx;
-        const glm::vec4 bottom = next[0] + (next[1] - next[0]) * kx;
-        return top + (bottom - top) * ky;
-    }
-
 private:
     std::size_t index(int x, int y) const { return std::size_t(y + 1) * std::size_t(size_ + 2) + std::size_t(x + 1); }
 
@@ -50,9 +37,6 @@ private:
 
 // Solid angle of a square of side 1 in the map, around a unit direction.
 float solidAngleOfPlace(glm::vec3 direction);
-
-// Half as many texels a side; each the mean of four, by their solid angles.
-Octahedral halved(const Octahedral& finer);
 
 // Twice as many texels a side, read between the given ones.
 Octahedral doubled(const Octahedral& coarser);

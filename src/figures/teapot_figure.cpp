@@ -14,7 +14,7 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kSegments = 24;      // a patch, of the teapot that is drawn
+constexpr int kPatchSegments = 24; // a patch, of the teapot that is drawn
 constexpr int kTruthSegments = 64; // of the one that says what is right
 
 // Stripes and circular spots, as on the chapter's teapot: ridges that run down in the upper half of
@@ -95,7 +95,7 @@ Figure makeTeapotFigure(Studio& studio)
         "every spot is lit from where the light is.",
         fmt::format("Both are drawn with {} segments a patch. What is right is the normal on the same teapot with "
                     "{} segments a patch and the gradients of each triangle (frame exact).",
-                    kSegments, kTruthSegments)};
+                    kPatchSegments, kTruthSegments)};
     figure.measured = "Angles to the normals of the fine teapot, away from its outline. The largest are where one part "
                       "hides another.";
 
@@ -106,7 +106,7 @@ Figure makeTeapotFigure(Studio& studio)
     const Image truthWhole = studio.normals(views.whole, Frame::exact);
     const Image truthNozzle = studio.normals(views.nozzle, Frame::exact);
 
-    const Scene coarse = withVertexFrames(teapotScene(kSegments, map), Frame::vertex);
+    const Scene coarse = withVertexFrames(teapotScene(kPatchSegments, map), Frame::vertex);
     studio.show(coarse);
     std::vector<Panel> heats;
     for (const auto& [frame, file, label] :

@@ -32,7 +32,8 @@ std::string pictureFormat(std::span<const std::byte> bytes)
         return "KTX2";
     if (head.starts_with("DDS "))
         return "DDS";
-    return head.size() == 12 && head.substr(4) == "ftypavif" ? "AVIF" : "";
+    const bool box = head.starts_with(std::string_view("\0\0", 2)); // its first box is shorter than 64 KiB
+    return box && head.substr(4) == "ftypavif" ? "AVIF" : "";
 }
 
 bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }

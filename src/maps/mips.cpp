@@ -11,8 +11,6 @@ namespace cotan::maps {
 
 namespace {
 
-constexpr float kSteepest = 128;
-
 // Means over a footprint. `share`: how much of it holds directions.
 struct Moments {
     glm::vec3 normal{0};
@@ -38,7 +36,7 @@ Moments momentsOf(const glm::vec3& decoded)
     if (!(length > 0))
         return {};
     const glm::vec3 n = decoded / length;
-    const float z = std::max(n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepest);
+    const float z = std::max(n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepestSlope);
     const float bx = -n.x / z, by = -n.y / z;
     return {n, 1, bx, by, bx * bx + by * by};
 }

@@ -16,7 +16,7 @@ namespace {
 
 // Any of these is enough to tell a shape apart; three codes of 8 bits.
 constexpr float kSame = 3.0f / 255;
-constexpr float kShortest = 1e-3f;
+constexpr float kShortestTexel = 1e-3f;
 
 bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -36,7 +36,7 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
         return glm::vec3(0);
     const glm::vec3 m = f32::cotan_decode(stored, format);
     const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
-    return length2 >= kShortest * kShortest && length2 < 1e30f ? m : glm::vec3(0);
+    return length2 >= kShortestTexel * kShortestTexel && length2 < 1e30f ? m : glm::vec3(0);
 }
 
 // The stored components from a texel on, row by row.
@@ -163,7 +163,7 @@ void decodeRow(const Image& image, int row, const Convention& convention, std::s
 
 glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength)
 {
-    if (!finite(normal) || glm::dot(normal, normal) < kShortest * kShortest)
+    if (!finite(normal) || glm::dot(normal, normal) < kShortestTexel * kShortestTexel)
         normal = glm::vec3(0, 0, 1);
     const auto format = pictureFormat(convention, type);
     if (keepLength && convention.channels == Channels::xyz) {

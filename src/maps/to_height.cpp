@@ -17,7 +17,6 @@ namespace cotan::maps {
 
 namespace {
 
-constexpr float kSteepest = 128;
 // A frequency of which a kernel has left less than this share of the slope's power is not rebuilt.
 constexpr double kLeast = 0.02;
 
@@ -30,7 +29,7 @@ std::size_t loadSlopes(const Image& map, int row, const ToHeightSettings& s, std
     for (std::size_t x = 0; x < normals.size(); ++x) {
         const glm::vec3 n = normals[x];
         invalid += n == glm::vec3(0);
-        const float z = std::max({n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepest, 1e-20f});
+        const float z = std::max({n.z, std::max(std::abs(n.x), std::abs(n.y)) / kSteepestSlope, 1e-20f});
         slopes[x] = n == glm::vec3(0) ? glm::vec2(0) : glm::vec2(-n.x / z, n.y / z * float(s.aspect));
     }
     return invalid;

@@ -172,7 +172,7 @@ std::string cheapest(const Chart& c)
     return svg;
 }
 
-constexpr std::string_view kStyle = R"(<style>
+constexpr std::string_view kChartStyle = R"(<style>
 text { font: 13px system-ui, sans-serif; fill: #1f2328 }
 .tick { font-size: 12px; fill: #59636e }
 .title { font-size: 16px; font-weight: 600 }
@@ -224,7 +224,7 @@ std::optional<std::string> costChart(const CostReport& report)
     return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
                        "role=\"img\">\n<title>What a triangle costs, against stored tangents</title>\n",
                        kWidth, kHeight)
-        + std::string(kStyle) + fmt::format("<rect class=\"back\" width=\"{}\" height=\"{}\"/>\n", kWidth, kHeight)
+        + std::string(kChartStyle) + fmt::format("<rect class=\"back\" width=\"{}\" height=\"{}\"/>\n", kWidth, kHeight)
         + text(kLeft - 40, 28, "title", "What a triangle costs, as a ratio to stored tangents")
         + text(kLeft - 40, 50, "tick",
                fmt::format("{}, by inverse throughput of whole stages. Below 1 is cheaper. Pixels are shaded in quads; "

@@ -9,9 +9,9 @@ namespace cotan {
 
 namespace {
 
-constexpr int kTrials = 4000;
+constexpr int kFloatTrials = 4000;
 constexpr double kFootprints[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
-constexpr Frame kFrames[] = {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact, Frame::triangle};
+constexpr Frame kFloatFrames[] = {Frame::cotangent, Frame::orthonormal, Frame::gradient, Frame::exact, Frame::triangle};
 
 void measure(const AccuracySelection& selection, const std::string& scene, const std::string& settingName,
              const PrecisionSetting& setting, PositionSource source, std::uint64_t seed,
@@ -19,12 +19,12 @@ void measure(const AccuracySelection& selection, const std::string& scene, const
 {
     if (!selection.wantsScene(scene))
         return;
-    for (Frame frame : kFrames) {
+    for (Frame frame : kFloatFrames) {
         if (!selection.wants(frame))
             continue;
         Random random(seed);
         AngleCollector angles;
-        for (int i = 0; i < kTrials; ++i) {
+        for (int i = 0; i < kFloatTrials; ++i) {
             const PrecisionTrial t = makeTrial(random, setting);
             const bool edges = info(frame).source == FrameSource::triangle; // its differences span the triangle
             const glm::dvec3 truth = shade(frame, t.normal, edges ? exactEdges(t) : t.exact, t.texel);

@@ -55,12 +55,12 @@ Sources makeSources(Random& random, const AffinePatch& patch)
 
 std::vector<Measurement> measureViews(const AccuracySelection& selection)
 {
-    struct Scene {
+    struct Shown {
         const char* name;
         Differences<double> Sources::*first;
         Differences<double> Sources::*second;
     };
-    const Scene scenes[] = {
+    const Shown scenes[] = {
         {"screen quad", &Sources::edges, &Sources::screen},
         {"screen quad of 64 pixels", &Sources::edges, &Sources::wide},
         {"coarse against fine derivatives", &Sources::screen, &Sources::coarse},
@@ -69,7 +69,7 @@ std::vector<Measurement> measureViews(const AccuracySelection& selection)
         {"normalised view vector", &Sources::edges, &Sources::normalizedView},
     };
     std::vector<Measurement> result;
-    for (const Scene& scene : scenes) {
+    for (const Shown& scene : scenes) {
         if (!selection.wantsScene(scene.name))
             continue;
         FrameRows rows;

@@ -17,6 +17,9 @@
 
 namespace cotan::maps {
 
+// Where slopes of normals are counted, steeper ones are taken as this: half a degree from lying down.
+constexpr float kSteepestSlope = 128;
+
 // Which of the four components hold a two-channel map.
 enum class Swizzle {
     rg,        // x in red, y in green

