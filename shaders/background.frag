@@ -1,22 +1,45 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The surroundings behind the scene, or a gradient.
+// What is behind the scene, and its shadow on the ground.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
 #include "cotan/light.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
+#include "cotan/backdrop.h"
 #include "bindings.glsl"
 #include "constants.glsl"
 #include "environment.glsl"
 
+#define BACKDROP_GRADIENT 0
+#define BACKDROP_MAP 1
+#define BACKDROP_PAPER 2
+#define BACKDROP_NONE 3 // transparent
+
 layout(location = 0) in vec3 inRay;
+layout(location = 1) in vec3 inOrigin; // camera-relative: of the ray
 layout(location = 0) out vec4 outColor;
+
+// The share of its light that the ground gets where the ray meets it; 1 where it does not.
+float groundShare(vec3 ray)
+{
+    vec2 place = cotan_ground_place(inOrigin, ray, view.tone.z);
+    vec2 uv = place * view.ground.xz + view.ground.yw;
+    float share = textureLod(groundMap, clamp(uv, vec2(0.0), vec2(1.0)), 0.0).x;
+    return uv == clamp(uv, vec2(0.0), vec2(1.0)) ? share : 1.0;
+}
 
 void main()
 {
     vec3 ray = normalize(inRay);
-    vec3 radiance = ENVIRONMENT_MAP ? radianceAlong(ray, view.tone.y) : cotan_environment(ray, 0.35);
-    outColor = vec4(finished(radiance), 1.0);
+    float share = GROUND ? groundShare(ray) : 1.0;
+    if (BACKDROP == BACKDROP_NONE) {
+        outColor = vec4(0.0, 0.0, 0.0, 1.0 - share);
+        return;
+    }
+    vec3 radiance = BACKDROP == BACKDROP_MAP ? radianceAlong(ray, view.tone.y)
+        : BACKDROP == BACKDROP_PAPER         ? cotan_paper(ray) / view.tone.x
+                                             : cotan_environment(ray, 0.35);
+    outColor = vec4(finished(radiance * share), 1.0);
 }

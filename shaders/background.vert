@@ -7,6 +7,7 @@
 
 #ifndef COTAN_NO_RAY
 layout(location = 0) out vec3 outRay;
+layout(location = 1) out vec3 outOrigin;
 #endif
 
 void main()
@@ -14,6 +15,10 @@ void main()
     vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
 #ifndef COTAN_NO_RAY
     outRay = view.forward.xyz + view.right.xyz * corner.x + view.up.xyz * corner.y;
+    // All rays start at the eye, or side by side.
+    outOrigin = view.forward.w > 0.5 ? vec3(0.0)
+                                     : view.clipX.xyz * (corner.x / dot(view.clipX.xyz, view.clipX.xyz))
+            + view.clipY.xyz * (corner.y / dot(view.clipY.xyz, view.clipY.xyz));
 #endif
     gl_Position = vec4(corner, 0.0, 1.0);
 }

@@ -5,6 +5,8 @@ layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
 layout(set = 0, binding = 1, std430) readonly buffer LightBlock { CotanLight lights[]; };
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 layout(set = 0, binding = 5) uniform sampler2D environmentMap; // where ENVIRONMENT_MAP
+layout(set = 0, binding = 6) uniform sampler2D shadowDepth; // shadowMap, read without comparing
+layout(set = 0, binding = 7) uniform sampler2D groundMap; // where GROUND
 
 layout(set = 1, binding = 0, std140) uniform MaterialBlock { CotanMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D baseColorMap;

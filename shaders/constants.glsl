@@ -14,8 +14,11 @@ layout(constant_id = 8) const bool TONE_MAP = true;
 layout(constant_id = 9) const uint MAPS = 0xffffffffu;
 layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // where TONE_MAP
 layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // where ENVIRONMENT: the picture, not the formula
-layout(constant_id = 12) const bool FOUR_SAMPLES = false; // a pixel
-layout(constant_id = 13) const bool SPECULAR_ANTIALIASING = false;
+layout(constant_id = 12) const bool SOFT_SHADOWS = false; // where SHADOWS
+layout(constant_id = 13) const int BACKDROP = 0;
+layout(constant_id = 14) const bool GROUND = false;
+layout(constant_id = 15) const bool FOUR_SAMPLES = false; // a pixel
+layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

@@ -85,7 +85,9 @@ struct CotanView {
     vec4 shadowY;
     vec4 shadowZ;
     vec4 shadow;  // size of a texel in world units, texels a side, half a texel as depth; w unused
-    vec4 tone;    // x: exposure; y: roughness of the mirror that the backdrop is seen in
+    vec4 soft;    // x: widening of a half-shadow as map u a map depth; y: most u; z: map u a depth, lengths; w unused
+    vec4 ground;  // camera-relative x and z to places in the ground's picture: scale, offset of x; of z
+    vec4 tone;    // x: exposure; y: roughness of the mirror that the backdrop is seen in; z: camera-relative ground
     uvec4 counts; // x: lights
 };
 

@@ -27,6 +27,42 @@ float shadowAt(vec3 p, vec3 n, float nl)
     return sum / 9.0;
 }
 
+// The same of a light that covers a disc: cotan/shadow.h. lit: whether what arrives matters.
+float softShadowAt(vec3 p, vec3 n, float nl, bool lit)
+{
+    vec3 s = toShadowMap(p + n * (view.shadow.x * (0.5 + 1.5 * sqrt(max(1.0 - nl * nl, 0.0)))));
+    bool inside = s.x > 0.0 && s.x < 1.0 && s.y > 0.0 && s.y < 1.0 && s.z > 0.0 && s.z < 1.0;
+    // How the depth of the plane through the point changes with the place in the map.
+    float size = view.shadow.x * view.shadow.y;
+    vec2 slope = vec2(dot(n, view.shadowX.xyz), dot(n, view.shadowY.xyz)) * (size * view.soft.z / max(nl, 0.2));
+    float texel = 1.0 / view.shadow.y;
+    float depth = s.z - view.shadow.z * (1.0 + min(length(slope) / view.soft.z, 4.0));
+    float reach = cotan_penumbra(s.z, view.soft.x, 2.0 * texel, view.soft.y);
+
+    // Loops of no rounds cost nothing where a branch would not be left out: see MAPS.
+    int rounds = inside && lit ? COTAN_SHADOW_SEARCH : 0;
+    vec2 sum = vec2(0.0);
+    vec2 direction = vec2(1.0, 0.0);
+    for (int i = 0; i < rounds; ++i) {
+        vec2 offset = direction * (reach * cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
+        vec4 found = textureGather(shadowDepth, s.xy + offset);
+        vec4 before = vec4(lessThan(found, vec4(depth + dot(slope, offset))));
+        sum += vec2(dot(found, before), dot(before, vec4(1.0)));
+        direction = cotan_next_tap(direction);
+    }
+    if (sum.y == 0.0)
+        rounds = 0;
+    float radius = cotan_penumbra(s.z - sum.x / max(sum.y, 1.0), view.soft.x, 1.5 * texel, view.soft.y);
+    float arriving = 0.0;
+    rounds = rounds == 0 ? 0 : COTAN_SHADOW_TAPS;
+    for (int i = 0; i < rounds; ++i) {
+        vec2 offset = direction * (radius * cotan_tap_radius(i, COTAN_SHADOW_TAPS));
+        arriving += textureLod(shadowMap, vec3(s.xy + offset, depth + dot(slope, offset)), 0.0);
+        direction = cotan_next_tap(direction);
+    }
+    return rounds == 0 ? 1.0 : arriving / float(COTAN_SHADOW_TAPS);
+}
+
 // What extensions add to a surface; which of it is there is known when the shader is compiled.
 struct Layers {
     bool glossy;
@@ -64,7 +100,7 @@ void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers ove
             reach *= cotan_smooth(light.cone.x, light.cone.y, -dot(l, light.direction.xyz));
     }
     if (SHADOWS && light.color.w > 0.5)
-        reach *= shadowAt(p, n, dot(n, l));
+        reach *= SOFT_SHADOWS ? softShadowAt(p, n, dot(n, l), dot(s.n, l) > 0.0) : shadowAt(p, n, dot(n, l));
     sum.base += light.color.rgb * (reach * reflected(s, over, l));
     if (over.coated)
         sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));

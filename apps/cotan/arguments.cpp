@@ -75,6 +75,12 @@ Argument& Argument::above0()
     return *this;
 }
 
+Argument& Argument::above0Or(const std::string& word)
+{
+    option_->check([word](const std::string& text) { return text == word ? std::string() : positiveNumber(text); });
+    return *this;
+}
+
 Argument& Argument::required()
 {
     option_->required();

@@ -30,6 +30,7 @@ public:
     Argument& within(int least, int most);
     Argument& within(double least, double most);
     Argument& above0(); // and at most 1e6
+    Argument& above0Or(const std::string& word);
     Argument& required();
     Argument& separatedByCommas();
     Argument& withoutDefault(); // what the variable holds means that nothing was given

@@ -12,27 +12,37 @@
 
 namespace cotan::app {
 
+// What becomes of a picture.
+enum class PictureUse {
+    shown,    // light, for people to look at
+    radiance, // light, as it is
+    data,     // no light
+};
+
 struct PictureOptions {
-    std::string model; // empty: the built-in scene
+    PictureUse use = PictureUse::shown; // for the command to say
+    std::string model;                  // empty: the built-in scene
     OwnMaps maps;
     std::string animation;
     double time = 0;
     std::string size = "1280x720";
-    std::string camera; // empty: the built-in scene's own, fit for a model
+    std::string camera; // empty: the built-in scene's own, front for a model
     std::string device = "auto";
     std::string shading = "pbr";
     std::string lighting = "world";
     std::string tangents = "stored";
-    std::string environment;        // empty: none
-    double environmentRotation = 0; // degrees
+    std::string environment = "studio"; // or none
+    double environmentRotation = 0;     // degrees
     float environmentIntensity = 1;
-    std::string background; // empty: the environment, blurred; without one a gradient
-    std::string toneMapping = "aces";
+    std::string background; // empty: by the environment
+    std::string toneMapping = "neutral";
+    std::string exposure = "auto"; // or a factor
+    std::string ground = "on";
+    double shadowSoftness = 10; // degrees that the light covers
     std::string rows = "down";
     std::string derivatives = "fine";
     int memory = kDefaultMemory;
     int samples = 4;
-    float exposure = 1;
     bool noShadows = false;
     bool noNormalMaps = false;
     bool pointSampled = false;
@@ -44,6 +54,7 @@ void addPictureOptions(Arguments& a, PictureOptions& options);
 struct Picture {
     Scene scene;
     View view;
+    bool meter = false; // the exposure is to be found
     double loadSeconds = 0;
 };
 
@@ -55,11 +66,11 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
 // Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
 Status checkLighting(const PictureOptions& options, Frame frame);
 
-// The device that the options name, with the picture's scene loaded; a fallback is warned about.
+// The device that the options name, with the picture's scene loaded and its exposure found; a fallback is warned about.
 // Lighting in tangent space is drawn by the reference renderer unless another device is named.
 // The picture must outlive it.
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
-                                                    const Picture& picture);
+                                                    Picture& picture);
 
 // Sizes and counts for a report.
 Json describeScene(const PictureOptions& options, const Picture& picture);

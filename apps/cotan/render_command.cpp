@@ -66,12 +66,12 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
         return picture.error();
     picture->view.frame = frame;
     picture->view.output = kShows.at(o.show);
-    shared = picture->view;
 
     Stopwatch watch;
     auto painter = openPicturePainter(o.picture, o, *picture);
     if (!painter)
         return painter.error();
+    shared = picture->view;
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     Json report = {{"command", "render"}};
     const auto image = withProgress(o, o.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
@@ -148,9 +148,12 @@ Status run(const RenderCommandOptions& o)
     if (Status planned = planOutputs(o, outputs); !planned)
         return planned;
     std::optional<View> shared;
-    if (numbers->empty())
-        return renderOne(o, *frame, shared);
     RenderCommandOptions one = o;
+    one.picture.use = o.show != "shaded" ? PictureUse::data
+        : keepsFloats(o.output)          ? PictureUse::radiance
+                                         : PictureUse::shown;
+    if (numbers->empty())
+        return renderOne(one, *frame, shared);
     for (const int number : *numbers) {
         one.output = numbered(o.output, number);
         one.picture.time = number / o.rate;

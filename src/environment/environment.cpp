@@ -52,9 +52,11 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
     return map;
 }
 
-// The lobe of that alpha along every direction of a map.
-Octahedral filtered(const LampTree& lamps, int size, float alpha2)
+// The lobe of that alpha along every direction of a map. smooth: half as many texels a side would show it, too.
+Octahedral filtered(const LampTree& lamps, int size, float alpha2, bool smooth)
 {
+    if (smooth)
+        return doubled(filtered(lamps, size / 2, alpha2, false));
     Octahedral map(size);
     parallelFor(0, size, [&](int y) {
         for (int x = 0; x < size; ++x)
@@ -104,8 +106,9 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, finest);
     for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile)
         putTile(map.atlas, tile,
-                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f)));
-    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1));
+                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f), tile > 1));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE,
+            filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1, true));
     putAlbedo(map.atlas);
     return map;
 }

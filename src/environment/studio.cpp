@@ -49,7 +49,7 @@ glm::vec3 studio(glm::vec3 d)
     const glm::vec3 wall = glm::vec3(0.30f, 0.30f, 0.31f) * (1 - 0.55f * smooth(0, 0.9f, d.y));
     const glm::vec3 floor = glm::vec3(0.34f, 0.33f, 0.32f) * (1 - 0.35f * smooth(0, 1, -d.y));
     glm::vec3 c = glm::mix(floor, wall, smooth(-0.12f, 0.12f, d.y));
-    c += glm::vec3(7.2f, 7.0f, 6.7f) * key.seen(d);
+    c += glm::vec3(5.0f, 4.9f, 4.7f) * key.seen(d);
     c += glm::vec3(1.9f, 2.0f, 2.1f) * fill.seen(d);
     c += glm::vec3(3.0f) * ceiling.seen(d);
     c += glm::vec3(4.2f, 4.4f, 4.6f) * (left.seen(d) + right.seen(d));

@@ -19,11 +19,13 @@ struct Arrival {
     float strength = 0;
 };
 
-Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow)
+Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow, float softness)
 {
     if (light.kind == LightKind::directional)
         return {light.toLight,
-                light.castsShadow ? lightReaching(shadow, point.position, point.normal, light.toLight) : 1.0f};
+                !light.castsShadow ? 1.0f
+                    : softness > 0 ? softLightReaching(shadow, point.position, point.normal, light.toLight, softness)
+                                   : lightReaching(shadow, point.position, point.normal, light.toLight)};
     glm::vec3 offset = light.position - point.position;
     float distance = glm::length(offset);
     Arrival arrival;
@@ -87,7 +89,7 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
     if (even.gloss)
         even.gloss->anisotropy = 0;
     for (const PreparedLight& light : lights) {
-        Arrival arrival = arrivalOf(light, point, shadow);
+        Arrival arrival = arrivalOf(light, point, shadow, view.shadowSoftness);
         if (!(arrival.strength > 0))
             continue;
         const glm::vec3 arriving = light.radiance * arrival.strength;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/environment.hpp"
+#include "cotan/scene/ground.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {
@@ -154,6 +155,15 @@ glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const Quad
     }
 }
 
+glm::vec3 backdropAlong(const View& view, glm::vec3 ray)
+{
+    if (view.backdrop == Backdrop::paper)
+        return f32::cotan_paper(ray) / view.exposure;
+    if (view.backdrop == Backdrop::gradient || !view.environmentMap)
+        return f32::cotan_environment(ray, kBackgroundBlur);
+    return radianceAlong(*view.environmentMap, ray, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness);
+}
+
 } // namespace
 
 Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -177,13 +187,20 @@ Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints
 
 glm::vec4 background(const PixelInputs& all, int x, int y)
 {
-    if (all.view.output != Output::shaded || !all.view.background)
+    const View& view = all.view;
+    if (view.output != Output::shaded || !(view.background || view.ground))
         return glm::vec4(0);
-    glm::vec3 ray = rayDirection(all.projection, x + 0.5, y + 0.5);
-    if (all.view.backdrop == Backdrop::gradient || !all.view.environmentMap)
-        return glm::vec4(displayed(all.view, f32::cotan_environment(ray, kBackgroundBlur)), 1);
-    const float roughness = all.view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness;
-    return glm::vec4(displayed(all.view, radianceAlong(*all.view.environmentMap, ray, roughness)), 1);
+    const glm::vec3 ray = rayDirection(all.projection, x + 0.5, y + 0.5);
+    float share = 1;
+    if (view.ground) {
+        const glm::dvec3 start = rayOrigin(all.projection, x + 0.5, y + 0.5); // relative to the eye, as all there is
+        const double height = view.ground->height - all.projection.origin.y;
+        const glm::dvec2 place = f64::cotan_ground_place(start, glm::dvec3(ray), height);
+        share = groundShareAt(*view.ground,
+                              glm::vec2(place + glm::dvec2(all.projection.origin.x, all.projection.origin.z)));
+    }
+    return view.background ? glm::vec4(displayed(view, backdropAlong(view, ray) * share), 1)
+                           : glm::vec4(0, 0, 0, 1 - share);
 }
 
 } // namespace cotan::reference

@@ -99,17 +99,29 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 o
     return p;
 }
 
-glm::vec3 rayDirection(const Projection& p, double x, double y)
+namespace {
+
+// From the middle of the raster, at distance 1 or in a plane across the view.
+glm::dvec3 sideways(const Projection& p, double x, double y)
 {
-    if (p.orthographic)
-        return glm::vec3(p.forward);
     // The first two rows are (axis * pixels + forward * half), so their parts along the axes give
     // the slopes back.
     glm::dmat4 rows = glm::transpose(p.toRaster);
     double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
     double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
-    glm::dvec3 d = p.forward + p.right * ((x - 0.5 * p.width) / pixelsX) + p.up * ((y - 0.5 * p.height) / pixelsY);
-    return glm::vec3(normalizeOr(d, p.forward));
+    return p.right * ((x - 0.5 * p.width) / pixelsX) + p.up * ((y - 0.5 * p.height) / pixelsY);
+}
+
+} // namespace
+
+glm::vec3 rayDirection(const Projection& p, double x, double y)
+{
+    return glm::vec3(p.orthographic ? p.forward : normalizeOr(p.forward + sideways(p, x, y), p.forward));
+}
+
+glm::dvec3 rayOrigin(const Projection& p, double x, double y)
+{
+    return p.orthographic ? sideways(p, x, y) : glm::dvec3(0);
 }
 
 } // namespace cotan::reference

@@ -46,4 +46,7 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 o
 // The unit direction, in the world, of the view ray through a raster position.
 glm::vec3 rayDirection(const Projection& projection, double x, double y);
 
+// Where that ray starts, relative to the origin.
+glm::dvec3 rayOrigin(const Projection& projection, double x, double y);
+
 } // namespace cotan::reference

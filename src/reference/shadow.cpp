@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/parallel/loops.hpp"
+#include "cotan/scene/environment.hpp"
 #include "setup.hpp"
 #include "surface.hpp"
 
@@ -108,6 +109,59 @@ float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::
             }
     // Full light and full shadow are exact, whatever the weights round to.
     return blockedTexels == 16 ? 0.0f : std::max(0.0f, 1 - blocked);
+}
+
+float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
+{
+    if (map.size == 0)
+        return 1;
+    const float cosine = glm::dot(n, toLight), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const glm::dvec4 moved(position + n * (map.texel * (0.5f + 1.5f * sine)), 1);
+    const glm::dvec4 p = map.projection.toRaster * moved;
+    const float edge = float(map.size);
+    if (!(p.x > 0 && p.y > 0 && p.x < edge && p.y < edge))
+        return 1;
+    // All in texels. How nearness on the plane through the point changes from texel to texel.
+    const float nearer = map.texel * map.depthUnit / std::max(cosine, 0.2f);
+    const glm::vec2 slope =
+        glm::vec2(glm::dot(n, glm::vec3(map.projection.right)), -glm::dot(n, glm::vec3(map.projection.up))) * -nearer;
+    const float tangent = std::min(sine / std::max(cosine, 0.2f), 4.0f);
+    const float receiver = float(p.z) + map.texel * map.depthUnit * (0.5f + 0.5f * tangent);
+    const float widening = softness / (map.depthUnit * map.texel), most = kWidestPenumbra * edge;
+    const glm::vec2 middle(float(p.x), float(p.y));
+    const auto visit = [&](glm::vec2 place, const auto& use) {
+        const glm::vec2 corner = glm::floor(place - 0.5f), k = place - 0.5f - corner;
+        for (int i = 0; i < 4; ++i) {
+            const int dx = i & 1, dy = i >> 1;
+            const int x = std::clamp(int(corner.x) + dx, 0, map.size - 1);
+            const int y = std::clamp(int(corner.y) + dy, 0, map.size - 1);
+            use(map.at(x, y), (dx ? k.x : 1 - k.x) * (dy ? k.y : 1 - k.y));
+        }
+    };
+
+    glm::vec2 direction(1, 0);
+    float sum = 0, count = 0;
+    const float reach = f32::cotan_penumbra(1 - float(p.z), widening, 2, most);
+    for (int i = 0; i < COTAN_SHADOW_SEARCH; ++i) {
+        const glm::vec2 offset = direction * (reach * f32::cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
+        visit(middle + offset, [&](float nearness, float) {
+            if (nearness > receiver + glm::dot(slope, offset))
+                sum += nearness, ++count;
+        });
+        direction = f32::cotan_next_tap(direction);
+    }
+    if (count == 0)
+        return 1;
+    const float radius = f32::cotan_penumbra(sum / count - float(p.z), widening, 1.5f, most);
+    float arriving = 0;
+    for (int i = 0; i < COTAN_SHADOW_TAPS; ++i) {
+        const glm::vec2 offset = direction * (radius * f32::cotan_tap_radius(i, COTAN_SHADOW_TAPS));
+        visit(middle + offset, [&](float nearness, float weight) {
+            arriving += nearness > receiver + glm::dot(slope, offset) ? 0 : weight;
+        });
+        direction = f32::cotan_next_tap(direction);
+    }
+    return arriving / COTAN_SHADOW_TAPS;
 }
 
 } // namespace cotan::reference

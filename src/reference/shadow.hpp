@@ -31,4 +31,7 @@ ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<
 // toLight: unit.
 float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight);
 
+// The same of a light that covers a disc, whose tangent of half the angle is `softness`: shaders/cotan/shadow.h.
+float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness);
+
 } // namespace cotan::reference

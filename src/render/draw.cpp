@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "cotan/portable.hpp"
+#include "cotan/scene/environment.hpp"
+#include "cotan/scene/ground.hpp"
 
 namespace cotan {
 
@@ -99,6 +101,21 @@ Status checkView(const Device& device, const View& view)
     return Done{};
 }
 
+vk::Rect2D rectangle(const PixelArea& a)
+{
+    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
+}
+
+// BACKDROP_... of background.frag.
+int backdropOf(const View& view)
+{
+    if (!view.background)
+        return 3;
+    if (view.backdrop == Backdrop::paper)
+        return 2;
+    return view.environmentMap && view.backdrop != Backdrop::gradient ? 1 : 0;
+}
+
 // Blending onto transparent black leaves colours multiplied by alpha; pictures with 8 bits are
 // stored without.
 void divideByAlpha(Image& image)
@@ -132,6 +149,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
         key.specularAntialiasing = view.specularAntialiasing;
+        key.softShadows = key.shadows && view.shadowSoftness > 0;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;
     }
@@ -145,6 +163,7 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     vk::SamplerCreateInfo sampler;
     sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
     sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear; // of what comparisons give
     sampler.compareEnable = VK_TRUE;
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
@@ -152,11 +171,11 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     vk::SamplerCreateInfo filtering;
     filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
     filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    environmentSampler_ = vk::raii::Sampler(device.device, filtering);
+    pictureSampler_ = vk::raii::Sampler(device.device, filtering);
     constexpr std::uint32_t kSets = 2;
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 2)};
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 4)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, kSets, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
     composeSet_ = allocateSet(device, pool_, layouts.picture);
@@ -175,7 +194,8 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         addMesh(item.constants, scene, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
-        item.distance = eyeDistance(instance.toWorld, item.mesh->centre, axes);
+        item.distance =
+            eyeDistance(instance.toWorld, item.mesh->box.empty() ? glm::vec3(0) : item.mesh->box.centre(), axes);
         if (item.material->translucent) {
             item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
             lists.translucent.push_back(item);
@@ -187,6 +207,19 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
     std::stable_sort(lists.opaque.begin(), lists.opaque.end(), nearer);
     std::stable_sort(lists.mask.begin(), lists.mask.end(), nearer);
     return lists;
+}
+
+// What of the picture the lists may cover.
+void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
+{
+    const auto areaOfItems = [&](const std::vector<Item>& items) {
+        PixelArea all;
+        for (const Item& item : items)
+            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
+        return all;
+    };
+    lists.translucentArea = areaOfItems(lists.translucent);
+    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
 }
 
 // A single texel where no shadow is wanted: the descriptor must exist all the same.
@@ -201,13 +234,13 @@ void Drawer::prepareShadowMap(bool needed)
     info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
     info.aspect = vk::ImageAspectFlagBits::eDepth;
     shadowMap_ = {};
+    shadowDrawn_.reset();
     shadowMemory_ = std::make_unique<Memory>(*device_);
     shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
 }
 
-void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered)
+void Drawer::prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered)
 {
-    const gpu::CotanView constants = viewConstants(view, axes, bounds);
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
     const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);
     const vk::DeviceSize size = lights.size() * sizeof(gpu::CotanLight);
@@ -218,7 +251,10 @@ void Drawer::prepare(const View& view, const Axes& axes, const Bounds& bounds, b
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
-    prepareEnvironment(view);
+    if (view.environmentMap)
+        environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
+    if (view.ground)
+        ground_.hold(*device_, view.ground, view.ground->shares);
     if (layered)
         prepareLayers();
     writePictureSet(layered);
@@ -236,18 +272,24 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     const bool multisampled = layered && targets_->multisampled();
-    const vk::DescriptorImageInfo environment(*environmentSampler_, *environmentTexture_.view,
-                                              vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const auto held = [&](const HeldPicture& picture) {
+        return picture.owner
+            ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, vk::ImageLayout::eShaderReadOnlyOptimal)
+            : shadow;
+    };
+    const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
     using T = vk::DescriptorType;
     const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths) {
-        device_->device.updateDescriptorSets(
-            {vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
-             vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
-             vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
-             vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
-             vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
-             vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, environmentMap_ ? environment : shadow)},
-            {});
+        device_->device.updateDescriptorSets({vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
+                                              vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
+                                              vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
+                                              vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
+                                              vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
+                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, environment),
+                                              vk::WriteDescriptorSet(set, 6, 0, T::eCombinedImageSampler, found),
+                                              vk::WriteDescriptorSet(set, 7, 0, T::eCombinedImageSampler, ground)},
+                                             {});
     };
     write(pictureSet_, shadow);
     write(composeSet_, multisampled ? depth : shadow);
@@ -289,12 +331,19 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
     }
 }
 
-void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists)
+// Kept from one picture to the next, as long as it shows the same.
+void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                          const ShadowView& shown)
 {
+    if (shadowDrawn_ == shown)
+        return;
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
     const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
     const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
     const bool draws = shadowMap_.extent.width > 1;
+    shadowDrawn_.reset();
+    if (draws)
+        shadowDrawn_ = shown;
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
     if (draws) {
@@ -329,6 +378,40 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
     commands.draw(3, 1, 0, 0);
 }
 
+PipelineKey Drawer::backgroundKey(const View& view) const
+{
+    const PipelineKey picture = forwardKey(view, *targets_);
+    PipelineKey key;
+    key.pass = Pass::background;
+    key.toneMap = picture.toneMap;
+    key.tone = picture.tone;
+    key.backdrop = backdropOf(view);
+    key.ground = view.ground != nullptr;
+    key.samples = picture.samples;
+    key.format = picture.format;
+    return key;
+}
+
+// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
+void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
+{
+    targets_->beginSurround(commands);
+    if (view.background || view.ground) {
+        PipelineKey key = backgroundKey(view);
+        key.pass = Pass::surround;
+        key.samples = vk::SampleCountFlagBits::e1;
+        const PixelArea& a = inside;
+        for (const PixelArea& part :
+             {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},
+              PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
+            if (!part.empty()) {
+                commands.setScissor(0, rectangle(part));
+                drawOver(commands, key);
+            }
+    }
+    commands.endRendering();
+}
+
 // Everything that writes depth, and the background.
 void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
                            const View& view)
@@ -337,16 +420,8 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
     const bool shaded = view.output == Output::shaded;
     drawItems(commands, scene, lists.opaque, key);
     drawItems(commands, scene, lists.mask, key);
-    if (shaded && view.background) {
-        PipelineKey background;
-        background.pass = Pass::background;
-        background.toneMap = key.toneMap;
-        background.tone = key.tone;
-        background.environmentMap = view.environmentMap && view.backdrop != Backdrop::gradient;
-        background.samples = key.samples;
-        background.format = key.format;
-        drawOver(commands, background);
-    }
+    if (shaded && (view.background || view.ground))
+        drawOver(commands, backgroundKey(view));
     if (!shaded)
         drawItems(commands, scene, lists.translucent, key);
 }
@@ -371,14 +446,21 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     }
     const Axes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
-    const DrawLists lists = makeLists(scene, view, axes);
+    DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
-    prepare(view, axes, scene.bounds, layered);
+    const gpu::CotanView constants = viewConstants(view, axes, scene.bounds);
+    prepare(view, axes, constants, layered);
+    setAreas(lists, view, constants);
+    PixelArea area{0, 0, view.width, view.height};
+    if (targets_->multisampled())
+        area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;
 
     const double start = now();
     const vk::raii::CommandBuffer& commands = begin();
-    recordShadow(commands, scene, lists);
-    targets_->begin(commands, layered);
+    recordShadow(commands, scene, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
+    if (targets_->multisampled())
+        recordSurround(commands, view, area);
+    targets_->begin(commands, rectangle(area), layered);
     recordPicture(commands, scene, lists, view);
     if (layered) {
         targets_->endOpaque(commands);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "cotan/frame.hpp"
 #include "cotan/render/renderer.hpp"
@@ -16,12 +17,30 @@ namespace cotan {
 // The pipeline that draws opaque surfaces of a view, without the maps.
 PipelineKey forwardKey(const View& view, const Targets& targets);
 
+// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
+struct HeldPicture {
+    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
+    std::unique_ptr<Memory> memory;
+    Texture2D texture;
+
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+};
+
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
 class Drawer {
+    // What a shadow map depends on, besides the scene.
+    struct ShadowView {
+        gpu::vec4 x, y, z;
+        bool pointSampled = false;
+        bool operator==(const ShadowView&) const = default;
+    };
+
 public:
     Drawer(const Device& device, const Layouts& layouts);
 
     Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
+    // What is kept of the scene before is of no use for the next one.
+    void forgetScene() { shadowDrawn_.reset(); }
 
 private:
     // One instance, ready to be drawn.
@@ -37,17 +56,22 @@ private:
         std::vector<Item> opaque;      // near to far
         std::vector<Item> mask;        // near to far
         std::vector<Item> translucent; // as in the scene
+        PixelArea area;                // of the picture, that all may cover
+        PixelArea translucentArea;
     };
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
-    void prepare(const View& view, const Axes& axes, const Bounds& bounds, bool layered);
+    void setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const;
+    void prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
-    void prepareEnvironment(const View& view);
     void prepareLayers();
     void writePictureSet(bool layered);
-    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                      const ShadowView& shown);
     void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
                        const View& view);
+    PipelineKey backgroundKey(const View& view) const;
+    void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
     Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
@@ -67,11 +91,11 @@ private:
     Buffer lightBuffer_;
     std::unique_ptr<Memory> shadowMemory_;
     Texture2D shadowMap_;
+    std::optional<ShadowView> shadowDrawn_; // what the map shows
     vk::raii::Sampler shadowSampler_{nullptr};
-    std::shared_ptr<const EnvironmentMap> environmentMap_; // what the texture holds
-    std::unique_ptr<Memory> environmentMemory_;
-    Texture2D environmentTexture_;
-    vk::raii::Sampler environmentSampler_{nullptr};
+    HeldPicture environment_;
+    HeldPicture ground_;
+    vk::raii::Sampler pictureSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
     vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;

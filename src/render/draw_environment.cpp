@@ -1,39 +1,37 @@
-// The surroundings on the device.
+// Pictures of light on the device: the surroundings, the ground.
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/packing.hpp>
 
-#include "cotan/scene/environment.hpp"
 #include "draw.hpp"
 
 namespace cotan {
 
-// Kept from one picture to the next, as long as it is the same one.
-void Drawer::prepareEnvironment(const View& view)
+void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture)
 {
-    if (!view.environmentMap || view.environmentMap == environmentMap_)
+    if (newOwner == owner)
         return;
-    const Image& atlas = view.environmentMap->atlas;
-    std::vector<glm::uint64> halves(atlas.pixelCount());
+    std::vector<glm::uint64> halves(picture.pixelCount());
     for (std::size_t i = 0; i < halves.size(); ++i) {
-        const float* p = atlas.floats() + 4 * i;
+        const float* p = picture.floats() + 4 * i;
         halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
     }
-    environmentMap_.reset();
-    environmentTexture_ = {};
-    environmentMemory_ = std::make_unique<Memory>(*device_);
+    owner.reset();
+    texture = {};
+    memory = std::make_unique<Memory>(device);
     TextureInfo info;
     info.format = vk::Format::eR16G16B16A16Sfloat;
-    info.extent = vk::Extent2D(std::uint32_t(atlas.width), std::uint32_t(atlas.height));
+    info.extent = vk::Extent2D(std::uint32_t(picture.width), std::uint32_t(picture.height));
     info.usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst;
-    environmentTexture_ = makeTexture(*device_, *environmentMemory_, info);
+    texture = makeTexture(device, *memory, info);
     const std::array levels{std::as_bytes(std::span(halves))};
-    Uploader uploader(*device_, halves.size() * sizeof(glm::uint64));
-    uploader.image(environmentTexture_, levels, sizeof(glm::uint64));
+    Uploader uploader(device, halves.size() * sizeof(glm::uint64));
+    uploader.image(texture, levels, sizeof(glm::uint64));
     uploader.finish();
-    environmentMap_ = view.environmentMap;
+    owner = std::move(newOwner);
 }
 
 } // namespace cotan

@@ -54,11 +54,12 @@ void Drawer::composeLayers(const vk::Rect2D& band)
 // The picture in bands of rows that are low enough for their layers to find room.
 Status Drawer::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
 {
-    const Targets::Kind& kind = targets_->kind();
+    const PixelArea& area = lists.translucentArea;
+    const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
     std::uint32_t rows = layers_->mostRows();
-    for (std::uint32_t top = 0; top < kind.height;) {
-        const std::uint32_t height = std::min(rows, kind.height - top);
-        const vk::Rect2D band({0, std::int32_t(top)}, {kind.width, height});
+    for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
+        const std::uint32_t height = std::min(rows, end - top);
+        const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});
         const std::uint32_t count = keepLayers(scene, lists, view, band);
         if (count <= layers_->capacity()) {
             composeLayers(band);

@@ -19,7 +19,7 @@ using uint = glm::uint;
 static_assert(sizeof(CotanTextureUse) == 32);
 static_assert(sizeof(CotanMaterial) == 144 + COTAN_MAP_COUNT * sizeof(CotanTextureUse));
 static_assert(sizeof(CotanLight) == 64);
-static_assert(sizeof(CotanView) == 13 * 16);
+static_assert(sizeof(CotanView) == 15 * 16);
 static_assert(sizeof(CotanDraw) == 128);
 static_assert(offsetof(CotanDraw, flags) == 120);
 static_assert(sizeof(CotanLayerLists) == 16);

@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 14> values;
-    std::array<vk::SpecializationMapEntry, 14> entries;
+    std::array<std::uint32_t, 17> values;
+    std::array<vk::SpecializationMapEntry, 17> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -36,6 +36,9 @@ struct Specialization {
                  key.maps,
                  static_cast<std::uint32_t>(key.tone),
                  key.environmentMap,
+                 key.softShadows,
+                 static_cast<std::uint32_t>(key.backdrop),
+                 key.ground,
                  key.samples != vk::SampleCountFlagBits::e1,
                  key.specularAntialiasing}
     {
@@ -65,6 +68,7 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     switch (key.pass) {
     case Pass::shadow: return {Shader::shadowVert, std::nullopt};
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::surround:
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
     case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
     case Pass::compose:
@@ -75,8 +79,10 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
+bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround; }
+
 // One triangle, made by the vertex stage, over everything.
-bool coversPicture(Pass pass) { return pass == Pass::background || pass == Pass::compose; }
+bool coversPicture(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
 
 // One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
 struct VertexInput {
@@ -126,8 +132,8 @@ vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
 {
     const bool camera = pass == Pass::forward || pass == Pass::layers;
     vk::PipelineDepthStencilStateCreateInfo state;
-    state.depthTestEnable = pass != Pass::compose;
-    state.depthWriteEnable = pass != Pass::compose && pass != Pass::background && pass != Pass::layers;
+    state.depthTestEnable = hasDepth(pass);
+    state.depthWriteEnable = hasDepth(pass) && pass != Pass::background && pass != Pass::layers;
     state.depthCompareOp = camera  ? vk::CompareOp::eGreater
         : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
                                    : vk::CompareOp::eLess;
@@ -149,8 +155,9 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    picture = makeSetLayout(
-        device, std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage});
+    picture = makeSetLayout(device,
+                            std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
+                                       T::eStorageBuffer, kImage, kImage, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
     extendedMaterial = makeSetLayout(device, ofMaterial);
@@ -211,7 +218,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(
-        0, colors, &key.format, key.pass == Pass::compose ? vk::Format::eUndefined : vk::Format::eD32Sfloat);
+        0, colors, &key.format, hasDepth(key.pass) ? vk::Format::eD32Sfloat : vk::Format::eUndefined);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
                                         &multisample, &depth, &color, &dynamicState,
                                         layouts_->pipelineOf(key.extended));

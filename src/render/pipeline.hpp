@@ -17,7 +17,8 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    // Set 0: view, lights, shadow map (or, where layers are composed, opaque depth), lists, layers, environment.
+    // Set 0: view, lights, shadow map (or, where layers are composed, opaque depth), lists, layers, environment, shadow
+    // map as depth, ground.
     vk::raii::DescriptorSetLayout picture{nullptr};
     // Set 1 of materials without extensions and with them, and the pipelines that draw them.
     vk::raii::DescriptorSetLayout material{nullptr}, extendedMaterial{nullptr};
@@ -35,7 +36,8 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
                               const vk::raii::DescriptorSetLayout& layout);
 
 // layers: translucent fragments into their lists; compose: these lists over the picture.
-enum class Pass { shadow, shadowMask, forward, background, layers, compose };
+// surround: the background in one sample, without depths.
+enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose };
 
 // Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
 // defaults, so that equal pipelines have equal keys.
@@ -51,8 +53,11 @@ struct PipelineKey {
     bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
     bool specularAntialiasing = false;
+    bool softShadows = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
+    int backdrop = 0; // BACKDROP_... of background.frag
+    bool ground = false;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
     bool extended = false;  // of materials with extensions
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;

@@ -62,6 +62,7 @@ Status Renderer::load(const Scene& scene)
         if (const Status ok = checkTrianglesDrawn(scene); !ok)
             return ok;
         const auto start = std::chrono::steady_clock::now();
+        state_->drawer->forgetScene();
         state_->scene.reset(); // its memory may be needed for the new one
         state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene);
         state_->timings.upload = secondsSince(start);

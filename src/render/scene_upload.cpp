@@ -250,7 +250,7 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
             indices.push_back(usableIndices(mesh));
             gpu.indexCount = static_cast<std::uint32_t>(indices.back().size());
             gpu.material = mesh.material;
-            gpu.centre = cotan::bounds(mesh).centre();
+            gpu.box = cotan::bounds(mesh);
         }
         const GpuMesh& gpu = meshes[gpuOf[m]];
         if (gpu.indexCount == 0)

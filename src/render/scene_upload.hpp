@@ -34,7 +34,7 @@ struct GpuMesh {
     vk::DeviceSize indices = 0; // offset
     std::uint32_t indexCount = 0;
     int material = 0;
-    glm::vec3 centre{0}; // of its box, in the mesh's space
+    Bounds box; // in the mesh's space
 
     bool has(Stream stream) const { return strides[stream] != 0; }
 };

@@ -63,11 +63,11 @@ void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D&
     commands.setScissor(0, area);
 }
 
-vk::RenderingAttachmentInfo Targets::colorInfo(bool resolve) const
+vk::RenderingAttachmentInfo Targets::colorInfo(bool keepSamples) const
 {
     vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
-    color.storeOp = resolve && resolved_ ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore;
-    if (resolve && resolved_) {
+    color.storeOp = keepSamples || !resolved_ ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
+    if (resolved_) {
         color.resolveMode = vk::ResolveModeFlagBits::eAverage;
         color.resolveImageView = *resolved_->view;
         color.resolveImageLayout = kAttachment;
@@ -75,27 +75,38 @@ vk::RenderingAttachmentInfo Targets::colorInfo(bool resolve) const
     return color;
 }
 
-void Targets::begin(const vk::raii::CommandBuffer& commands, bool layersFollow)
+void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
+{
+    transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
+               Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite);
+    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eClear;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
+}
+
+void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
 {
     transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
                Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite);
     if (resolved_)
-        transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
-                   Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
-                   Access::eColorAttachmentWrite);
+        transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
+                   Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
     transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
                Access::eDepthStencilAttachmentWrite, kDepthStages,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 
-    vk::RenderingAttachmentInfo color = colorInfo(!layersFollow);
+    vk::RenderingAttachmentInfo color = colorInfo(layersFollow);
     color.loadOp = vk::AttachmentLoadOp::eClear;
     vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
     depth.loadOp = vk::AttachmentLoadOp::eClear;
     depth.storeOp = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
     depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
-    const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
     setArea(commands, area);
 }
@@ -124,7 +135,7 @@ void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Re
     const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
     transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
-    vk::RenderingAttachmentInfo color = colorInfo(/*resolve*/ true);
+    vk::RenderingAttachmentInfo color = colorInfo(/*keepSamples*/ true);
     color.loadOp = vk::AttachmentLoadOp::eLoad;
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
     setArea(commands, area);

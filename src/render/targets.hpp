@@ -27,9 +27,13 @@ public:
     const Kind& kind() const { return kind_; }
     bool multisampled() const { return kind_.samples != vk::SampleCountFlagBits::e1; }
 
-    // Starts drawing: everything cleared to 0 (depth is reversed, so 0 is far away).
-    // layersFollow: translucent layers come afterwards, and with them the resolve.
-    void begin(const vk::raii::CommandBuffer& commands, bool layersFollow = false);
+    // Starts drawing into the resolved picture, cleared to 0, without depths; ends with endRendering. Multisampled
+    // only.
+    void beginSurround(const vk::raii::CommandBuffer& commands);
+    // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away), resolved at the end.
+    // Multisampled: after beginSurround, which has what is outside of the area. layersFollow: translucent layers come
+    // afterwards.
+    void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow = false);
     // Ends drawing that began with layersFollow: the depth can be read from here on.
     void endOpaque(const vk::raii::CommandBuffer& commands);
     // Starts fragments that write no target and are tested against the depth; ends with endRendering.
@@ -46,7 +50,7 @@ public:
 
 private:
     void setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
-    vk::RenderingAttachmentInfo colorInfo(bool resolve) const;
+    vk::RenderingAttachmentInfo colorInfo(bool keepSamples) const;
 
     Memory memory_;
     Kind kind_;

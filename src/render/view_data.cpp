@@ -8,6 +8,7 @@
 
 #include "cotan/covector.hpp"
 #include "cotan/scene/environment.hpp"
+#include "cotan/scene/ground.hpp"
 
 namespace cotan {
 
@@ -117,7 +118,7 @@ const Light* shadowLight(const View& view)
 }
 
 // An orthographic view along the light, square, just around the scene.
-void shadowRows(gpu::CotanView& g, const Light& light, const Axes& axes, const Bounds& bounds)
+void shadowRows(gpu::CotanView& g, const Light& light, float softness, const Axes& axes, const Bounds& bounds)
 {
     const dvec3 forward = unitOr(dvec3(light.direction), dvec3(0, -1, 0));
     dvec3 right;
@@ -139,6 +140,15 @@ void shadowRows(gpu::CotanView& g, const Light& light, const Axes& axes, const B
     const double texel = size / kShadowSize;
     // Half a texel of depth, for what the offset along the normal leaves.
     g.shadow = gpu::vec4(float(texel), float(kShadowSize), float(0.5 * texel / deep), 0);
+    g.soft = gpu::vec4(float(softness * deep / size), kWidestPenumbra, float(size / deep), 0);
+}
+
+void groundRows(gpu::CotanView& g, const GroundMap& map, const Axes& axes)
+{
+    const glm::dvec2 scale = 1.0 / glm::dvec2(map.extent);
+    const glm::dvec2 offset = (glm::dvec2(axes.eye.x, axes.eye.z) - glm::dvec2(map.low)) * scale;
+    g.ground = gpu::vec4(float(scale.x), float(offset.x), float(scale.y), float(offset.y));
+    g.tone.z = float(map.height - axes.eye.y);
 }
 
 } // namespace
@@ -160,10 +170,39 @@ gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& b
     else
         perspectiveRows(g, view, axes, bounds);
     if (const Light* light = shadowLight(view))
-        shadowRows(g, *light, axes, bounds);
+        shadowRows(g, *light, view.shadowSoftness, axes, bounds);
     g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
+    if (view.ground)
+        groundRows(g, *view.ground, axes);
     g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), 0, 0, 0);
     return g;
+}
+
+PixelArea areaOf(const gpu::CotanView& view, const gpu::CotanDraw& draw, const Bounds& box, int width, int height)
+{
+    if (box.empty())
+        return {};
+    float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f;
+    for (const dvec3& corner : corners(box)) {
+        const gpu::vec4 p(corner, 1);
+        const gpu::vec4 seen(glm::dot(draw.rowX, p), glm::dot(draw.rowY, p), glm::dot(draw.rowZ, p), 1);
+        const float w = glm::dot(view.clipW, seen);
+        if (!(w > glm::dot(view.clipZ, seen) && w > 0)) // before the near plane, or not finite
+            return {0, 0, width, height};
+        const float x = (glm::dot(view.clipX, seen) / w * 0.5f + 0.5f) * float(width);
+        const float y = (glm::dot(view.clipY, seen) / w * 0.5f + 0.5f) * float(height);
+        left = std::min(left, x), right = std::max(right, x);
+        top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+    const auto inside = [](float x, int most) { return int(std::clamp(x, 0.0f, float(most))); };
+    return {inside(left - 2, width), inside(top - 2, height), inside(right + 3, width), inside(bottom + 3, height)};
+}
+
+PixelArea around(const PixelArea& a, const PixelArea& b)
+{
+    if (a.empty() || b.empty())
+        return a.empty() ? b : a;
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
 bool castsShadow(const View& view) { return view.shadows && shadowLight(view) != nullptr; }

@@ -27,6 +27,19 @@ Axes cameraAxes(const Camera& camera);
 // View, shadow map and background constants. bounds: of the whole scene, world space; may be empty.
 gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds);
 
+// Pixels of the raster, from the first to before the last.
+struct PixelArea {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+// What an instance whose mesh lies in the box may cover of the picture, two pixels more on each side; all of it for one
+// that reaches behind the eye.
+PixelArea areaOf(const gpu::CotanView& view, const gpu::CotanDraw& draw, const Bounds& box, int width, int height);
+
+// Around both.
+PixelArea around(const PixelArea& a, const PixelArea& b);
+
 // Lights in the order of the view; at least one entry, so that a buffer can be made of it.
 // The first directional light is marked as the one that casts the shadow.
 std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes);

@@ -1,6 +1,7 @@
 #include "cotan/scene/front_camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,48 @@ using glm::dvec3;
 constexpr double kFieldOfView = 0.523599; // 30 degrees
 constexpr double kFilled = 0.92;          // of the picture, so that 4 % stay free on each side
 constexpr float kFlat = 0.05f;            // depth over width or height
+
+// The axes of a camera, and what it goes around.
+struct Stand {
+    dvec3 middle, right, up, back;
+};
+
+// A point as it is seen along one axis: its place, and how far before the eye it is.
+struct Seen {
+    double place = 0, before = 1;
+};
+
+// Moves the eye sideways until what is seen furthest to both sides is equally far from the middle, and likewise up and
+// down. What was inside the picture stays there.
+void centre(const Scene& scene, const Stand& stand, double distance, double& x, double& y)
+{
+    for (int round = 0; round < 4; ++round) {
+        std::array<Seen, 4> furthest; // east, west, north, south
+        std::array<double, 4> slope;
+        slope.fill(-std::numeric_limits<double>::infinity());
+        forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.middle;
+            const double before = distance - glm::dot(p, stand.back);
+            const double right = glm::dot(p, stand.right), up = glm::dot(p, stand.up);
+            if (!(before > 0) || !std::isfinite(right) || !std::isfinite(up))
+                return;
+            const std::array<double, 4> here{(right - x) / before, (x - right) / before, (up - y) / before,
+                                             (y - up) / before};
+            for (std::size_t i = 0; i < 4; ++i)
+                if (here[i] > slope[i]) {
+                    slope[i] = here[i];
+                    furthest[i] = {i < 2 ? right : up, before};
+                }
+        });
+        if (!std::isfinite(slope[0]))
+            return;
+        const auto between = [](const Seen& a, const Seen& b) {
+            return (a.place * b.before + b.place * a.before) / (a.before + b.before);
+        };
+        x = between(furthest[0], furthest[1]);
+        y = between(furthest[2], furthest[3]);
+    }
+}
 
 } // namespace
 
@@ -54,7 +97,9 @@ Camera frontCamera(const Scene& scene, int width, int height)
     const double magnitude = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
     if (!(distance - nearest > 1e-3 * magnitude)) // a point, or nearly: a distance that rounding does not swallow
         distance = nearest + std::max(1e-3 * magnitude, distance > nearest ? distance - nearest : 1.0);
-    const dvec3 aim = middle + right * ((east - west) / 2) + up * ((north - south) / 2);
+    double x = (east - west) / 2, y = (north - south) / 2;
+    centre(scene, {middle, right, up, back}, distance, x, y);
+    const dvec3 aim = middle + right * x + up * y;
     const glm::vec3 eye(aim + back * distance);
     if (!std::isfinite(distance) || !std::isfinite(eye.x + eye.y + eye.z))
         return camera;

@@ -15,20 +15,22 @@
 namespace cotan {
 
 inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
+// Half the width of the widest half-shadow on a scene, as a share of the shadow map's side.
+inline constexpr float kWidestPenumbra = 0.02f;
 
 struct EnvironmentMap {
     std::string name; // for messages
     Image atlas;      // COTAN_ENVIRONMENT_WIDTH x HEIGHT, float32, values that a half holds, in [0, 65504]
 };
 
-// The atlas at a place in texels, filtered as a GPU filters.
-inline glm::vec3 readAtlas(const EnvironmentMap& map, glm::vec2 texel)
+// A picture of floats at a place in texels, filtered as a GPU filters.
+inline glm::vec3 readBilinear(const Image& picture, glm::vec2 texel)
 {
-    const float* values = map.atlas.floats();
+    const float* values = picture.floats();
     const auto at = [&](int x, int y) {
-        x = std::clamp(x, 0, map.atlas.width - 1);
-        y = std::clamp(y, 0, map.atlas.height - 1);
-        const float* p = values + 4 * (std::size_t(y) * std::size_t(map.atlas.width) + std::size_t(x));
+        x = std::clamp(x, 0, picture.width - 1);
+        y = std::clamp(y, 0, picture.height - 1);
+        const float* p = values + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
         return glm::vec3(p[0], p[1], p[2]);
     };
     const float fx = std::floor(texel.x - 0.5f), fy = std::floor(texel.y - 0.5f);
@@ -44,22 +46,22 @@ inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, f
 {
     const float level = f32::cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
     const float lower = std::min(std::floor(level), float(COTAN_ENVIRONMENT_STEPS - 1));
-    const glm::vec3 a = readAtlas(map, f32::cotan_environment_texel(direction, lower));
-    const glm::vec3 b = readAtlas(map, f32::cotan_environment_texel(direction, lower + 1));
+    const glm::vec3 a = readBilinear(map.atlas, f32::cotan_environment_texel(direction, lower));
+    const glm::vec3 b = readBilinear(map.atlas, f32::cotan_environment_texel(direction, lower + 1));
     return a + (b - a) * (level - lower);
 }
 
 // Irradiance of a surface with that normal, divided by pi.
 inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
 {
-    return readAtlas(map, f32::cotan_environment_texel(normal, COTAN_ENVIRONMENT_IRRADIANCE));
+    return readBilinear(map.atlas, f32::cotan_environment_texel(normal, COTAN_ENVIRONMENT_IRRADIANCE));
 }
 
 // The factors of what GGX reflects of white light.
 inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, float roughness)
 {
     const float nv = f32::cotan_saturate(glm::dot(n, v));
-    const glm::vec3 albedo = readAtlas(map, f32::cotan_environment_albedo_texel(nv, roughness));
+    const glm::vec3 albedo = readBilinear(map.atlas, f32::cotan_environment_albedo_texel(nv, roughness));
     return {albedo.x, albedo.y};
 }
 

@@ -8,16 +8,22 @@
 
 namespace cotan::f32 {
 using std::log2;
+#include "cotan/backdrop.h"
 #include "cotan/environment.h"
+#include "cotan/shadow.h"
 #include "cotan/tone.h"
 } // namespace cotan::f32
 
+#undef COTAN_BACKDROP_H
+#undef COTAN_SHADOW_H
 #undef COTAN_TONE_H
 #undef COTAN_ENVIRONMENT_H
 
 namespace cotan::f64 {
 using std::log2;
+#include "cotan/backdrop.h"
 #include "cotan/environment.h"
+#include "cotan/shadow.h"
 #include "cotan/tone.h"
 } // namespace cotan::f64
 

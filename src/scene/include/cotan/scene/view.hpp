@@ -48,9 +48,11 @@ enum class Backdrop {
     gradient, // cotan_environment, whatever lights the scene
     blurred,  // View::environmentMap, out of focus; the gradient where there is none
     sharp,    // the same as it is
+    paper,    // a photographer's seamless paper, lit from above: the same whatever the exposure
 };
 
 struct EnvironmentMap; // cotan/scene/environment.hpp
+struct GroundMap;      // cotan/scene/ground.hpp
 
 struct View {
     int width = 1280;
@@ -62,11 +64,13 @@ struct View {
     Lighting lighting = Lighting::world;
     std::vector<Light> lights; // the first directional one casts shadows
     bool shadows = true;
-    bool normalMaps = true;                               // false: n as interpolated
-    bool environment = true;                              // ambient and reflections from the environment
+    float shadowSoftness = 0; // tangent of half the angle that the light which casts shadows covers; 0: sharp
+    bool normalMaps = true;   // false: n as interpolated
+    bool environment = true;  // ambient and reflections from the environment
     std::shared_ptr<const EnvironmentMap> environmentMap; // null: cotan_environment
     bool background = true; // shaded: the backdrop behind the scene; false: transparent black
     Backdrop backdrop = Backdrop::gradient;
+    std::shared_ptr<const GroundMap> ground;     // shaded: shadow of the scene on a level plane; null: none
     bool linearOutput = false;                   // shaded: float32, linear, not tone mapped
     ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;

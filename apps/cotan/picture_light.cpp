@@ -1,0 +1,172 @@
+#include "picture_light.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cotan/environment/environment.hpp"
+#include "cotan/ground/ground.hpp"
+#include "cotan/parse_number.hpp"
+#include "cotan/scene/geometry.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+const std::map<std::string, ToneMapping> kToneMappings = {
+    {"none", ToneMapping::none},
+    {"neutral", ToneMapping::neutral},
+    {"aces", ToneMapping::aces},
+    {"agx", ToneMapping::agx},
+};
+
+const std::map<std::string, Backdrop> kBackdrops = {
+    {"gradient", Backdrop::gradient},
+    {"environment", Backdrop::sharp},
+    {"blur", Backdrop::blurred},
+    {"paper", Backdrop::paper},
+};
+
+bool surrounded(const PictureOptions& o) { return o.environment != "none"; }
+
+std::string backgroundOf(const PictureOptions& o)
+{
+    return !o.background.empty()    ? o.background
+        : !surrounded(o)            ? "gradient"
+        : o.environment == "studio" ? "paper"
+                                    : "blur";
+}
+
+// A name of environmentNames, or a file.
+Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
+{
+    EnvironmentOptions made;
+    made.rotation = float(o.environmentRotation * kRadians);
+    made.intensity = o.environmentIntensity;
+    if (const auto radiance = builtinRadiance(o.environment)) {
+        const int samples = o.environment == "evening" ? 2 : 1; // only its sun is small
+        EnvironmentMap map = makeEnvironment(*radiance, samples, made);
+        map.name = o.environment;
+        return map;
+    }
+    if (std::filesystem::path(o.environment).extension().empty())
+        return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
+                                      fmt::join(environmentNames(), ", "), o.environment));
+    const auto picture = readImageWithin(o.memory, o.environment);
+    if (!picture)
+        return picture.error();
+    return environmentOfPicture(*picture, made);
+}
+
+// The lamp of the studio, in front of the large box on the left, turned with it.
+std::vector<Light> studioLights(const PictureOptions& o)
+{
+    Light key;
+    key.intensity = 3.2f * o.environmentIntensity;
+    key.color = {1, 0.985f, 0.96f};
+    const glm::vec3 d = glm::normalize(glm::vec3(0.62f, -0.9f, -0.7f));
+    const float c = float(std::cos(o.environmentRotation * kRadians)),
+                s = float(std::sin(o.environmentRotation * kRadians));
+    key.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+    return {key};
+}
+
+} // namespace
+
+void addLightOptions(Arguments& a, PictureOptions& o)
+{
+    a.option("--exposure", o.exposure,
+             "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
+        .above0Or("auto")
+        .in("X|auto");
+    a.option("--tone-mapping", o.toneMapping,
+             "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
+             "curve) or agx; files that keep floats stay linear")
+        .from({"none", "neutral", "aces", "agx"})
+        .in("NAME");
+    a.option(
+         "--environment", o.environment,
+         "surroundings that light the model: studio (with a lamp, for models without lights), overcast, evening, or "
+         "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
+        .in("NAME|FILE");
+    a.option("--environment-rotation", o.environmentRotation,
+             "turn the surroundings counter-clockwise, seen from above")
+        .within(-360.0, 360.0)
+        .in("DEGREES");
+    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the surroundings")
+        .above0()
+        .in("X");
+    a.option("--background", o.background,
+             "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
+             "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
+        .from({"paper", "blur", "environment", "gradient", "none"})
+        .in("NAME");
+    a.option("--ground", o.ground, "on: the model stands on level ground, which only shows its shadow; off: it floats")
+        .from({"on", "off"})
+        .in("NAME");
+    a.option("--shadow-softness", o.shadowSoftness,
+             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun")
+        .within(0.0, 60.0)
+        .in("DEGREES");
+    a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
+}
+
+std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
+{
+    if (!scene.lights.empty())
+        return scene.lights;
+    if (!surrounded(o))
+        return defaultLights();
+    return o.environment == "studio" ? studioLights(o) : std::vector<Light>{};
+}
+
+std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
+{
+    if (options.use == PictureUse::data || options.ground == "off")
+        return nullptr;
+    GroundOptions under;
+    if (view.ground) // the model moves, not the ground
+        under.height = view.ground->height;
+    auto map = makeGround(scene, view, under);
+    return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
+}
+
+Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options)
+{
+    if (!surrounded(options) || options.use == PictureUse::data)
+        return std::shared_ptr<const EnvironmentMap>();
+    auto map = openEnvironment(options);
+    if (!map)
+        return map.error();
+    return std::shared_ptr<const EnvironmentMap>(std::make_shared<const EnvironmentMap>(std::move(*map)));
+}
+
+Status lightPicture(const PictureOptions& options, const Scene& scene, View& view)
+{
+    view.exposure = 1;
+    if (options.exposure != "auto")
+        parseNumber(std::string_view(options.exposure), view.exposure); // it is one, see addLightOptions
+    const std::string background = backgroundOf(options);
+    const bool seen = background == "environment" || background == "blur";
+    if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
+        return usageError(fmt::format("--{}: expected --environment with it; found none",
+                                      seen                                   ? "background " + background
+                                          : options.environmentRotation != 0 ? "environment-rotation"
+                                                                             : "environment-intensity"));
+    view.toneMapping = kToneMappings.at(options.toneMapping);
+    view.shadows = !options.noShadows;
+    view.shadowSoftness = float(std::tan(options.shadowSoftness * kRadians / 2));
+    view.background = background != "none";
+    if (view.background)
+        view.backdrop = kBackdrops.at(background);
+    view.lights = lightsOf(options, scene);
+    return Done{};
+}
+
+} // namespace cotan::app

@@ -1,0 +1,23 @@
+// The light of a picture: surroundings, lamps, what is behind the model and beneath it.
+#pragma once
+
+#include "arguments.hpp"
+#include "picture.hpp"
+
+namespace cotan::app {
+
+void addLightOptions(Arguments& a, PictureOptions& options);
+
+// The surroundings that the options name; null for none.
+Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options);
+
+// Sets what else the view has of light, by the options, for a picture of the scene; all but the ground.
+Status lightPicture(const PictureOptions& options, const Scene& scene, View& view);
+
+// The lights of the scene, or those that the options give it.
+std::vector<Light> lightsOf(const PictureOptions& options, const Scene& scene);
+
+// The shadow on the ground, if the options want it; where the view has a ground, at its height.
+std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view);
+
+} // namespace cotan::app

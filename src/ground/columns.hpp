@@ -1,0 +1,31 @@
+// What stands above a level plane, as columns: from where to where each is filled.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "cotan/scene/scene.hpp"
+
+namespace cotan::ground {
+
+// A grid of columns over the plane. A point at height h above the plane stands in the column at (x, z) - h * lean: with
+// the direction of a light as lean, a column holds what shades one place. Between its lowest and its highest point a
+// column counts as full.
+struct Columns {
+    int side = 0; // columns along x and along z
+    glm::vec2 lean{0};
+    glm::vec2 low{0}, extent{0}; // of the grid, in x and z
+    float top = 0;               // of the highest column, above the plane
+    std::vector<float> from, to; // heights above the plane, rows along x first; from > to where nothing stands
+
+    // Whether the ray meets a column that leaves the plane at `place` and moves sideways by `speed` as it rises by 1,
+    // the columns' lean not counted.
+    bool stops(glm::vec2 place, glm::vec2 speed) const;
+};
+
+// The columns of what is not translucent. Masked materials count where their mask leaves them. plane: y.
+Columns makeColumns(const Scene& scene, double plane, glm::vec2 lean, int side);
+
+} // namespace cotan::ground
