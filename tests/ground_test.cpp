@@ -416,8 +416,9 @@ TEST(Exposure, whiteClayIsBrightAndNotBurntOutAndRubberStaysBlack)
 
 TEST(Exposure, ofNothingIsOne)
 {
+    const Scene nothing;
     for (const auto& painter : painters()) {
-        ASSERT_TRUE(painter->load(Scene{}));
+        ASSERT_TRUE(painter->load(nothing));
         EXPECT_EQ(*meterExposure(*painter, sunnyView()), 1);
     }
 }

@@ -76,9 +76,42 @@ TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
     }
 }
 
-TEST(PictureWords, exposureIsAPositiveNumber)
+TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
+{
+    PictureOptions options;
+    const auto picture = openPicture(options, quiet(), {Frame::cotangent});
+    ASSERT_TRUE(picture);
+    EXPECT_TRUE(picture->view.environmentMap && picture->meter);
+    EXPECT_EQ(picture->view.backdrop, Backdrop::paper);
+    EXPECT_EQ(picture->view.toneMapping, ToneMapping::neutral);
+    EXPECT_NEAR(picture->view.shadowSoftness, 0.0875f, 1e-4f); // tan 5 degrees
+
+    options.environment = "overcast";
+    EXPECT_EQ(openPicture(options, quiet(), {Frame::cotangent})->view.backdrop, Backdrop::blurred);
+
+    options.environment = "none";
+    options.exposure = "1.5";
+    options.shadowSoftness = 0;
+    const auto plain = openPicture(options, quiet(), {Frame::cotangent});
+    ASSERT_TRUE(plain);
+    EXPECT_FALSE(plain->view.environmentMap || plain->meter);
+    EXPECT_EQ(plain->view.backdrop, Backdrop::gradient);
+    EXPECT_EQ(plain->view.exposure, 1.5f);
+    EXPECT_EQ(plain->view.shadowSoftness, 0);
+
+    // What shows no light is spared making it.
+    PictureOptions normals;
+    normals.use = PictureUse::data;
+    const auto data = openPicture(normals, quiet(), {Frame::cotangent});
+    ASSERT_TRUE(data);
+    EXPECT_FALSE(data->view.environmentMap || data->meter);
+}
+
+TEST(PictureWords, exposureIsAutoOrAPositiveNumber)
 {
     for (const auto& [text, good] : {std::pair("0.001", true),
+                                     {"auto", true},
+                                     {"automatic", false},
                                      {"1e6", true},
                                      {"0", false},
                                      {"-1", false},

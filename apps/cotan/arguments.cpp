@@ -77,7 +77,10 @@ Argument& Argument::above0()
 
 Argument& Argument::above0Or(const std::string& word)
 {
-    option_->check([word](const std::string& text) { return text == word ? std::string() : positiveNumber(text); });
+    option_->check([word](const std::string& text) {
+        const std::string wrong = text == word ? "" : positiveNumber(text);
+        return wrong.empty() ? "" : "expected " + word + " or " + wrong.substr(wrong.find(' ') + 1);
+    });
     return *this;
 }
 

@@ -52,15 +52,20 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
     return map;
 }
 
-// The lobe of that alpha along every direction of a map. smooth: half as many texels a side would show it, too.
-Octahedral filtered(const LampTree& lamps, int size, float alpha2, bool smooth)
+// The lobe of that alpha along every direction of a map, in patches. size: a multiple of 8.
+Octahedral filtered(const LampTree& lamps, int size, float alpha2)
 {
-    if (smooth)
-        return doubled(filtered(lamps, size / 2, alpha2, false));
+    constexpr int kPatch = 4;
     Octahedral map(size);
-    parallelFor(0, size, [&](int y) {
-        for (int x = 0; x < size; ++x)
-            map.at(x, y) = glm::vec4(lamps.lobe(map.direction(x, y), alpha2), 0);
+    parallelFor(0, size / kPatch, [&](int row) {
+        std::array<glm::vec3, kPatch * kPatch> normals, means;
+        for (int column = 0; column < size / kPatch; ++column) {
+            for (int i = 0; i < kPatch * kPatch; ++i)
+                normals[std::size_t(i)] = map.direction(kPatch * column + i % kPatch, kPatch * row + i / kPatch);
+            lamps.lobes(normals, alpha2, means);
+            for (int i = 0; i < kPatch * kPatch; ++i)
+                map.at(kPatch * column + i % kPatch, kPatch * row + i / kPatch) = glm::vec4(means[std::size_t(i)], 0);
+        }
     });
     map.fold();
     return map;
@@ -106,9 +111,8 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     putTile(map.atlas, 0, finest);
     for (int tile = 1; tile <= COTAN_ENVIRONMENT_STEPS; ++tile)
         putTile(map.atlas, tile,
-                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f), tile > 1));
-    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE,
-            filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1, true));
+                filtered(lamps, sizeOfTile(tile), std::pow(float(tile) / COTAN_ENVIRONMENT_STEPS, 4.0f)));
+    putTile(map.atlas, COTAN_ENVIRONMENT_IRRADIANCE, filtered(lamps, sizeOfTile(COTAN_ENVIRONMENT_IRRADIANCE), 1));
     putAlbedo(map.atlas);
     return map;
 }

@@ -10,9 +10,9 @@ namespace cotan::environment {
 
 namespace {
 
-constexpr int kCoarsest = 4;     // blocks a side
+constexpr int kCoarsest = 4;    // blocks a side
 constexpr float kWidest = 0.15f; // radians of a texel: beside the horizon, where lobes end
-constexpr float kNarrow = 0.35f; // a texel is beside the lobe and its distance from the lobe's middle
+constexpr float kNarrow = 0.5f; // a texel is beside the lobe and its distance from the lobe's middle
 
 float sumOf(glm::vec4 v) { return (v.x + v.y) + (v.z + v.w); }
 
@@ -69,29 +69,27 @@ LampTree::LampTree(const Octahedral& finest)
     std::reverse(levels_.begin(), levels_.end());
 }
 
-glm::vec3 LampTree::lobe(glm::vec3 n, float alpha2) const
+void LampTree::lobes(std::span<const glm::vec3> normals, float alpha2, std::span<glm::vec3> means) const
 {
     const float lobeWidth = 1.3f * std::sqrt(alpha2); // from its middle to half its height
-    std::array<glm::vec4, 3> light{glm::vec4(0), glm::vec4(0), glm::vec4(0)};
-    glm::vec4 weights(0);
-    const auto add = [&](const Block& b) {
-        const glm::vec4 nl = glm::max(b.x * n.x + b.y * n.y + b.z * n.z, glm::vec4(0));
-        const glm::vec4 d =
-            glm::vec4(1) + (nl + 1.0f) * (0.5f * (alpha2 - 1)); // the half vector's n.h^2 is (1 + nl) / 2
-        const glm::vec4 w = nl / (d * d);
-        weights += b.solidAngle * w;
-        for (std::size_t c = 0; c < 3; ++c)
-            light[c] += b.light[c] * w;
-    };
+    glm::vec3 sum(0);
+    for (const glm::vec3& n : normals)
+        sum += n;
+    const glm::vec3 middle = glm::normalize(sum);
+    float apart = 0;
+    for (const glm::vec3& n : normals)
+        apart = std::max(apart, glm::distance(n, middle));
+
+    std::vector<const Block*> lamps; // that all of them see
     const auto visit = [&](const auto& self, std::size_t level, int x, int y) -> void {
         const Level& l = levels_[level];
         const Block& b = l.blocks[std::size_t(y) * std::size_t(l.size) + std::size_t(x)];
-        const float cosine = glm::dot(n, b.middle);
-        if (cosine < -b.radius)
+        const float cosine = glm::dot(middle, b.middle);
+        if (cosine < -b.radius - apart)
             return; // behind
-        const float away = std::sqrt(std::max(2 - 2 * cosine, 0.0f)) - b.radius;
+        const float away = std::sqrt(std::max(2 - 2 * cosine, 0.0f)) - b.radius - apart;
         if (level + 1 == levels_.size() || b.width <= std::min(kNarrow * std::max(lobeWidth, away), kWidest)) {
-            add(b);
+            lamps.push_back(&b);
             return;
         }
         for (int i = 0; i < 4; ++i)
@@ -100,7 +98,20 @@ glm::vec3 LampTree::lobe(glm::vec3 n, float alpha2) const
     for (int y = 0; y < levels_[0].size; ++y)
         for (int x = 0; x < levels_[0].size; ++x)
             visit(visit, 0, x, y);
-    return glm::vec3(sumOf(light[0]), sumOf(light[1]), sumOf(light[2])) / sumOf(weights);
+
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const glm::vec3 n = normals[i];
+        glm::vec4 red(0), green(0), blue(0), weights(0);
+        for (const Block* b : lamps) {
+            const glm::vec4 nl = glm::max(b->x * n.x + b->y * n.y + b->z * n.z, glm::vec4(0));
+            const glm::vec4 d =
+                glm::vec4(1) + (nl + 1.0f) * (0.5f * (alpha2 - 1)); // the half vector's n.h^2 is (1 + nl) / 2
+            const glm::vec4 w = nl / (d * d);
+            weights += b->solidAngle * w;
+            red += b->light[0] * w, green += b->light[1] * w, blue += b->light[2] * w;
+        }
+        means[i] = glm::vec3(sumOf(red), sumOf(green), sumOf(blue)) / sumOf(weights);
+    }
 }
 
 } // namespace cotan::environment

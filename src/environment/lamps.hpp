@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,10 +17,11 @@ public:
     // finest: radiance; a power of two of texels a side, at least 8.
     explicit LampTree(const Octahedral& finest);
 
-    // What a mirror with GGX's microfacets reflects, seen straight on: the mean of all radiance around n, weighed by
-    // the distribution at the half vector times n.l. alpha2: squared alpha, over 0; at 1 that is the cosine's mean.
+    // What mirrors with GGX's microfacets reflect, seen straight on: the means of all radiance around each normal,
+    // weighed by the distribution at the half vector times n.l. alpha2: squared alpha, over 0; at 1 that is the
+    // cosine's mean. Normals that are close together take less time: they share what is found of the tree.
     // Every texel counts in one lamp. So no dots, however bright a small light is, and a white sphere gives 1.
-    glm::vec3 lobe(glm::vec3 n, float alpha2) const;
+    void lobes(std::span<const glm::vec3> normals, float alpha2, std::span<glm::vec3> means) const;
 
 private:
     // Four texels that meet at a corner, side by side, since processors count with four numbers at once.

@@ -38,14 +38,4 @@ float solidAngleOfPlace(glm::vec3 d)
     return 4 * size * size * size;
 }
 
-Octahedral doubled(const Octahedral& coarser)
-{
-    Octahedral fine(2 * coarser.size());
-    for (int y = 0; y < fine.size(); ++y)
-        for (int x = 0; x < fine.size(); ++x)
-            fine.at(x, y) = coarser.read((glm::vec2(float(x), float(y)) + 0.5f) / float(fine.size()));
-    fine.fold();
-    return fine;
-}
-
 } // namespace cotan::environment

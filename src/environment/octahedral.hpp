@@ -38,7 +38,4 @@ private:
 // Solid angle of a square of side 1 in the map, around a unit direction.
 float solidAngleOfPlace(glm::vec3 direction);
 
-// Twice as many texels a side, read between the given ones.
-Octahedral doubled(const Octahedral& coarser);
-
 } // namespace cotan::environment
