@@ -43,6 +43,7 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     view.samples = options.samples;
     view.normalMaps = !options.noNormalMaps;
     view.pointSampled = options.pointSampled;
+    view.specularAntialiasing = options.specularAntialiasing;
     return view;
 }
 
@@ -81,6 +82,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         .in("NAME");
     a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
+    a.flag("--specular-antialiasing", o.specularAntialiasing,
+           "make highlights rougher where normals turn within a pixel or a filtered normal map has lost length");
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 

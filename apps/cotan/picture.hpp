@@ -46,6 +46,7 @@ struct PictureOptions {
     bool noShadows = false;
     bool noNormalMaps = false;
     bool pointSampled = false;
+    bool specularAntialiasing = false;
 };
 
 void addPictureOptions(Arguments& a, PictureOptions& options);

@@ -6,15 +6,24 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace cotan::environment {
 
 namespace {
 
-constexpr int kCoarsest = 4;    // blocks a side
+constexpr int kCoarsest = 4;     // blocks a side
 constexpr float kWidest = 0.15f; // radians of a texel: beside the horizon, where lobes end
-constexpr float kNarrow = 0.5f; // a texel is beside the lobe and its distance from the lobe's middle
+constexpr float kNarrow = 0.35f; // a texel is beside the lobe and its distance from the lobe's middle
 
-float sumOf(glm::vec4 v) { return (v.x + v.y) + (v.z + v.w); }
+// Four numbers that are counted with at once; compilers take glm's apart.
+using Four = float __attribute__((vector_size(16)));
+
+Four four(const glm::vec4& v) { return Four{v.x, v.y, v.z, v.w}; }
+float sumOf(Four v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 // What a texel holds, and sums of texels hold.
 struct Held {
@@ -101,14 +110,14 @@ void LampTree::lobes(std::span<const glm::vec3> normals, float alpha2, std::span
 
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const glm::vec3 n = normals[i];
-        glm::vec4 red(0), green(0), blue(0), weights(0);
+        Four red{}, green{}, blue{}, weights{};
         for (const Block* b : lamps) {
-            const glm::vec4 nl = glm::max(b->x * n.x + b->y * n.y + b->z * n.z, glm::vec4(0));
-            const glm::vec4 d =
-                glm::vec4(1) + (nl + 1.0f) * (0.5f * (alpha2 - 1)); // the half vector's n.h^2 is (1 + nl) / 2
-            const glm::vec4 w = nl / (d * d);
-            weights += b->solidAngle * w;
-            red += b->light[0] * w, green += b->light[1] * w, blue += b->light[2] * w;
+            Four nl = four(b->x) * n.x + four(b->y) * n.y + four(b->z) * n.z;
+            nl = nl > 0 ? nl : Four{};
+            const Four d = 1 + (nl + 1) * (0.5f * (alpha2 - 1)); // the half vector's n.h^2 is (1 + nl) / 2
+            const Four w = nl / (d * d);
+            weights += four(b->solidAngle) * w;
+            red += four(b->light[0]) * w, green += four(b->light[1]) * w, blue += four(b->light[2]) * w;
         }
         means[i] = glm::vec3(sumOf(red), sumOf(green), sumOf(blue)) / sumOf(weights);
     }

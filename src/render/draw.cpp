@@ -15,9 +15,6 @@ namespace cotan {
 
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
 double now()
 {
     const auto t = std::chrono::steady_clock::now().time_since_epoch();
@@ -99,21 +96,6 @@ Status checkView(const Device& device, const View& view)
                                   "bufferDeviceAddress: "
                                 + device.name + " lacks them");
     return Done{};
-}
-
-vk::Rect2D rectangle(const PixelArea& a)
-{
-    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
-}
-
-// BACKDROP_... of background.frag.
-int backdropOf(const View& view)
-{
-    if (!view.background)
-        return 3;
-    if (view.backdrop == Backdrop::paper)
-        return 2;
-    return view.environmentMap && view.backdrop != Backdrop::gradient ? 1 : 0;
 }
 
 // Blending onto transparent black leaves colours multiplied by alpha; pictures with 8 bits are
@@ -209,36 +191,6 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
     return lists;
 }
 
-// What of the picture the lists may cover.
-void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
-{
-    const auto areaOfItems = [&](const std::vector<Item>& items) {
-        PixelArea all;
-        for (const Item& item : items)
-            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
-        return all;
-    };
-    lists.translucentArea = areaOfItems(lists.translucent);
-    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
-}
-
-// A single texel where no shadow is wanted: the descriptor must exist all the same.
-void Drawer::prepareShadowMap(bool needed)
-{
-    const std::uint32_t side = needed ? kShadowSize : 1;
-    if (shadowMap_.extent.width >= side)
-        return;
-    TextureInfo info;
-    info.format = vk::Format::eD32Sfloat;
-    info.extent = vk::Extent2D(side, side);
-    info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
-    info.aspect = vk::ImageAspectFlagBits::eDepth;
-    shadowMap_ = {};
-    shadowDrawn_.reset();
-    shadowMemory_ = std::make_unique<Memory>(*device_);
-    shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
-}
-
 void Drawer::prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered)
 {
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
@@ -331,44 +283,6 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
     }
 }
 
-// Kept from one picture to the next, as long as it shows the same.
-void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                          const ShadowView& shown)
-{
-    if (shadowDrawn_ == shown)
-        return;
-    constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
-    const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
-    const bool draws = shadowMap_.extent.width > 1;
-    shadowDrawn_.reset();
-    if (draws)
-        shadowDrawn_ = shown;
-    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
-               vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
-    if (draws) {
-        vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal);
-        depth.loadOp = vk::AttachmentLoadOp::eClear;
-        depth.storeOp = vk::AttachmentStoreOp::eStore;
-        depth.clearValue.depthStencil = vk::ClearDepthStencilValue(1.0f, 0);
-        const vk::Rect2D area({0, 0}, shadowMap_.extent);
-        vk::RenderingInfo rendering({}, area, 1);
-        rendering.pDepthAttachment = &depth;
-        commands.beginRendering(rendering);
-        commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
-        commands.setScissor(0, area);
-        PipelineKey key;
-        key.pass = Pass::shadow;
-        drawItems(commands, scene, lists.opaque, key);
-        key.pass = Pass::shadowMask;
-        drawItems(commands, scene, lists.mask, key);
-        commands.endRendering();
-    }
-    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
-               vk::ImageLayout::eShaderReadOnlyOptimal, stages, write, Stage::eFragmentShader,
-               Access::eShaderSampledRead);
-}
-
 // Draws the triangle that covers the picture.
 void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
 {
@@ -376,40 +290,6 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
     commands.setCullMode(vk::CullModeFlagBits::eNone);
     commands.setFrontFace(vk::FrontFace::eCounterClockwise);
     commands.draw(3, 1, 0, 0);
-}
-
-PipelineKey Drawer::backgroundKey(const View& view) const
-{
-    const PipelineKey picture = forwardKey(view, *targets_);
-    PipelineKey key;
-    key.pass = Pass::background;
-    key.toneMap = picture.toneMap;
-    key.tone = picture.tone;
-    key.backdrop = backdropOf(view);
-    key.ground = view.ground != nullptr;
-    key.samples = picture.samples;
-    key.format = picture.format;
-    return key;
-}
-
-// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
-void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
-{
-    targets_->beginSurround(commands);
-    if (view.background || view.ground) {
-        PipelineKey key = backgroundKey(view);
-        key.pass = Pass::surround;
-        key.samples = vk::SampleCountFlagBits::e1;
-        const PixelArea& a = inside;
-        for (const PixelArea& part :
-             {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},
-              PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
-            if (!part.empty()) {
-                commands.setScissor(0, rectangle(part));
-                drawOver(commands, key);
-            }
-    }
-    commands.endRendering();
 }
 
 // Everything that writes depth, and the background.

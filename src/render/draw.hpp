@@ -17,6 +17,8 @@ namespace cotan {
 // The pipeline that draws opaque surfaces of a view, without the maps.
 PipelineKey forwardKey(const View& view, const Targets& targets);
 
+vk::Rect2D rectangle(const PixelArea& area);
+
 // A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
 struct HeldPicture {
     std::shared_ptr<const void> owner; // what the texture holds; null: nothing
