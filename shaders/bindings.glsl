@@ -4,9 +4,9 @@
 layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
 layout(set = 0, binding = 1, std430) readonly buffer LightBlock { CotanLight lights[]; };
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
-layout(set = 0, binding = 6) uniform sampler2D environmentMap; // where ENVIRONMENT_MAP
-layout(set = 0, binding = 7) uniform sampler2D shadowDepth; // shadowMap, read without comparing
-layout(set = 0, binding = 8) uniform sampler2D groundMap; // where GROUND
+layout(set = 0, binding = 5) uniform sampler2D environmentMap; // where ENVIRONMENT_MAP
+layout(set = 0, binding = 6) uniform sampler2D shadowDepth; // shadowMap, read without comparing
+layout(set = 0, binding = 7) uniform sampler2D groundMap; // where GROUND
 
 layout(set = 1, binding = 0, std140) uniform MaterialBlock { CotanMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D baseColorMap;
@@ -14,10 +14,17 @@ layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessMap;
 layout(set = 1, binding = 3) uniform sampler2D normalMap;
 layout(set = 1, binding = 4) uniform sampler2D occlusionMap;
 layout(set = 1, binding = 5) uniform sampler2D emissiveMap;
+#ifdef COTAN_EXTENDED
 layout(set = 1, binding = 6) uniform sampler2D coatMap;
 layout(set = 1, binding = 7) uniform sampler2D coatRoughnessMap;
 layout(set = 1, binding = 8) uniform sampler2D coatNormalMap;
 layout(set = 1, binding = 9) uniform sampler2D anisotropyMap;
+layout(set = 1, binding = 10) uniform sampler2D specularMap;
+layout(set = 1, binding = 11) uniform sampler2D specularColorMap;
+layout(set = 1, binding = 12) uniform sampler2D sheenColorMap;
+layout(set = 1, binding = 13) uniform sampler2D sheenRoughnessMap;
+layout(set = 1, binding = 14) uniform sampler2D transmissionMap;
+#endif
 
 layout(push_constant, std430) uniform DrawBlock { CotanDraw draw; };
 

@@ -5,12 +5,14 @@
 // COTAN_MULTISAMPLED; with one sample the depth test has already left out what opaque surfaces hide.
 #include "gpu_structs.glsl"
 #include "layers.glsl"
+#include "sample_places.glsl"
 
 layout(push_constant) uniform SampleBlock { uint sampleIndex; };
-layout(location = 0) out vec4 outColor; // multiplied by alpha
+layout(location = 0, index = 0) out vec4 outColor;   // multiplied by alpha
+layout(location = 0, index = 1) out vec4 outThrough; // factors of what is there
 
 #ifdef COTAN_MULTISAMPLED
-layout(set = 0, binding = 5) uniform sampler2DMS opaqueDepth;
+layout(set = 0, binding = 2) uniform sampler2DMS opaqueDepth;
 #endif
 
 // Of two places in the order, the one nearer to the eye. Equally far layers: the later drawn is in front.
@@ -32,13 +34,10 @@ bool nearer(Place a, Place b)
     return a.name > b.name;
 }
 
-// From the middle of the pixel to the sample, in pixels: the standard places of four.
 vec2 toSample()
 {
 #ifdef COTAN_MULTISAMPLED
-    const vec2 places[4] =
-        vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
-    return places[sampleIndex];
+    return kSamplePlaces[sampleIndex];
 #else
     return vec2(0.0);
 #endif
@@ -54,25 +53,27 @@ void main()
 #endif
     Place last = Place(1e30, 0u, 0u, 0u);
     vec3 color = vec3(0.0);
-    float through = 1.0;
-    while (through > 1e-6) {
+    vec3 through = vec3(1.0);
+    while (max(max(through.r, through.g), through.b) > 1e-6) {
         Place next = Place(hidden, 0u, 0u, 0u);
         for (uint i = first; i != 0u; i = layers[i - 1u].before) {
             CotanLayer layer = layers[i - 1u];
-            float depth = layer.depth + layer.depthX * offset.x + layer.depthY * offset.y;
-            Place here = Place(depth, layer.instance, layer.triangle, i);
-            bool covered = (layer.samples >> sampleIndex & 1u) != 0u;
+            float depth = layer.light.w + layer.through.w * offset.x + layer.depthY * offset.y;
+            Place here = Place(depth, layer.place >> 4, layer.triangle, i);
+            bool covered = (layer.place >> sampleIndex & 1u) != 0u;
             if (covered && depth > hidden && nearer(last, here) && (next.name == 0u || nearer(here, next)))
                 next = here;
         }
         if (next.name == 0u)
             break;
-        vec4 value = layers[next.name - 1u].value;
-        color += value.rgb * (value.a * through);
-        through *= 1.0 - value.a;
+        color += layers[next.name - 1u].light.rgb * through;
+        through *= layers[next.name - 1u].through.rgb;
         last = next;
     }
-    outColor = vec4(color, 1.0 - through);
+    // Alpha has no colour: it counts what passes of white light.
+    float passing = (through.r + through.g + through.b) / 3.0;
+    outColor = vec4(color, 1.0 - passing);
+    outThrough = vec4(through, passing);
 #ifdef COTAN_MULTISAMPLED
     gl_SampleMask[0] = 1 << int(sampleIndex);
 #endif

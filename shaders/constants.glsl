@@ -17,6 +17,8 @@ layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // where ENVIRONMEN
 layout(constant_id = 12) const bool SOFT_SHADOWS = false; // where SHADOWS
 layout(constant_id = 13) const int BACKDROP = 0;
 layout(constant_id = 14) const bool GROUND = false;
+layout(constant_id = 15) const bool FOUR_SAMPLES = false; // a pixel
+layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

@@ -21,24 +21,19 @@ vec2 albedoOf(vec3 n, vec3 v, float roughness)
     return atlas(cotan_environment_albedo_texel(cotan_saturate(dot(n, v)), roughness)).xy;
 }
 
+// Irradiance of a surface with that normal, divided by pi.
+vec3 irradianceOf(vec3 n) { return atlas(cotan_environment_texel(n, float(COTAN_ENVIRONMENT_IRRADIANCE))); }
+
 // What a surface reflects of its surroundings.
-vec3 reflectedAlong(cotan_surface s, vec3 mirrored, vec3 dielectric, float f90)
-{
-    return cotan_reflect_image(s, dielectric, f90,
-        atlas(cotan_environment_texel(s.n, float(COTAN_ENVIRONMENT_IRRADIANCE))),
-        radianceAlong(mirrored, s.roughness), albedoOf(s.n, s.v, s.roughness));
-}
-
-vec3 reflectedOfImage(cotan_surface s) { return reflectedAlong(s, cotan_mirrored(s.n, s.v), vec3(0.04), 1.0); }
-
-// The same with reflections of its own.
 vec3 reflectedGlossy(cotan_surface s, cotan_gloss g)
 {
-    vec3 n = s.n;
-    if (g.anisotropy > 0.0)
-        n = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
-    return reflectedAlong(s, cotan_mirrored(n, s.v), g.f0, g.f90);
+    vec3 mirrored = cotan_mirrored(cotan_reflecting_normal(s, g), s.v);
+    return cotan_reflect_image(s, g, irradianceOf(s.n), radianceAlong(mirrored, s.roughness),
+        albedoOf(s.n, s.v, s.roughness));
 }
+
+// The same of metallic-roughness alone.
+vec3 reflectedOfImage(cotan_surface s) { return reflectedGlossy(s, cotan_plain_gloss()); }
 
 vec3 reflectedOfCoat(cotan_coat c, vec3 v)
 {

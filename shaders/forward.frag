@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The picture: material, frame, perturbed normal, light. Compiled a second time with COTAN_EXACT
-// for the frame `exact`, which reads the triangle's vertices and so asks more of the device, and with
-// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order.
+// for the frame `exact`, which reads the triangle's vertices and so asks more of the device, with
+// COTAN_LAYERS for translucent materials, whose fragments are kept until they can be put in order, with COTAN_MASKED
+// for masked ones, which say what samples they cover, and with COTAN_EXTENDED for those that extensions add to.
 #ifdef COTAN_EXACT
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
@@ -13,11 +14,13 @@
 #include "cotan/frame.h"
 #include "cotan/triangle.h"
 #include "cotan/light.h"
+#include "cotan/sheen.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
 #include "cotan/shadow.h"
 #include "bindings.glsl"
 #include "constants.glsl"
+#include "sample_places.glsl"
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -39,6 +42,13 @@ layout(location = 0) out vec4 outColor;
 #include "environment.glsl"
 #include "lights.glsl"
 
+// The spread of normals by the surface's own turn.
+float turnOf(vec3 smoothNormal)
+{
+    return COARSE_DERIVATIVES ? cotan_spread_of_turn(dFdxCoarse(smoothNormal), dFdyCoarse(smoothNormal))
+                              : cotan_spread_of_turn(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
+}
+
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }
 
 vec4 sampled(sampler2D map, CotanTextureUse use)
@@ -54,8 +64,8 @@ vec4 baseColor()
     return color;
 }
 
-// The perturbed normal, outwards on the front side.
-vec3 perturbed(cotan_frame frame, vec3 n)
+// The perturbed normal, outwards on the front side. spread: what the texel's length says is added to it.
+vec3 perturbed(cotan_frame frame, vec3 n, inout float spread)
 {
     bool mapped = NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse)
         && hasTexcoords(material.normalMapUse);
@@ -63,56 +73,14 @@ vec3 perturbed(cotan_frame frame, vec3 n)
         return n;
     cotan_normal_format format = cotan_normal_format(material.normalMap.x, material.normalMap.y,
         float(material.normalMap.z), material.factors.w);
-    vec3 m = cotan_decode(sampled(normalMap, material.normalMapUse).xyz, format);
-    return cotan_normalize_or(cotan_apply(frame, m), n);
+    vec4 texel = sampled(normalMap, material.normalMapUse);
+    if (SPECULAR_ANTIALIASING)
+        spread += cotan_spread_of_length(texel.w);
+    return cotan_normalize_or(cotan_apply(frame, cotan_decode(texel.xyz, format)), n);
 }
 
-// The coat's normal, outwards on the front side. frame: of the surface beneath.
-vec3 coatNormal(cotan_frame frame, vec3 n)
-{
-    CotanTextureUse use = material.coatNormalMapUse;
-    if (!NORMAL_MAPS || !present(COTAN_MAP_COAT_NORMAL, use) || !hasTexcoords(use))
-        return n;
-    if (material.coatNormalMap.w == 0)
-        frame = frameOf(n, screenDifferences(inPosition, transformedDifference(use, inTexcoords)), use, false);
-    cotan_normal_format format = cotan_normal_format(material.coatNormalMap.x,
-        material.coatNormalMap.y, float(material.coatNormalMap.z), material.coat.z);
-    vec3 m = cotan_decode(sampled(coatNormalMap, use).xyz, format);
-    return cotan_normalize_or(cotan_apply(frame, m), n);
-}
-
-cotan_coat coatOf(cotan_frame frame, vec3 n, float side)
-{
-    cotan_coat c;
-    c.strength = material.coat.x;
-    if (present(COTAN_MAP_COAT, material.coatMap))
-        c.strength *= sampled(coatMap, material.coatMap).r;
-    c.roughness = material.coat.y;
-    if (present(COTAN_MAP_COAT_ROUGHNESS, material.coatRoughnessMap))
-        c.roughness *= sampled(coatRoughnessMap, material.coatRoughnessMap).g;
-    c.n = coatNormal(frame, n) * side;
-    return c;
-}
-
-// frame, smoothNormal: outwards on the front side. n: perturbed.
-cotan_gloss glossOf(cotan_frame frame, vec3 smoothNormal, vec3 n)
-{
-    cotan_gloss g = cotan_gloss_of(1.5, 1.0, vec3(1.0));
-    float strength = material.anisotropy.x;
-    vec2 direction = material.anisotropy.yz;
-    if (present(COTAN_MAP_ANISOTROPY, material.anisotropyMap)) {
-        vec3 texel = sampled(anisotropyMap, material.anisotropyMap).rgb;
-        vec2 turned = vec2(texel.r, -texel.g) * 2.0 + vec2(-1.0, 1.0);
-        direction = vec2(turned.x * direction.x - turned.y * direction.y,
-            turned.x * direction.y + turned.y * direction.x);
-        strength *= texel.b;
-    }
-    g.t = cotan_direction_on_surface(smoothNormal, frame.t, frame.b, direction, n);
-    g.anisotropy = dot(g.t, g.t) > 0.5 ? strength : 0.0;
-    return g;
-}
-
-cotan_surface surfaceOf(vec3 base, vec3 n)
+// spread: of the normals in the pixel.
+cotan_surface surfaceOf(vec3 base, vec3 n, float spread)
 {
     cotan_surface s;
     s.base_color = base;
@@ -125,6 +93,8 @@ cotan_surface surfaceOf(vec3 base, vec3 n)
         s.metallic *= texel.b;
         occlusion = (MAPS & COTAN_MAP_OCCLUSION_SHARED) != 0u ? texel.r : 1.0;
     }
+    if (SPECULAR_ANTIALIASING)
+        s.roughness = cotan_roughness_of_spread(s.roughness, spread);
     if (present(COTAN_MAP_OCCLUSION, material.occlusionMap))
         occlusion = sampled(occlusionMap, material.occlusionMap).r;
     s.occlusion = 1.0 + material.factors.z * (occlusion - 1.0);
@@ -135,6 +105,10 @@ cotan_surface surfaceOf(vec3 base, vec3 n)
     s.v = view.forward.w > 0.5 ? cotan_normalize_or(-inPosition, n) : -view.forward.xyz;
     return s;
 }
+
+#ifdef COTAN_EXTENDED
+#include "material_layers.glsl"
+#endif
 
 vec3 finiteVector(vec3 v) { return cotan_sum_abs(v) <= COTAN_HUGE ? v : vec3(0.0); }
 
@@ -153,26 +127,35 @@ vec4 vectorOutput(cotan_frame frame, vec3 n, vec2 uv)
     return vec4(finiteVector(v), 1.0);
 }
 
+// The samples that a masked material covers: where alpha, taken as a plane over the pixel, is not below the cutoff. So
+// an edge is as smooth as that of a triangle (B. Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017,
+// sharpens alpha by the same differences).
+uint samplesOfMask(float alpha)
+{
+    vec2 slope = FOUR_SAMPLES ? vec2(dFdxFine(alpha), dFdyFine(alpha)) : vec2(0.0);
+    uint samples = 0u;
+    for (int i = 0; i < 4; ++i)
+        samples |= alpha + dot(slope, kSamplePlaces[i]) < material.emissive.w ? 0u : 1u << i;
+    return samples;
+}
+
 #ifdef COTAN_LAYERS
-void keepLayer(vec4 value, float depthX, float depthY)
+void keepLayer(vec3 light, vec3 through, uint samples, float depthX, float depthY)
 {
     uint index = atomicAdd(lists.count, 1u);
     if (index >= lists.capacity)
         return;
     CotanLayer layer;
-    layer.value = value;
-    layer.depth = gl_FragCoord.z;
-    layer.depthX = depthX;
+    layer.light = vec4(light, gl_FragCoord.z);
+    layer.through = vec4(through, depthX);
     layer.depthY = depthY;
-    layer.samples = uint(gl_SampleMaskIn[0]);
-    layer.instance = draw.order;
+    layer.place = draw.order * 16u + (uint(gl_SampleMaskIn[0]) & samples);
 #ifdef COTAN_EXACT
     layer.triangle = uint(gl_PrimitiveID);
 #else
     layer.triangle = 0u;
 #endif
     layer.before = atomicExchange(newest[pixelInBand()], index + 1u);
-    layer.spare = 0u;
     layers[index] = layer;
 }
 #endif
@@ -186,25 +169,28 @@ void main()
     cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
     vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
     cotan_frame frame = frameOf(smoothNormal, d, material.normalMapUse, true);
-    vec3 n = perturbed(frame, smoothNormal);
+    float turn = SPECULAR_ANTIALIASING ? turnOf(smoothNormal) : 0.0;
+    float spread = turn;
+    vec3 n = perturbed(frame, smoothNormal, spread);
     // Seen from behind, the sheet shows the other side of the same bumps.
     float side = gl_FrontFacing ? 1.0 : -1.0;
     n *= side;
 
     vec4 base = baseColor();
     vec4 value;
+    vec3 passing = vec3(0.0);
     if (OUTPUT == OUTPUT_SHADED) {
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
-            cotan_surface s = surfaceOf(base.rgb, n);
+            cotan_surface s = surfaceOf(base.rgb, n, spread);
             Layers over;
-            over.glossy = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_GLOSS) != 0u;
-            over.coated = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_COAT) != 0u;
-            if (over.glossy)
-                over.gloss = glossOf(frame, smoothNormal, n);
-            if (over.coated)
-                over.coat = coatOf(frame, smoothNormal, side);
+            over.glossy = over.sheened = over.coated = false;
+#ifdef COTAN_EXTENDED
+            addLayers(over, frame, smoothNormal, n, side, turn);
+#endif
             color = lit(s, over, inPosition, smoothNormal * side);
+            if (over.glossy && (MAPS & COTAN_LAYER_TRANSMISSION) != 0u)
+                passing = finiteVector(transmittance(s, over));
         }
         float alpha = ALPHA_MODE == ALPHA_BLEND ? clamp(base.a, 0.0, 1.0) : 1.0;
         value = vec4(finished(color), alpha);
@@ -214,13 +200,14 @@ void main()
 #ifdef COTAN_LAYERS
     float depthX = dFdx(gl_FragCoord.z);
     float depthY = dFdy(gl_FragCoord.z);
-    if (value.a > 0.0)
-        keepLayer(value, depthX, depthY);
+    uint samples = ALPHA_MODE == ALPHA_MASK ? samplesOfMask(base.a) : 15u;
+    if (value.a > 0.0 && samples != 0u)
+        keepLayer(value.rgb * value.a, (1.0 - value.a) + passing * value.a, samples, depthX, depthY);
 #else
     outColor = value;
-    // After every texture read: derivatives end where a neighbour is discarded.
-    if (ALPHA_MODE == ALPHA_MASK && base.a < material.emissive.w)
-        discard;
+#ifdef COTAN_MASKED
+    gl_SampleMask[0] = int(samplesOfMask(base.a));
+#endif
     if (ALPHA_MODE == ALPHA_BLEND && OUTPUT != OUTPUT_SHADED && base.a < 1.0 / 255.0)
         discard;
 #endif

@@ -15,9 +15,11 @@ struct CotanMaterial {
     vec4 emissive;     // linear; w: alpha cutoff
     vec4 factors;      // metallic, roughness, occlusion strength, normal scale
     ivec4 normalMap;   // expansion, channels, green (+1 along v, -1 against it), 1 if unlit
-    vec4 coat;         // strength, roughness, normal scale; w unused
+    vec4 coat;         // strength, roughness, normal scale; w: transmission
     ivec4 coatNormalMap; // as normalMap; w: 1 if its uv are those of the normal map
-    vec4 anisotropy;   // strength, direction along +u and +v; w unused
+    vec4 anisotropy;   // strength, direction along +u and +v; w: index of refraction
+    vec4 specular;     // linear colour of a dielectric's reflection; w: strength
+    vec4 sheen;        // linear; w: roughness
     CotanTextureUse baseColorMap;
     CotanTextureUse metallicRoughnessMap;
     CotanTextureUse normalMapUse;
@@ -27,10 +29,17 @@ struct CotanMaterial {
     CotanTextureUse coatRoughnessMap;
     CotanTextureUse coatNormalMapUse;
     CotanTextureUse anisotropyMap;
+    CotanTextureUse specularMap;
+    CotanTextureUse specularColorMap;
+    CotanTextureUse sheenColorMap;
+    CotanTextureUse sheenRoughnessMap;
+    CotanTextureUse transmissionMap;
 };
 
-// A bit for each map, in the order above, which is that of the bindings from 1 on.
-#define COTAN_MAP_COUNT 9
+// A bit for each map, in the order above, which is that of the bindings from 1 on. Materials without extensions have
+// the first five only: drivers for the CPU take time for every descriptor, used or not.
+#define COTAN_MAP_COUNT 14
+#define COTAN_MAP_COUNT_PLAIN 5
 #define COTAN_MAP_BASE_COLOR 1u
 #define COTAN_MAP_METALLIC_ROUGHNESS 2u
 #define COTAN_MAP_NORMAL 4u
@@ -40,10 +49,20 @@ struct CotanMaterial {
 #define COTAN_MAP_COAT_ROUGHNESS 64u
 #define COTAN_MAP_COAT_NORMAL 128u
 #define COTAN_MAP_ANISOTROPY 256u
+#define COTAN_MAP_SPECULAR 512u
+#define COTAN_MAP_SPECULAR_COLOR 1024u
+#define COTAN_MAP_SHEEN_COLOR 2048u
+#define COTAN_MAP_SHEEN_ROUGHNESS 4096u
+#define COTAN_MAP_TRANSMISSION 8192u
 #define COTAN_MAP_OCCLUSION_SHARED 65536u // occlusion is in r of the metallic-roughness texel
 // What the material has besides metallic-roughness.
 #define COTAN_LAYER_COAT 131072u
-#define COTAN_LAYER_GLOSS 262144u // anisotropy
+#define COTAN_LAYER_GLOSS 262144u // reflections of its own: one of the next two, specular, index of refraction
+#define COTAN_LAYER_ANISOTROPY 524288u
+#define COTAN_LAYER_TRANSMISSION 1048576u
+#define COTAN_LAYER_SHEEN 2097152u
+// What materials without extensions have of all this.
+#define COTAN_MAPS_PLAIN (31u | COTAN_MAP_OCCLUSION_SHARED)
 
 // Storage buffer, an array.
 struct CotanLight {
@@ -102,13 +121,10 @@ struct CotanLayerLists {
 
 // Storage buffer, an array: one translucent fragment.
 struct CotanLayer {
-    vec4 value;    // linear colour and alpha
-    float depth;   // in the middle of the pixel: 1 near, 0 far
-    float depthX;  // its step to the next pixel in x
+    vec4 light;    // linear colour times what it covers; w: depth in the middle of the pixel, 1 near, 0 far
+    vec4 through;  // factors of what is behind; w: step of the depth to the next pixel in x
     float depthY;
-    uint samples;  // a bit for each that is covered
-    uint instance; // CotanDraw::order
+    uint place;    // CotanDraw::order times 16, and a bit for each sample that is covered
     uint triangle; // of the mesh, where the device tells it, otherwise 0
     uint before;   // name (index + 1) of the layer of the same pixel that arrived before, or 0
-    uint spare;
 };

@@ -66,8 +66,10 @@ float softShadowAt(vec3 p, vec3 n, float nl, bool lit)
 // What extensions add to a surface; which of it is there is known when the shader is compiled.
 struct Layers {
     bool glossy;
+    bool sheened;
     bool coated;
     cotan_gloss gloss;
+    cotan_sheen sheen;
     cotan_coat coat;
 };
 
@@ -81,7 +83,8 @@ vec3 reflected(cotan_surface s, Layers over, vec3 l)
 {
     if (SHADING == SHADING_BLINN_PHONG)
         return cotan_reflect_blinn_phong(s, l);
-    return over.glossy ? cotan_reflect_glossy(s, over.gloss, l) : cotan_reflect_pbr(s, l);
+    vec3 light = over.glossy ? cotan_reflect_glossy(s, over.gloss, l) : cotan_reflect_pbr(s, l);
+    return over.sheened ? cotan_reflect_sheen(over.sheen, s.n, s.v, l, light) : light;
 }
 
 // What one light adds. p: camera-relative; n: unit geometric normal on the seen side.
@@ -103,17 +106,27 @@ void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers ove
         sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));
 }
 
+vec3 surroundings(cotan_surface s, Layers over)
+{
+    vec3 light;
+    if (ENVIRONMENT_MAP)
+        light = over.glossy ? reflectedGlossy(s, over.gloss) : reflectedOfImage(s);
+    else
+        light = over.glossy ? cotan_reflect_environment_glossy(s, over.gloss) : cotan_reflect_environment(s);
+    if (over.sheened) {
+        vec3 irradiance = ENVIRONMENT_MAP ? irradianceOf(s.n) : cotan_environment(s.n, 1.0);
+        light = cotan_reflect_sheen_around(over.sheen, s.n, s.v, irradiance * s.occlusion, light);
+    }
+    return light;
+}
+
 vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
 {
     Reflected sum = Reflected(s.emissive, vec3(0.0));
     for (uint i = 0u; i < view.counts.x; ++i)
         addLight(sum, lights[i], s, over, p, n);
     if (ENVIRONMENT) {
-        if (ENVIRONMENT_MAP)
-            sum.base += over.glossy ? reflectedGlossy(s, over.gloss) : reflectedOfImage(s);
-        else
-            sum.base += over.glossy ? cotan_reflect_environment_glossy(s, over.gloss)
-                                    : cotan_reflect_environment(s);
+        sum.base += surroundings(s, over);
         if (over.coated)
             sum.coat += s.occlusion
                 * (ENVIRONMENT_MAP ? reflectedOfCoat(over.coat, s.v) : cotan_reflect_coat_environment(over.coat, s.v));
@@ -121,4 +134,15 @@ vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
     if (!over.coated)
         return sum.base;
     return sum.base * (1.0 - cotan_coat_share(over.coat, s.v)) + sum.coat;
+}
+
+// The factors, by colour, of what is behind a surface that transmits.
+vec3 transmittance(cotan_surface s, Layers over)
+{
+    vec3 through = cotan_transmittance(s, over.gloss);
+    if (over.sheened)
+        through *= 1.0 - cotan_sheen_share(over.sheen, abs(dot(s.n, s.v)));
+    if (over.coated)
+        through *= 1.0 - cotan_coat_share(over.coat, s.v);
+    return through;
 }

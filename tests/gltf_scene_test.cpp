@@ -156,53 +156,6 @@ TEST(GltfMaterial, factorsArrive)
     EXPECT_TRUE(m.unlit);
 }
 
-TEST(GltfMaterial, coatAndAnisotropyArrive)
-{
-    Gltf g = square();
-    addNormalMap(g);
-    const json moved = {{"index", 0},
-                        {"scale", 0.5},
-                        {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}, {"offset", {0.5, 0}}}}}}};
-    g.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy", "KHR_texture_transform"};
-    g.root["materials"][0]["extensions"] = {
-        {"KHR_materials_clearcoat",
-         {{"clearcoatFactor", 0.75},
-          {"clearcoatRoughnessFactor", 0.25},
-          {"clearcoatTexture", {{"index", 0}}},
-          {"clearcoatNormalTexture", moved}}},
-        {"KHR_materials_anisotropy",
-         {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.25}, {"anisotropyTexture", {{"index", 0}}}}}};
-    COTAN_LOADED(scene, g.load());
-    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
-    const Material& m = scene.materials.at(0);
-    EXPECT_EQ(m.coat.strength, 0.75f);
-    EXPECT_EQ(m.coat.roughness, 0.25f);
-    EXPECT_EQ(m.coat.normalScale, 0.5f);
-    EXPECT_TRUE(m.coat.map.present());
-    EXPECT_FALSE(m.coat.roughnessMap.present());
-    EXPECT_EQ(m.coat.normalMap.uRow, glm::vec3(2, 0, 0.5));
-    EXPECT_EQ(m.coat.normalMap.vRow, glm::vec3(0, 3, 0));
-    EXPECT_EQ(m.anisotropy.strength, 0.5f);
-    EXPECT_EQ(m.anisotropy.rotation, 1.25f);
-    EXPECT_TRUE(m.anisotropy.map.present());
-}
-
-TEST(GltfMaterial, layersWithoutStrengthAskForNoPictures)
-{
-    Gltf g = square();
-    addNormalMap(g);
-    g.root["materials"][0].erase("normalTexture");
-    g.root["materials"][0]["extensions"] = {{"KHR_materials_clearcoat", {{"clearcoatTexture", {{"index", 0}}}}},
-                                            {"KHR_materials_anisotropy", {{"anisotropyTexture", {{"index", 0}}}}}};
-    COTAN_LOADED(scene, g.load());
-    EXPECT_TRUE(scene.images.empty());
-    g.root["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = "much";
-    const auto refused = g.load();
-    ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("KHR_materials_clearcoat.clearcoatFactor"), std::string::npos)
-        << refused.error().message;
-}
-
 TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
 {
     Gltf g = square();

@@ -299,7 +299,7 @@ inline void dataOutputsShowTheNearestLayer(const Draw& draw)
 
 // What a caster over a lit floor lets through: full light, or none.
 inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, float cutoff, bool shadowed,
-                              const char* what)
+                              const char* what, float transmission = 0)
 {
     Scene scene;
     Pane floor, caster;
@@ -310,6 +310,7 @@ inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, flo
     caster.color = {0, 0, 0, alpha};
     addPane(scene, caster, mode);
     scene.materials[1].alphaCutoff = cutoff;
+    scene.materials[1].transmission.strength = transmission;
     scene.materials[0].unlit = false;
     scene.materials[0].metallic = 0;
     View view = flatView();
@@ -333,6 +334,7 @@ inline void castersShadowWhereTheirMaterialStands(const Draw& draw)
     casterAboveAFloor(draw, AlphaMode::mask, 0.25f, 0.2502f, false, "masked, alpha below its cutoff");
     casterAboveAFloor(draw, AlphaMode::blend, 0.9f, 0.5f, false, "blended");
     casterAboveAFloor(draw, AlphaMode::blend, 1.0f, 0.5f, false, "blended with alpha 1");
+    casterAboveAFloor(draw, AlphaMode::opaque, 1.0f, 0.5f, false, "transmissive", 1);
 }
 
 } // namespace cotan::layers

@@ -1,10 +1,12 @@
-// Clear coat and stretched highlights of light.h against formulas written on their own, in double, and against what
-// holds for all reflection: it may be turned round, and gives back no more than arrives.
+// Clear coat, stretched highlights, sheen and transmission of light.h and sheen.h against formulas written on their
+// own, in double, and against what holds for all reflection: it may be turned round, and gives back no more than
+// arrives.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "cotan/scene/picture_text.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {
@@ -170,12 +172,135 @@ TEST(LightLayers, plainGlossIsMetallicRoughness)
         EXPECT_LT(glm::length(f64::cotan_reflect_glossy(s, plain, r.l) - f64::cotan_reflect_pbr(s, r.l)), 1e-9);
         EXPECT_LT(glm::length(f64::cotan_reflect_environment_glossy(s, plain) - f64::cotan_reflect_environment(s)),
                   1e-9);
+        EXPECT_EQ(f64::cotan_reflecting_normal(s, plain), s.n);
     }
     // Water, glass, diamond; an index of 0 stands for infinity.
     EXPECT_NEAR(f64::cotan_gloss_of(1.33, 1, {1, 1, 1}).f0.x, 0.0201, 1e-4);
     EXPECT_NEAR(f64::cotan_gloss_of(2.42, 1, {1, 1, 1}).f0.x, 0.1724, 1e-4);
     EXPECT_EQ(f64::cotan_gloss_of(0, 0.5, {1, 1, 1}).f0.x, 0.5);
     EXPECT_EQ(f64::cotan_gloss_of(2.42, 0.5, {9, 1, 0}).f0.x, 0.5); // limited to 1, then times strength
+}
+
+// As KHR_materials_sheen writes it down.
+double charlieByTheBook(const LayerRay& r, double roughness)
+{
+    const double alpha = roughness * roughness, inverse = 1 / alpha;
+    const double cosine = glm::dot(r.n, glm::normalize(r.v + r.l));
+    const double density =
+        (2 + inverse) * std::pow(std::sin(std::acos(std::min(cosine, 1.0))), inverse) / (2 * std::numbers::pi);
+    const auto fit = [&](double x) {
+        const double k = (1 - alpha) * (1 - alpha);
+        const double a = k * 25.3245 + (1 - k) * 21.5473, b = k * 3.32435 + (1 - k) * 3.82987;
+        const double c = k * 0.16801 + (1 - k) * 0.19823, d = -k * 1.27393 - (1 - k) * 1.97760;
+        const double e = -k * 4.85967 - (1 - k) * 4.32054;
+        return a / (1 + b * std::pow(x, c)) + d * x + e;
+    };
+    const auto lambda = [&](double x) { return std::exp(x < 0.5 ? fit(x) : 2 * fit(0.5) - fit(1 - x)); };
+    const double nv = glm::dot(r.n, r.v), nl = glm::dot(r.n, r.l);
+    return density * std::min(1 / ((1 + lambda(nv) + lambda(nl)) * 4 * nv * nl), 1.0);
+}
+
+TEST(LightLayers, fibresReflectByCharliesFormula)
+{
+    Random random(907);
+    double worst = 0;
+    for (const double roughness : {0.15, 0.3, 0.6, 1.0})
+        for (int k = 0; k < 500; ++k) {
+            const LayerRay r = anyLayerRay(random);
+            const double expected = charlieByTheBook(r, roughness);
+            if (expected > 1e-6)
+                worst = std::max(worst, std::abs(f64::cotan_charlie(r.n, r.v, r.l, roughness) / expected - 1));
+        }
+    EXPECT_LT(worst, 1e-9);
+    // Finer fibres than that are taken as these.
+    const LayerRay r = anyLayerRay(random);
+    EXPECT_EQ(f64::cotan_charlie(r.n, r.v, r.l, 0), f64::cotan_charlie(r.n, r.v, r.l, 0.15));
+}
+
+TEST(LightLayers, theAlbedoOfFibresIsTheirIntegral)
+{
+    const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
+    double worst = 0, sum = 0;
+    int count = 0;
+    for (const double roughness : {0.0, 0.15, 0.18, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0})
+        for (const double nv : {0.03, 0.06, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+            const glm::dvec3 v(std::sqrt(1 - nv * nv), 0, nv);
+            const double all =
+                furnace(n, t, 200, [&](glm::dvec3 l) { return f64::cotan_charlie(n, v, l, roughness) * l.z; });
+            const double off = std::abs(f64::cotan_sheen_albedo(nv, roughness) - all);
+            worst = std::max(worst, off);
+            sum += off;
+            ++count;
+        }
+    EXPECT_LT(worst, 0.03);        // as sheen.h states, and what the sum by cells adds
+    EXPECT_LT(sum / count, 0.008); // many of these are at small cosines, where the fit is worse than in the mean
+}
+
+TEST(LightLayers, fibresOverWhiteGiveBackNoMoreThanArrives)
+{
+    const glm::dvec3 n(0, 0, 1), t(1, 0, 0), white(1);
+    for (const double roughness : {0.0, 0.3, 0.6, 1.0})
+        for (const double nv : {0.03, 0.1, 0.3, 0.6, 1.0}) {
+            const glm::dvec3 v(std::sqrt(1 - nv * nv), 0, nv);
+            const f64::cotan_sheen cloth{white, roughness};
+            const auto lambert = [&](glm::dvec3 l) { return white * (l.z / std::numbers::pi); };
+            const double all = furnace(
+                n, t, 200, [&](glm::dvec3 l) { return f64::cotan_reflect_sheen(cloth, n, v, l, lambert(l)).y; });
+            EXPECT_LT(all, 1.045) << roughness << " " << nv; // the fit's error
+            EXPECT_GT(all, 0.6) << roughness << " " << nv;
+            EXPECT_NEAR(f64::cotan_reflect_sheen_around(cloth, n, v, white, white).y, 1, 1e-12);
+        }
+}
+
+TEST(LightLayers, throughFibresTheEyeAndTheLightMayChangePlaces)
+{
+    Random random(908);
+    for (int k = 0; k < 1000; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        const f64::cotan_sheen cloth{{random.unit(), random.unit(), random.unit()}, random.unit()};
+        const double nl = glm::dot(r.n, r.l), nv = glm::dot(r.n, r.v);
+        const glm::dvec3 color(0.2, 0.5, 0.8);
+        const glm::dvec3 there = f64::cotan_reflect_sheen(cloth, r.n, r.v, r.l, color * nl) / nl;
+        const glm::dvec3 back = f64::cotan_reflect_sheen(cloth, r.n, r.l, r.v, color * nv) / nv;
+        EXPECT_LT(glm::length(there - back), 1e-9 * glm::length(there));
+    }
+}
+
+// Reflected, scattered and passed on: all that arrives, whatever the share that passes. A metal lets nothing through.
+TEST(LightLayers, whatDoesNotPassIsScatteredBack)
+{
+    Random random(909);
+    for (int k = 0; k < 500; ++k) {
+        const LayerRay r = anyLayerRay(random);
+        f64::cotan_surface s{};
+        s.base_color = {1, 1, 1};
+        s.roughness = random.range(0.05, 1);
+        s.occlusion = 1;
+        s.n = r.n;
+        s.v = r.v;
+        f64::cotan_gloss g = f64::cotan_gloss_of(random.range(1, 2), random.unit(), {1, random.unit(), 0.5});
+        g.transmission = random.unit();
+        const glm::dvec2 albedo = f64::cotan_split_sum(glm::dot(r.n, r.v), s.roughness);
+        const glm::dvec3 white(1), back = f64::cotan_reflect_image(s, g, white, white, albedo);
+        const glm::dvec3 through = f64::cotan_transmittance(s, g);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(back[c] + through[c], 1,
+                        0.02); // light that bounces more than once is not taken from what passes
+            EXPECT_LE(through[c], g.transmission);
+        }
+        // What is scattered of a lamp is less by the same share.
+        f64::cotan_gloss opaque = g;
+        opaque.transmission = 0;
+        const glm::dvec3 glint = f64::cotan_reflect_highlight(s, g, r.l, 3);
+        const glm::dvec3 whole = f64::cotan_reflect_highlight(s, opaque, r.l, 3);
+        f64::cotan_gloss clear = g;
+        clear.transmission = 1;
+        const glm::dvec3 bare = f64::cotan_reflect_highlight(s, clear, r.l, 3);
+        EXPECT_LT(glm::length(glint - (bare * g.transmission + whole * (1 - g.transmission))), 1e-9);
+        EXPECT_EQ(f64::cotan_reflect_highlight(s, clear, r.l, 0), glm::dvec3(0));
+        s.metallic = 1;
+        EXPECT_EQ(f64::cotan_transmittance(s, g), glm::dvec3(0));
+    }
 }
 
 TEST(LightLayers, aDirectionRunsAlongTheTangentOfASkewedParametrisation)

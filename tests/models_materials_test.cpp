@@ -1,5 +1,5 @@
-// Clear coat and anisotropy, which read the frame, on both renderers and on the models that have them.
-#include "models.hpp"
+// What extensions add to materials, on both renderers and on the models that have it.
+#include "leaning_quad.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -10,46 +10,6 @@ namespace cotan {
 namespace {
 
 using namespace test;
-
-// A quad in the xy plane, uv skewed and mirrored, with a map of one texel that leans.
-Scene leaningQuad()
-{
-    Scene scene;
-    Mesh mesh;
-    for (const glm::vec2 p : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-        mesh.positions.push_back({p, 0});
-        mesh.normals.push_back({0, 0, 1});
-        mesh.texcoords[0].push_back({0.5f - 0.4f * p.x + 0.1f * p.y, 0.5f - 0.45f * p.y});
-    }
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes.push_back(mesh);
-    scene.instances.push_back({"", 0, glm::mat4(1)});
-    scene.materials.emplace_back();
-    Image image = makeImage(1, 1, PixelType::unorm8);
-    const int texel[] = {128 + 25, 128 + 40, 128 + 117, 255}; // leans 22 degrees
-    for (int c = 0; c < 4; ++c)
-        image.bytes8()[c] = std::uint8_t(texel[c]);
-    scene.images.push_back(image);
-    return scene;
-}
-
-View quadView(Frame frame)
-{
-    View view = frontView({-1, -1}, {1, 1}, 16);
-    view.output = Output::shaded;
-    view.linearOutput = true;
-    view.samples = 1;
-    view.environment = view.background = view.shadows = false;
-    view.frame = frame;
-    view.lights = {Light{}};
-    view.lights[0].direction = glm::normalize(glm::vec3(-0.3f, 0.2f, -1));
-    return view;
-}
-
-double redAt(const Image& image, int x, int y)
-{
-    return image.floats()[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4];
-}
 
 TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
 {
@@ -150,6 +110,39 @@ TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
     }
 }
 
+// Its base colour is all but black; what is seen is the sheen.
+TEST(MaterialModels, theVelvetSofaIsBlue)
+{
+    COTAN_NEEDS_MODEL("models/GlamVelvetSofa/GlamVelvetSofa.glb");
+    const Scene scene = loadModel("models/GlamVelvetSofa/GlamVelvetSofa.glb");
+    for (const char* device : {"reference", "auto"}) {
+        auto painter = painterFor(device);
+        if (!painter)
+            continue;
+        View view;
+        view.width = 160;
+        view.height = 120;
+        view.camera = fitCamera(bounds(scene), view.width, view.height);
+        view.lights = defaultLights();
+        view.background = false;
+        view.linearOutput = true;
+        view.samples = 1;
+        ASSERT_TRUE(painter->load(scene));
+        const Image image = drawWith(*painter, view);
+        glm::dvec4 sum(0);
+        for (std::size_t i = 0; i < image.pixelCount(); ++i)
+            for (int c = 0; c < 4; ++c)
+                sum[c] += double(image.floats()[4 * i + std::size_t(c)]);
+        const glm::dvec3 mean = glm::dvec3(sum) / sum.w;
+        std::cout << device << ": " << mean.x << " " << mean.y << " " << mean.z << "\n";
+        // The fibres' colour is 0.05 0.17 0.5, of which at most half is seen from within 60 degrees.
+        EXPECT_GT(mean.z, 0.05) << device;
+        EXPECT_LT(mean.z, 0.5) << device;
+        EXPECT_GT(mean.z, 2 * mean.y) << device;
+        EXPECT_GT(mean.y, mean.x) << device;
+    }
+}
+
 // Of a shaded picture, in steps of 8 bits: the mean over the largest channel of each pixel.
 double meanStep(const Image& a, const Image& b)
 {
@@ -166,8 +159,11 @@ double meanStep(const Image& a, const Image& b)
 Image pictureOf(Painter& painter, Scene scene, Frame frame, bool layers)
 {
     for (Material& m : scene.materials)
-        if (!layers)
-            m.coat.strength = m.anisotropy.strength = 0;
+        if (!layers) {
+            m.coat.strength = m.anisotropy.strength = m.transmission.strength = 0;
+            m.specular = {};
+            m.sheen = {};
+        }
     deriveVertexFrames(scene, frame, TangentOrigin::stored);
     View view;
     view.width = 320;
@@ -186,7 +182,9 @@ TEST(MaterialModels, bothRenderersDrawTheSameLayers)
         GTEST_SKIP() << "no Vulkan device";
     for (const char* file :
          {"models/ClearCoatTest/ClearCoatTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
-          "materials/AnisotropyDiscTest.glb"}) {
+          "materials/AnisotropyDiscTest.glb", "models/GlamVelvetSofa/GlamVelvetSofa.glb",
+          "models/SunglassesKhronos/SunglassesKhronos.glb", "materials/AttenuationTest.glb",
+          "materials/TransmissionRoughnessTest.glb"}) {
         COTAN_NEEDS_MODEL(file);
         const Scene scene = loadModel(file);
         const Image plain = pictureOf(*reference, scene, Frame::cotangent, false);

@@ -1,5 +1,5 @@
 // Translucent layers and the shadows of casters, as the reference renderer draws them.
-#include "layered_scenes.hpp"
+#include "covering_scenes.hpp"
 #include "reference_scene.hpp"
 
 namespace cotan {
@@ -29,6 +29,10 @@ TEST(ReferenceLayers, ofEquallyFarLayersTheLaterIsInFront) { layers::ofEquallyFa
 TEST(ReferenceLayers, perspectiveAndRowsUpwardKeepTheOrder) { layers::perspectiveAndRowsUpwardKeepTheOrder(draw); }
 
 TEST(ReferenceLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowTheNearestLayer(draw); }
+
+TEST(ReferenceLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
+
+TEST(ReferenceLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
 
 TEST(ReferenceLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
 

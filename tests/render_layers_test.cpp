@@ -1,5 +1,5 @@
 // Translucent layers and the shadows of casters, as the device draws them.
-#include "layered_scenes.hpp"
+#include "covering_scenes.hpp"
 #include "render_scene.hpp"
 
 namespace cotan {
@@ -68,6 +68,10 @@ TEST_F(RenderLayers, ofEquallyFarLayersTheLaterIsInFront) { layers::ofEquallyFar
 TEST_F(RenderLayers, perspectiveAndRowsUpwardKeepTheOrder) { layers::perspectiveAndRowsUpwardKeepTheOrder(draw); }
 
 TEST_F(RenderLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowTheNearestLayer(draw); }
+
+TEST_F(RenderLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
+
+TEST_F(RenderLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
 
 TEST_F(RenderLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
 

@@ -72,6 +72,21 @@ TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
     }
 }
 
+TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
+{
+    for (const Shader shader : {Shader::forwardExtendedFrag, Shader::forwardExactExtendedFrag,
+                                Shader::forwardExtendedMaskedFrag, Shader::forwardExactExtendedLayersFrag}) {
+        const auto offsets = memberOffsets(spirv(shader));
+        EXPECT_OFFSET(CotanMaterial, coat);
+        EXPECT_OFFSET(CotanMaterial, coatNormalMap);
+        EXPECT_OFFSET(CotanMaterial, anisotropy);
+        EXPECT_OFFSET(CotanMaterial, specular);
+        EXPECT_OFFSET(CotanMaterial, sheen);
+        EXPECT_OFFSET(CotanMaterial, coatMap);
+        EXPECT_OFFSET(CotanMaterial, transmissionMap);
+    }
+}
+
 TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
 {
     const auto offsets = memberOffsets(spirv(Shader::forwardVert));
@@ -100,10 +115,10 @@ TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
         EXPECT_OFFSET(CotanLayerLists, capacity);
         EXPECT_OFFSET(CotanLayerLists, width);
         EXPECT_OFFSET(CotanLayerLists, top);
-        EXPECT_OFFSET(CotanLayer, value);
-        EXPECT_OFFSET(CotanLayer, depth);
-        EXPECT_OFFSET(CotanLayer, samples);
-        EXPECT_OFFSET(CotanLayer, instance);
+        EXPECT_OFFSET(CotanLayer, light);
+        EXPECT_OFFSET(CotanLayer, through);
+        EXPECT_OFFSET(CotanLayer, depthY);
+        EXPECT_OFFSET(CotanLayer, place);
         EXPECT_OFFSET(CotanLayer, before);
     }
     EXPECT_EQ(memberOffsets(spirv(Shader::composeFrag)).at("ListBlock.newest"), sizeof(gpu::CotanLayerLists));

@@ -18,8 +18,14 @@ constexpr Output kOutputs[] = {Output::shaded,    Output::normal, Output::tangen
 // One material: every alpha mode more is one more pipeline to compile.
 Scene opaqueOnly(Scene scene)
 {
-    for (Material& material : scene.materials)
+    for (Material& material : scene.materials) {
         material.alphaMode = AlphaMode::opaque;
+        material.coat = {};
+        material.anisotropy = {};
+        material.specular = {};
+        material.sheen = {};
+        material.transmission = {};
+    }
     return scene;
 }
 
@@ -27,7 +33,7 @@ Scene opaqueOnly(Scene scene)
 Scene everything()
 {
     Scene scene = sceneOf(sphere(6), flatImage(texelOf({0.3f, 0.1f, 1})));
-    scene.materials.resize(4, scene.materials[0]);
+    scene.materials.resize(5, scene.materials[0]);
     scene.materials[1].alphaMode = AlphaMode::mask;
     scene.materials[1].baseColorMap.image = 0;
     scene.materials[2].alphaMode = AlphaMode::blend;
@@ -36,7 +42,16 @@ Scene everything()
     scene.materials[2].metallicRoughnessMap.image = 0;
     scene.materials[2].emissiveMap.image = 0;
     scene.materials[3].unlit = true;
-    for (int i = 1; i < 4; ++i) {
+    Material& layered = scene.materials[4];
+    layered.alphaMode = AlphaMode::mask;
+    layered.coat.strength = layered.anisotropy.strength = layered.transmission.strength = 0.5f;
+    layered.specular.ior = 1.3f;
+    layered.sheen.color = {0.5f, 0.5f, 0.5f};
+    for (Texture* const map : {&layered.coat.map, &layered.coat.roughnessMap, &layered.coat.normalMap,
+                               &layered.anisotropy.map, &layered.specular.map, &layered.specular.colorMap,
+                               &layered.sheen.colorMap, &layered.sheen.roughnessMap, &layered.transmission.map})
+        map->image = 0;
+    for (int i = 1; i < 5; ++i) {
         scene.meshes.push_back(scene.meshes[0]);
         scene.meshes.back().material = i;
         glm::mat4 m(0.5f);

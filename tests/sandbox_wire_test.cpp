@@ -66,6 +66,11 @@ Scene everything()
     m.coat.strength = 0.1f, m.coat.roughness = 0.2f, m.coat.normalScale = 0.3f, m.coat.map = m.normalMap;
     m.coat.roughnessMap.texcoord = 1, m.coat.normalMap.uRow = {7, 8, 9};
     m.anisotropy.strength = 0.4f, m.anisotropy.rotation = 0.5f, m.anisotropy.map = m.normalMap;
+    m.specular.ior = 1.1f, m.specular.strength = 0.6f, m.specular.color = {0.7f, 0.8f, 0.9f};
+    m.specular.map.vRow = {1, 1, 2}, m.specular.colorMap = m.normalMap;
+    m.sheen.color = {0.3f, 0.2f, 0.1f}, m.sheen.roughness = 0.9f, m.sheen.colorMap.texcoord = 1;
+    m.sheen.roughnessMap = m.normalMap;
+    m.transmission.strength = 0.35f, m.transmission.map.uRow = {3, 1, 4};
     Mesh mesh = makePlane(2, 2, 3);
     mesh.name = "mesh";
     mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1));

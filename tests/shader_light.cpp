@@ -19,6 +19,7 @@ struct Lit {
     double y; // 0 to 1: a range, an exposure, also the occlusion
     f64::cotan_coat c;
     f64::cotan_gloss g;
+    f64::cotan_sheen h;
 };
 
 using Numbers = std::array<double, 16>;
@@ -43,6 +44,8 @@ Lit litOf(const Numbers& v)
     lit.y = v[12];
     lit.c = {lit.y, lit.s.roughness, lit.s.n};
     lit.g = f64::cotan_gloss_of(std::abs(lit.x), lit.y, lit.s.base_color);
+    lit.g.transmission = lit.s.metallic;
+    lit.h = {lit.s.base_color, lit.s.roughness};
     lit.g.anisotropy = lit.y;
     lit.g.t = f64::cotan_direction_on_surface(lit.s.n, {1, lit.x, -lit.y}, lit.s.base_color, {lit.x, lit.y}, lit.s.n);
     return lit;
@@ -56,7 +59,8 @@ constexpr char kLitText[] =
     "    s.occlusion = xy.y;\n    s.emissive = color;\n    s.n = n;\n    s.v = v;\n"
     "    cotan_real x = xy.x;\n    cotan_real y = xy.y;\n"
     "    cotan_coat c;\n    c.strength = xy.y;\n    c.roughness = material.y;\n    c.n = n;\n"
-    "    cotan_gloss g = cotan_gloss_of(abs(xy.x), xy.y, color);\n    g.anisotropy = xy.y;\n"
+    "    cotan_gloss g = cotan_gloss_of(abs(xy.x), xy.y, color);\n    g.transmission = material.x;\n"
+    "    cotan_sheen h;\n    h.color = color;\n    h.roughness = material.y;\n    g.anisotropy = xy.y;\n"
     "    g.t = cotan_direction_on_surface(n, cotan_vec3(cotan_real(1.0), xy.x, -xy.y), color, xy, n);\n    return ";
 
 template<class Function> Case litCase(const std::string& label, const std::string& line, Function function)
@@ -96,7 +100,8 @@ template<class Function> Case litCase(const std::string& label, const std::strin
         const double x = lit.x, y = lit.y;                                                                             \
         const cotan_coat& c = lit.c;                                                                                   \
         const cotan_gloss& g = lit.g;                                                                                  \
-        (void)s, (void)l, (void)x, (void)y, (void)c, (void)g;                                                          \
+        const cotan_sheen& h = lit.h;                                                                                  \
+        (void)s, (void)l, (void)x, (void)y, (void)c, (void)g, (void)h;                                                 \
         return __VA_ARGS__;                                                                                            \
     })
 
@@ -194,17 +199,32 @@ std::vector<Case> litCases()
     all.push_back(COTAN_LIT_CASE(
         "direction",
         cotan_direction_on_surface(s.n, cotan_vec3(cotan_real(1.0), x, -y), s.base_color, cotan_vec2(x, y), s.n)));
-    all.push_back(COTAN_LIT_CASE("reflect highlight", cotan_reflect_highlight(s, l, s.base_color, y, cotan_real(2.0))));
+    all.push_back(COTAN_LIT_CASE("reflect highlight", cotan_reflect_highlight(s, g, l, cotan_real(2.0))));
     all.push_back(COTAN_LIT_CASE("reflect glossy", cotan_reflect_glossy(s, g, l)));
     all.push_back(
         COTAN_LIT_CASE("bent normal, mirrored", cotan_mirrored(cotan_bent_normal(s.n, s.v, s.roughness, y, g.t), s.v)));
-    all.push_back(COTAN_LIT_CASE("environment at", cotan_reflect_environment_at(s, l, s.base_color, y)));
+    all.push_back(COTAN_LIT_CASE("plain gloss", cotan_plain_gloss().f0));
+    all.push_back(COTAN_LIT_CASE("reflecting normal", cotan_reflecting_normal(s, g)));
+    all.push_back(COTAN_LIT_CASE("transmittance", cotan_transmittance(s, g)));
+    all.push_back(COTAN_LIT_CASE("charlie's masking",
+                                 cotan_vec3(cotan_charlie_fit(y * cotan_real(0.5), s.metallic),
+                                            cotan_real(1.0) / (cotan_real(1.0) + cotan_charlie_masking(y, s.metallic)),
+                                            cotan_real(1.0))));
+    all.push_back(COTAN_LIT_CASE("charlie, sheen's share",
+                                 cotan_vec3(cotan_charlie(s.n, s.v, l, s.roughness), cotan_sheen_albedo(y, s.roughness),
+                                            cotan_sheen_share(h, y))));
+    all.push_back(COTAN_LIT_CASE("reflect sheen", cotan_reflect_sheen(h, s.n, s.v, l, s.base_color)));
+    all.push_back(
+        COTAN_LIT_CASE("sheen around", cotan_reflect_sheen_around(h, s.n, s.v, s.base_color, s.base_color * y)));
     all.push_back(COTAN_LIT_CASE("environment glossy", cotan_reflect_environment_glossy(s, g)));
     all.push_back(COTAN_LIT_CASE("coat", cotan_vec3(cotan_coat_share(c, s.v), cotan_reflect_coat(c, s.v, l), y)));
     all.push_back(COTAN_LIT_CASE("coat environment", cotan_reflect_coat_environment(c, s.v)));
     all.push_back(COTAN_LIT_CASE("falloff",
                                  cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)),
                                             cotan_light_falloff(y, cotan_real(0.0)))));
+    all.push_back(COTAN_LIT_CASE("roughness of a spread",
+                                 cotan_vec3(cotan_roughness_of_spread(s.roughness, y), cotan_spread_of_turn(l, s.v),
+                                            cotan_spread_of_length(y))));
     all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
     all.push_back(COTAN_LIT_CASE("linear to sRGB",
                                  cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y),

@@ -99,18 +99,19 @@ COTAN_FUNCTION cotan_bounces cotan_bounces_of(cotan_vec3 f0, cotan_real f90, cot
     return b;
 }
 
-// What a surface reflects of its surroundings. dielectric, f90: what a dielectric reflects, facing and grazing.
-// irradiance: tile 9 along n. radiance: along cotan_mirrored, between the two tiles of the roughness. albedo: tile 10.
+// What a surface reflects of its surroundings. irradiance: tile 9 along n. radiance: where cotan_reflecting_normal
+// mirrors the eye, between the two tiles of the roughness. albedo: tile 10.
 // What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light; a white
 // metal does, too.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_image(cotan_surface s, cotan_vec3 dielectric, cotan_real f90,
-    cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
+COTAN_FUNCTION cotan_vec3 cotan_reflect_image(
+    cotan_surface s, cotan_gloss g, cotan_vec3 irradiance, cotan_vec3 radiance, cotan_vec2 albedo)
 {
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
-    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_bounces all = cotan_bounces_of(f0, cotan_mix(f90, cotan_real(1.0), s.metallic), albedo);
-    cotan_bounces shallow = cotan_bounces_of(dielectric, f90, albedo);
-    cotan_vec3 below = (one - shallow.once - shallow.more) * s.base_color * (cotan_real(1.0) - s.metallic);
+    cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
+    cotan_bounces all = cotan_bounces_of(f0, cotan_mix(g.f90, cotan_real(1.0), s.metallic), albedo);
+    cotan_bounces shallow = cotan_bounces_of(g.f0, g.f90, albedo);
+    cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
+    cotan_vec3 below = (one - shallow.once - shallow.more) * s.base_color * scattered;
     return (irradiance * (below + all.more) + radiance * all.once) * s.occlusion;
 }
 

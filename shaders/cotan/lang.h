@@ -4,7 +4,7 @@
 // defining exactly one of the macros below; nothing is guessed from what a compiler predefines.
 // No file of the portable text includes another, so that it also works where shader sources are
 // simply joined. Order: lang.h first, then normal.h, frame.h (or fused.h alone), gradient.h, blend.h,
-// light.h as needed.
+// light.h, sheen.h as needed.
 //
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later

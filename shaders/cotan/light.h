@@ -1,10 +1,10 @@
 // Cotan portable text: lighting. Include lang.h and frame.h first.
 //
 // Small, standard and the same on the GPU and in the reference renderer: ambient + diffuse +
-// Blinn-Phong, and GGX metallic-roughness, with a soft procedural environment; over it glTF's clear
-// coat, and highlights that are stretched or have another strength and colour. All colours are
-// linear. n, l, v are unit vectors in one space (world, y up, for the environment): normal, to the
-// light, to the eye.
+// Blinn-Phong, and GGX metallic-roughness, with a soft procedural environment; highlights that are
+// stretched or have another strength and colour, light that passes through thin sheets, and over all
+// a clear coat, as extensions of glTF have them. All colours are linear. n, l, v are unit vectors in
+// one space (world, y up, for the environment): normal, to the light, to the eye.
 
 #ifndef COTAN_LIGHT_H
 #define COTAN_LIGHT_H
@@ -30,6 +30,35 @@ COTAN_FUNCTION cotan_real cotan_smooth(cotan_real edge0, cotan_real edge1, cotan
 {
     cotan_real k = cotan_saturate((x - edge0) / (edge1 - edge0));
     return k * k * (cotan_real(3.0) - cotan_real(2.0) * k);
+}
+
+// ---- highlights that are smaller than a pixel ----
+
+// The perceptual roughness of a surface whose normals spread within what is seen at once: squares of
+// slopes add up. roughness: its own, [0,1]. spread: variance of the slopes, of both directions
+// together, >= 0.
+COTAN_FUNCTION cotan_real cotan_roughness_of_spread(cotan_real roughness, cotan_real spread)
+{
+    cotan_real alpha = roughness * roughness;
+    return sqrt(sqrt(min(alpha * alpha + spread, cotan_real(1.0))));
+}
+
+// The spread of normals by the turn of the surface within a pixel: the variance over a square of its
+// width. dndx, dndy: differences of the unit normal without a map to the next pixels. Over 0.18, where
+// differences say little, it stays at that (Y. Tokuyoshi, A. Kaplanyan, Improved Geometric Specular
+// Antialiasing, 2019; their pixel is a Gaussian and gives four times as much, which measures worse).
+COTAN_FUNCTION cotan_real cotan_spread_of_turn(cotan_vec3 dndx, cotan_vec3 dndy)
+{
+    return min((dot(dndx, dndx) + dot(dndy, dndy)) / cotan_real(12.0), cotan_real(0.18));
+}
+
+// The spread of unit normals whose mean is that long, [0,1]: what the levels of a normal map lose, to be
+// kept in a channel of theirs. They lie as exp(kappa cos), kappa by J. Banerjee and others (2005). A
+// step of 8 bits is taken as rounding.
+COTAN_FUNCTION cotan_real cotan_spread_of_length(cotan_real length_of_mean)
+{
+    cotan_real r = min(max(length_of_mean, cotan_real(0.05)) + cotan_real(1.0 / 255.0), cotan_real(1.0));
+    return cotan_real(2.0) * (cotan_real(1.0) - r * r) / (r * (cotan_real(3.0) - r * r));
 }
 
 // A half vector that is zero when l = -v.
@@ -98,11 +127,13 @@ COTAN_FUNCTION cotan_real cotan_ggx_stretched(cotan_vec3 n, cotan_vec3 v, cotan_
 struct cotan_gloss {
     cotan_vec3 f0;         // of a dielectric, facing: 0.04 for an index of refraction of 1.5
     cotan_real f90;        // of a dielectric, grazing
+    cotan_real transmission; // [0,1]: of what a dielectric does not reflect, the share that passes
     cotan_real anisotropy; // [0,1]; 0: as round as ever
     cotan_vec3 t;          // along it the highlight is stretched: unit, perpendicular to n
 };
 
-// f0 and f90 of KHR_materials_ior and KHR_materials_specular; no anisotropy. ior 0: reflects all.
+// f0 and f90 of KHR_materials_ior and KHR_materials_specular; nothing passes, nothing is stretched.
+// ior 0: reflects all.
 COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, cotan_vec3 color)
 {
     cotan_real ratio = (ior - cotan_real(1.0)) / (ior + cotan_real(1.0));
@@ -111,8 +142,18 @@ COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, c
     g.f0 = cotan_vec3(min(f0.x, cotan_real(1.0)), min(f0.y, cotan_real(1.0)),
         min(f0.z, cotan_real(1.0))) * strength;
     g.f90 = strength;
+    g.transmission = cotan_real(0.0);
     g.anisotropy = cotan_real(0.0);
     g.t = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    return g;
+}
+
+// What metallic-roughness says by itself: an index of refraction of 1.5.
+COTAN_FUNCTION cotan_gloss cotan_plain_gloss()
+{
+    cotan_real one = cotan_real(1.0);
+    cotan_gloss g = cotan_gloss_of(cotan_real(1.5), one, cotan_vec3(one, one, one));
+    g.f0 = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
     return g;
 }
 
@@ -133,19 +174,18 @@ COTAN_FUNCTION cotan_vec3 cotan_direction_on_surface(
 }
 
 // Lambert diffuse and one highlight, as the glTF 2.0 appendix B mixes them, for unit irradiance
-// perpendicular to l. dielectric, f90: what a dielectric reflects, facing and grazing. highlight:
-// without its Fresnel term.
+// perpendicular to l. highlight: without its Fresnel term.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_highlight(
-    cotan_surface s, cotan_vec3 l, cotan_vec3 dielectric, cotan_real f90, cotan_real highlight)
+    cotan_surface s, cotan_gloss g, cotan_vec3 l, cotan_real highlight)
 {
     cotan_real nl = cotan_saturate(dot(s.n, l));
     cotan_real grazing5 = cotan_grazing(cotan_saturate(dot(s.v, cotan_half_vector(l, s.v))));
-    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_real edge = cotan_mix(f90, cotan_real(1.0), s.metallic);
+    cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
+    cotan_real edge = cotan_mix(g.f90, cotan_real(1.0), s.metallic);
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
     cotan_vec3 fresnel = f0 + (one * edge - f0) * grazing5;
-    cotan_vec3 diffuse = (one - fresnel) * s.base_color
-        * ((cotan_real(1.0) - s.metallic) / COTAN_PI);
+    cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
+    cotan_vec3 diffuse = (one - fresnel) * s.base_color * (scattered / COTAN_PI);
     return (diffuse + fresnel * highlight) * nl;
 }
 
@@ -154,9 +194,7 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_highlight(
 // defines metallic-roughness. Precision: see cotan_ggx.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_pbr(cotan_surface s, cotan_vec3 l)
 {
-    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
-    return cotan_reflect_highlight(
-        s, l, dielectric, cotan_real(1.0), cotan_ggx(s.n, s.v, l, s.roughness));
+    return cotan_reflect_highlight(s, cotan_plain_gloss(), l, cotan_ggx(s.n, s.v, l, s.roughness));
 }
 
 // As cotan_reflect_pbr, with reflections of its own.
@@ -164,8 +202,7 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_glossy(cotan_surface s, cotan_gloss g, c
 {
     cotan_real even = cotan_ggx(s.n, s.v, l, s.roughness);
     cotan_real stretched = cotan_ggx_stretched(s.n, s.v, l, s.roughness, g.anisotropy, g.t);
-    return cotan_reflect_highlight(
-        s, l, g.f0, g.f90, g.anisotropy > cotan_real(0.0) ? stretched : even);
+    return cotan_reflect_highlight(s, g, l, g.anisotropy > cotan_real(0.0) ? stretched : even);
 }
 
 // A clear layer over the surface (KHR_materials_clearcoat), of index of refraction 1.5: it reflects
@@ -253,28 +290,6 @@ COTAN_FUNCTION cotan_vec3 cotan_mirrored(cotan_vec3 n, cotan_vec3 v)
     return n * (cotan_real(2.0) * dot(n, v)) - v;
 }
 
-// Ambient light and reflections from the environment in direction r. f0, f90: of a dielectric.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_at(
-    cotan_surface s, cotan_vec3 r, cotan_vec3 dielectric, cotan_real f90)
-{
-    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(s.n, s.v)), s.roughness);
-    cotan_vec3 f0 = cotan_mix(dielectric, s.base_color, s.metallic);
-    cotan_real bias = share.y * cotan_mix(f90, cotan_real(1.0), s.metallic);
-    cotan_vec3 specular = f0 * share.x + cotan_vec3(bias, bias, bias);
-    cotan_vec3 diffuse = s.base_color * (cotan_real(1.0) - s.metallic);
-    cotan_vec3 ambient = cotan_environment(s.n, cotan_real(1.0)) * diffuse
-        + cotan_environment(r, s.roughness) * specular;
-    return ambient * s.occlusion;
-}
-
-// Ambient light and reflections from the environment.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_environment(cotan_surface s)
-{
-    cotan_vec3 dielectric = cotan_vec3(cotan_real(0.04), cotan_real(0.04), cotan_real(0.04));
-    return cotan_reflect_environment_at(
-        s, cotan_mirrored(s.n, s.v), dielectric, cotan_real(1.0));
-}
-
 // The normal that a stretched highlight reflects the environment with: n bent towards the eye, in
 // the plane across t that holds what the stretched lobe gathers (KHR_materials_anisotropy).
 COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
@@ -287,12 +302,43 @@ COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
     return cotan_normalize_or(cotan_mix(bent, n, keep2 * keep2), n);
 }
 
-// As cotan_reflect_environment, with reflections of its own.
-COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cotan_gloss g)
+// The normal that a surface mirrors the environment with: its own, unless the highlight is stretched.
+COTAN_FUNCTION cotan_vec3 cotan_reflecting_normal(cotan_surface s, cotan_gloss g)
 {
     cotan_vec3 bent = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
-    cotan_vec3 n = g.anisotropy > cotan_real(0.0) ? bent : s.n;
-    return cotan_reflect_environment_at(s, cotan_mirrored(n, s.v), g.f0, g.f90);
+    return g.anisotropy > cotan_real(0.0) ? bent : s.n;
+}
+
+// Ambient light and reflections from the environment, with reflections of its own.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cotan_gloss g)
+{
+    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(s.n, s.v)), s.roughness);
+    cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
+    cotan_real bias = share.y * cotan_mix(g.f90, cotan_real(1.0), s.metallic);
+    cotan_vec3 specular = f0 * share.x + cotan_vec3(bias, bias, bias);
+    cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
+    cotan_vec3 r = cotan_mirrored(cotan_reflecting_normal(s, g), s.v);
+    cotan_vec3 ambient = cotan_environment(s.n, cotan_real(1.0)) * (s.base_color * scattered)
+        + cotan_environment(r, s.roughness) * specular;
+    return ambient * s.occlusion;
+}
+
+// Ambient light and reflections from the environment.
+COTAN_FUNCTION cotan_vec3 cotan_reflect_environment(cotan_surface s)
+{
+    return cotan_reflect_environment_glossy(s, cotan_plain_gloss());
+}
+
+// The light from behind that reaches the eye through a thin sheet, straight on: factors
+// (KHR_materials_transmission without a volume). Roughness does not blur it.
+COTAN_FUNCTION cotan_vec3 cotan_transmittance(cotan_surface s, cotan_gloss g)
+{
+    cotan_vec2 share = cotan_split_sum(cotan_saturate(abs(dot(s.n, s.v))), s.roughness);
+    cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
+    cotan_vec3 enters = one - (g.f0 * share.x + one * (g.f90 * share.y));
+    cotan_real passes = (cotan_real(1.0) - s.metallic) * g.transmission;
+    return s.base_color * passes
+        * cotan_vec3(cotan_saturate(enters.x), cotan_saturate(enters.y), cotan_saturate(enters.z));
 }
 
 // What the coat reflects of the environment.

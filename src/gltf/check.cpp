@@ -213,7 +213,9 @@ constexpr std::array kSupported{
     string_view("KHR_mesh_quantization"),      string_view("EXT_mesh_gpu_instancing"),
     string_view("KHR_draco_mesh_compression"), string_view("EXT_meshopt_compression"),
     string_view("KHR_meshopt_compression"),    string_view("KHR_materials_clearcoat"),
-    string_view("KHR_materials_anisotropy"),
+    string_view("KHR_materials_anisotropy"),   string_view("KHR_materials_ior"),
+    string_view("KHR_materials_specular"),     string_view("KHR_materials_sheen"),
+    string_view("KHR_materials_transmission"),
 };
 
 // The same in a format that is not read; it matters to who needs the pixels.

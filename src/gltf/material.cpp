@@ -74,6 +74,16 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
     }
     if (material.anisotropy.strength > 0)
         material.anisotropy.map = map(source.anisotropy, "anisotropyTexture");
+    if (material.specular.strength > 0) {
+        material.specular.map = map(source.specular, "specularTexture");
+        material.specular.colorMap = map(source.specularColor, "specularColorTexture");
+    }
+    if (material.sheen.present()) {
+        material.sheen.colorMap = map(source.sheenColor, "sheenColorTexture");
+        material.sheen.roughnessMap = map(source.sheenRoughness, "sheenRoughnessTexture");
+    }
+    if (material.transmission.strength > 0)
+        material.transmission.map = map(source.transmission, "transmissionTexture");
     return material;
 }
 

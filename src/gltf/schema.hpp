@@ -192,9 +192,20 @@ inline constexpr std::array kCoat{number("clearcoatFactor"), object("clearcoatTe
                                   object("clearcoatNormalTexture", kTextureInfo)};
 inline constexpr std::array kAnisotropy{number("anisotropyStrength"), number("anisotropyRotation"),
                                         object("anisotropyTexture", kTextureInfo)};
-inline constexpr std::array kMaterialExtensions{
-    object("KHR_materials_emissive_strength", kStrength), object("KHR_materials_unlit", {}),
-    object("KHR_materials_clearcoat", kCoat), object("KHR_materials_anisotropy", kAnisotropy)};
+inline constexpr std::array kIor{number("ior")};
+inline constexpr std::array kSpecular{number("specularFactor"), object("specularTexture", kTextureInfo),
+                                      numbers("specularColorFactor", 3), object("specularColorTexture", kTextureInfo)};
+inline constexpr std::array kSheen{numbers("sheenColorFactor", 3), object("sheenColorTexture", kTextureInfo),
+                                   number("sheenRoughnessFactor"), object("sheenRoughnessTexture", kTextureInfo)};
+inline constexpr std::array kTransmission{number("transmissionFactor"), object("transmissionTexture", kTextureInfo)};
+inline constexpr std::array kMaterialExtensions{object("KHR_materials_emissive_strength", kStrength),
+                                                object("KHR_materials_unlit", {}),
+                                                object("KHR_materials_clearcoat", kCoat),
+                                                object("KHR_materials_anisotropy", kAnisotropy),
+                                                object("KHR_materials_ior", kIor),
+                                                object("KHR_materials_specular", kSpecular),
+                                                object("KHR_materials_sheen", kSheen),
+                                                object("KHR_materials_transmission", kTransmission)};
 inline constexpr std::array kMaterial{text("name"),
                                       object("pbrMetallicRoughness", kRoughness),
                                       object("normalTexture", kTextureInfo),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "problem.hpp"
+#include "schema.hpp"
 
 namespace cotan::gltf {
 
@@ -33,6 +34,62 @@ void readAnisotropy(const Json& anisotropy, MaterialSource& read)
     read.factors.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
     read.factors.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
     read.anisotropy = readTextureUse(&anisotropy, "anisotropyTexture");
+}
+
+// Not negative, and no brighter than what lamps and products with it can bear.
+glm::vec3 colorOf(const Json& object, std::string_view name, glm::vec3 otherwise, double most)
+{
+    const Json* const color = member(object, name);
+    for (int i = 0; color && i < 3; ++i)
+        otherwise[i] = static_cast<float>(std::clamp((*color)[std::size_t(i)].get<double>(), 0.0, most));
+    return otherwise;
+}
+
+void readSpecular(const Json& specular, MaterialSource& read)
+{
+    Specular& s = read.factors.specular;
+    s.strength = unitRange(valueOr(specular, "specularFactor", 1.0));
+    s.color = colorOf(specular, "specularColorFactor", s.color, gltf_schema::kBrightest); // may be over 1
+    read.specular = readTextureUse(&specular, "specularTexture");
+    read.specularColor = readTextureUse(&specular, "specularColorTexture");
+}
+
+// 0 stands for infinity; between 0 and 1 there is nothing that the extension allows.
+float readIor(const Json& ior)
+{
+    const float index = numberOf(ior, "ior", 1.5);
+    return index == 0 ? 0.0f : std::max(index, 1.0f);
+}
+
+void readSheen(const Json& sheen, MaterialSource& read)
+{
+    read.factors.sheen.color = colorOf(sheen, "sheenColorFactor", glm::vec3(0), 1);
+    read.factors.sheen.roughness = unitRange(valueOr(sheen, "sheenRoughnessFactor", 0.0));
+    read.sheenColor = readTextureUse(&sheen, "sheenColorTexture");
+    read.sheenRoughness = readTextureUse(&sheen, "sheenRoughnessTexture");
+}
+
+void readTransmission(const Json& transmission, MaterialSource& read)
+{
+    read.factors.transmission.strength = unitRange(valueOr(transmission, "transmissionFactor", 0.0));
+    read.transmission = readTextureUse(&transmission, "transmissionTexture");
+}
+
+// What extensions say of light on the surface.
+void readLayers(const Json& source, MaterialSource& read)
+{
+    if (const Json* const coat = extension(source, "KHR_materials_clearcoat"))
+        readCoat(*coat, read);
+    if (const Json* const anisotropy = extension(source, "KHR_materials_anisotropy"))
+        readAnisotropy(*anisotropy, read);
+    if (const Json* const ior = extension(source, "KHR_materials_ior"))
+        read.factors.specular.ior = readIor(*ior);
+    if (const Json* const specular = extension(source, "KHR_materials_specular"))
+        readSpecular(*specular, read);
+    if (const Json* const sheen = extension(source, "KHR_materials_sheen"))
+        readSheen(*sheen, read);
+    if (const Json* const transmission = extension(source, "KHR_materials_transmission"))
+        readTransmission(*transmission, read);
 }
 
 MaterialSource readMaterial(const Json& source)
@@ -66,10 +123,8 @@ MaterialSource readMaterial(const Json& source)
     m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
     m.doubleSided = valueOr(source, "doubleSided", false);
     m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
-    if (const Json* const coat = extension(source, "KHR_materials_clearcoat"))
-        readCoat(*coat, read);
-    if (const Json* const anisotropy = extension(source, "KHR_materials_anisotropy"))
-        readAnisotropy(*anisotropy, read);
+    if (!m.unlit)
+        readLayers(source, read);
     return read;
 }
 

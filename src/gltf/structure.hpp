@@ -13,7 +13,8 @@ namespace cotan::gltf {
 struct MaterialSource {
     Material factors;
     TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
-    TextureUse coat, coatRoughness, coatNormal, anisotropy;
+    TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness,
+        transmission;
 };
 
 // Lights and cameras stand at the origin and look along -z, until a node places them.

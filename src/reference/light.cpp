@@ -36,21 +36,26 @@ Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const Shado
     return arrival;
 }
 
-glm::vec3 reflected(const f32::cotan_surface& surface, const std::optional<f32::cotan_gloss>& gloss, glm::vec3 toLight,
-                    Shading shading)
+// By a surface, or by what a tangent-space renderer makes of it.
+glm::vec3 reflected(const f32::cotan_surface& surface, const Layers& layers, glm::vec3 toLight, Shading shading)
 {
     if (shading == Shading::blinnPhong)
         return f32::cotan_reflect_blinn_phong(surface, toLight);
-    return gloss ? f32::cotan_reflect_glossy(surface, *gloss, toLight) : f32::cotan_reflect_pbr(surface, toLight);
+    const glm::vec3 light = layers.gloss ? f32::cotan_reflect_glossy(surface, *layers.gloss, toLight)
+                                         : f32::cotan_reflect_pbr(surface, toLight);
+    return layers.sheen ? f32::cotan_reflect_sheen(*layers.sheen, surface.n, surface.v, toLight, light) : light;
 }
 
-glm::vec3 surroundings(const f32::cotan_surface& surface, const std::optional<f32::cotan_gloss>& gloss,
-                       const View& view)
+glm::vec3 surroundings(const f32::cotan_surface& surface, const Layers& layers, const View& view)
 {
-    if (view.environmentMap)
-        return gloss ? reflectedGlossy(*view.environmentMap, surface, *gloss)
-                     : reflectedOf(*view.environmentMap, surface);
-    return gloss ? f32::cotan_reflect_environment_glossy(surface, *gloss) : f32::cotan_reflect_environment(surface);
+    const f32::cotan_gloss gloss = layers.gloss.value_or(f32::cotan_plain_gloss());
+    const glm::vec3 light = view.environmentMap ? reflectedGlossy(*view.environmentMap, surface, gloss)
+                                                : f32::cotan_reflect_environment_glossy(surface, gloss);
+    if (!layers.sheen)
+        return light;
+    const glm::vec3 irradiance =
+        view.environmentMap ? irradianceAlong(*view.environmentMap, surface.n) : f32::cotan_environment(surface.n, 1);
+    return f32::cotan_reflect_sheen_around(*layers.sheen, surface.n, surface.v, irradiance * surface.occlusion, light);
 }
 
 } // namespace
@@ -80,19 +85,22 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
                      const std::vector<PreparedLight>& lights, const ShadowMap& shadow, const TangentSpace* tangent)
 {
     glm::vec3 radiance = surface.emissive, fromCoat(0);
+    Layers even = layers; // in tangent space highlights are not stretched
+    if (even.gloss)
+        even.gloss->anisotropy = 0;
     for (const PreparedLight& light : lights) {
         Arrival arrival = arrivalOf(light, point, shadow, view.shadowSoftness);
         if (!(arrival.strength > 0))
             continue;
         const glm::vec3 arriving = light.radiance * arrival.strength;
         radiance += arriving
-            * (tangent ? reflected(tangent->surface, {}, carried(*tangent, light, arrival.toLight), view.shading)
-                       : reflected(surface, layers.gloss, arrival.toLight, view.shading));
+            * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
+                       : reflected(surface, layers, arrival.toLight, view.shading));
         if (layers.coat)
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
     if (view.environment) {
-        radiance += surroundings(surface, layers.gloss, view);
+        radiance += surroundings(surface, layers, view);
         if (layers.coat)
             fromCoat += surface.occlusion
                 * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)
@@ -101,6 +109,18 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
     if (!layers.coat)
         return radiance;
     return radiance * (1 - f32::cotan_coat_share(*layers.coat, surface.v)) + fromCoat;
+}
+
+glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers)
+{
+    if (!layers.gloss)
+        return glm::vec3(0);
+    glm::vec3 through = f32::cotan_transmittance(surface, *layers.gloss);
+    if (layers.sheen)
+        through *= 1 - f32::cotan_sheen_share(*layers.sheen, std::abs(glm::dot(surface.n, surface.v)));
+    if (layers.coat)
+        through *= 1 - f32::cotan_coat_share(*layers.coat, surface.v);
+    return through;
 }
 
 } // namespace cotan::reference

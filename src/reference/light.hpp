@@ -38,13 +38,18 @@ struct LitPoint {
 // What extensions add to a surface, in the world. Blinn-Phong has none of it.
 struct Layers {
     std::optional<f32::cotan_gloss> gloss; // in place of metallic-roughness' own reflections
+    std::optional<f32::cotan_sheen> sheen;
     std::optional<f32::cotan_coat> coat;
 };
 
 // Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
-// tangent: where not null, lights are taken there and meet its surface in place of `surface`, without gloss.
+// tangent: where not null, lights are taken there and meet its surface in place of `surface`; highlights are not
+// stretched.
 glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
                      const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
                      const TangentSpace* tangent = nullptr);
+
+// The factors, by colour, of what is behind a surface that transmits.
+glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
 
 } // namespace cotan::reference

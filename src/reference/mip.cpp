@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "cotan/parallel/loops.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/scene/normal_format.hpp"
@@ -58,19 +60,21 @@ bool isSrgb(const MipChain& chain)
     return chain.content == Content::color && chain.image->type != PixelType::float32;
 }
 
-// What is averaged: for normal maps the decoded vector, otherwise the linear texel.
+// What is averaged: for normal maps the unit vector and 1, or zeros where there is none, otherwise the linear texel.
 glm::vec4 toAverage(glm::vec4 value, Content content, const f32::cotan_normal_format& format)
 {
     if (content != Content::normal)
         return value;
-    return {f32::cotan_decode(glm::vec3(value), format), value.w};
+    const glm::vec3 unit = f32::cotan_normalize_or(f32::cotan_decode(glm::vec3(value), format), glm::vec3(0));
+    return {unit, unit == glm::vec3(0) ? 0 : 1};
 }
 
 glm::vec4 toStored(glm::vec4 value, const MipChain& chain, const f32::cotan_normal_format& format)
 {
     if (chain.content == Content::normal) {
         glm::vec3 m = f32::cotan_normalize_or(glm::vec3(value), glm::vec3(0, 0, 1));
-        return {f32::cotan_encode_texel(m, format), value.w};
+        const float length = value.w > 0 ? glm::length(glm::vec3(value)) / value.w : 1;
+        return {f32::cotan_encode_texel(m, format), length};
     }
     if (!isSrgb(chain))
         return value;
@@ -151,8 +155,11 @@ MipChain makeMipChain(const Image& image, Content content, Convention stored, bo
 glm::vec4 texel(const MipChain& chain, int level, int x, int y)
 {
     const Image& image = chain.level(level);
-    if (!isSrgb(chain))
-        return storedComponents(image, x, y);
+    if (!isSrgb(chain)) {
+        const glm::vec4 stored = storedComponents(image, x, y);
+        // A texel of the file is one direction, whatever its alpha says.
+        return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
+    }
     const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
     return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
 }

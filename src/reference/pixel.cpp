@@ -88,33 +88,56 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoint
     const Material& m = *in.material;
     if (all.view.shading == Shading::blinnPhong)
         return layers;
-    if (m.anisotropy.strength > 0) {
-        layers.gloss = f32::cotan_gloss_of(1.5f, 1, glm::vec3(1));
-        stretch(*layers.gloss, in, quad, lane, normal);
+    if (m.glossy()) {
+        const glm::vec4 strength = mapTexel(in, in.maps->specular, m.specular.map, quad, lane);
+        const glm::vec4 color = mapTexel(in, in.maps->specularColor, m.specular.colorMap, quad, lane);
+        layers.gloss = f32::cotan_gloss_of(m.specular.ior, f32::cotan_saturate(m.specular.strength * strength.w),
+                                           m.specular.color * glm::vec3(color));
+        layers.gloss->transmission = f32::cotan_saturate(
+            m.transmission.strength * mapTexel(in, in.maps->transmission, m.transmission.map, quad, lane).x);
+        if (m.anisotropy.strength > 0)
+            stretch(*layers.gloss, in, quad, lane, normal);
+    }
+    if (m.sheen.present()) {
+        const glm::vec4 color = mapTexel(in, in.maps->sheenColor, m.sheen.colorMap, quad, lane);
+        const glm::vec4 roughness = mapTexel(in, in.maps->sheenRoughness, m.sheen.roughnessMap, quad, lane);
+        layers.sheen =
+            f32::cotan_sheen{m.sheen.color * glm::vec3(color), f32::cotan_saturate(m.sheen.roughness * roughness.w)};
     }
     if (m.coat.strength > 0) {
         f32::cotan_coat coat;
         coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, quad, lane).x);
         coat.roughness = f32::cotan_saturate(m.coat.roughness
                                              * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
-        coat.n = coatNormalOf(in, quad, lane, normal);
+        const CoatNormal own = coatNormalOf(in, quad, lane, normal);
+        coat.n = own.n;
+        if (all.view.specularAntialiasing)
+            coat.roughness = f32::cotan_roughness_of_spread(coat.roughness, own.spread);
         layers.coat = coat;
     }
     return layers;
 }
 
-glm::vec3 shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad,
-                      int lane)
+// What leaves the surface, and the factors of what is behind it.
+struct Lit {
+    glm::vec3 radiance{0};
+    glm::vec3 through{0};
+};
+
+Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad, int lane)
 {
     if (in.material->unlit)
-        return baseColor;
+        return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, quad, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
+    if (all.view.specularAntialiasing)
+        surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
     LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
     const Layers layers = layersOf(all, in, quad, lane, normal);
-    return radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr);
+    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr),
+            transmittanceOf(surface, layers)};
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
@@ -146,16 +169,19 @@ glm::vec3 backdropAlong(const View& view, glm::vec3 ray)
 Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     Fragment fragment;
-    BaseColor base = baseColorOf(in, quad, lane);
-    fragment.discarded = base.discarded;
-    if (base.discarded)
+    const glm::vec4 base = baseColorOf(in, quad, lane);
+    const bool blend = in.material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
+    fragment.discarded = blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f);
+    if (fragment.discarded)
         return fragment;
-    if (all.view.output != Output::shaded) {
+    if (!shaded) {
         fragment.value = glm::vec4(finite(dataOutput(all, in, quad, lane)), 1);
         return fragment;
     }
-    glm::vec3 radiance = shadedColor(all, in, glm::vec3(base.value), quad, lane);
-    fragment.value = glm::vec4(displayed(all.view, radiance), f32::cotan_saturate(base.value.w));
+    const Lit lit = shadedColor(all, in, glm::vec3(base), quad, lane);
+    const float alpha = blend ? f32::cotan_saturate(base.w) : 1;
+    fragment.value = glm::vec4(displayed(all.view, lit.radiance), alpha);
+    fragment.through = (1 - alpha) + finite(lit.through) * alpha;
     return fragment;
 }
 

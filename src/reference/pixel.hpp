@@ -12,8 +12,9 @@
 namespace cotan::reference {
 
 struct Fragment {
-    glm::vec4 value{0}; // shaded: linear colour and alpha; otherwise the output's x y z, and 1
-    bool discarded = false;
+    glm::vec4 value{0};     // shaded: linear colour and alpha; otherwise the output's x y z, and 1
+    glm::vec3 through{0};   // factors of what is behind, where the material is translucent
+    bool discarded = false; // invisible
 };
 
 // What all pixels of a picture share.

@@ -1,6 +1,7 @@
 #include "cotan/reference/render.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <new>
 #include <optional>
@@ -66,20 +67,29 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
     const Material& material = scene.materials[std::size_t(draw.material)];
     const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
     SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
-    bool blended = material.alphaMode == AlphaMode::blend && all.view.output == Output::shaded;
+    bool blended = material.translucent() && all.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
+    std::array<float, 4> alphas{};    // of a masked material
     for (int lane = 0; lane < 4; ++lane) {
         int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
         unsigned samples = tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
         if (!samples)
             continue;
-        if (!points)
+        const bool masked = material.alphaMode == AlphaMode::mask;
+        if (!points) {
             points = interpolate(draw, triangle, quad.x, quad.y);
+            for (int k = 0; masked && k < 4; ++k)
+                alphas[std::size_t(k)] = baseColorOf(in, *points, k).w;
+        }
+        if (masked)
+            samples &= samplesOfMask(alphas, lane, material.alphaCutoff, pattern);
+        if (!samples)
+            continue;
         Fragment fragment = shade(all, in, *points, lane);
         if (fragment.discarded)
             continue;
         if (blended)
-            tile.blend(x, y, samples, fragment.value, triangle.z, pattern);
+            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z, pattern);
         else
             tile.write(x, y, samples, fragment.value, triangle.z, pattern);
     }

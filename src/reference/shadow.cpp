@@ -45,7 +45,7 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
         float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
         if (!(z > stored))
             continue;
-        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).discarded)
+        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w < material.alphaCutoff)
             continue;
         stored = z;
     }
@@ -57,7 +57,7 @@ void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
     for (std::uint32_t index : tiled.tiles[tile]) {
         const RasterTriangle& triangle = tiled.triangles[index];
         const Draw& draw = draws[triangle.draw];
-        if (scene.materials[std::size_t(draw.material)].alphaMode == AlphaMode::blend)
+        if (scene.materials[std::size_t(draw.material)].translucent())
             continue;
         forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
     }

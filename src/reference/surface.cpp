@@ -146,26 +146,31 @@ UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Der
             uvDifference(texture, quad, y)};
 }
 
-BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     const Material& m = *in.material;
-    BaseColor base;
-    base.value = m.baseColor;
+    glm::vec4 base = m.baseColor;
     if (in.maps->baseColor)
-        base.value *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
-                             uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
+        base *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
+                       uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
     const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
     if (colors.size() >= in.draw->positions.size())
-        base.value *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
-
-    bool blending = in.view->output == Output::shaded;
-    if (m.alphaMode == AlphaMode::mask)
-        base.discarded = base.value.w < m.alphaCutoff;
-    if (m.alphaMode == AlphaMode::blend)
-        base.discarded = blending ? !(base.value.w > 0) : base.value.w < 1.0f / 255.0f;
-    if (m.alphaMode != AlphaMode::blend)
-        base.value.w = 1;
+        base *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
     return base;
+}
+
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern)
+{
+    const float alpha = alphas[std::size_t(lane)];
+    const float slopeX = alphas[std::size_t(lane | 1)] - alphas[std::size_t(lane & 2)];
+    const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
+    unsigned samples = 0;
+    for (int s = 0; s < pattern.count; ++s) {
+        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
+        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
+            samples |= 1u << s;
+    }
+    return samples;
 }
 
 namespace {
@@ -187,6 +192,22 @@ Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const
     f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
     smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
     return smooth;
+}
+
+// The spread of the surface's own normals in the pixel; 0 where the view does not ask for it.
+float turnOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    if (!in.view->specularAntialiasing)
+        return 0;
+    const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
+    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
+    return f32::cotan_spread_of_turn(normal(x.to) - normal(x.from), normal(y.to) - normal(y.from));
+}
+
+// What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
+float spreadOf(const View& view, glm::vec4 texel)
+{
+    return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
 }
 
 // The view's frame over the uv of a map.
@@ -220,13 +241,14 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
+    result.turn = result.spread = turnOf(in, quad, lane);
     result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
         glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
-        glm::vec3 m =
-            f32::cotan_decode(glm::vec3(texel),
-                              toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
-                                                                 double(material.normalScale)));
+        const auto format = toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
+                                                               double(material.normalScale));
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
+        result.spread += spreadOf(view, texel);
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
@@ -240,11 +262,11 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     return result;
 }
 
-glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)
+CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)
 {
     const Texture& map = in.material->coat.normalMap;
     const MipChain* const chain = in.maps->coatNormal;
-    glm::vec3 n = base.interpolated;
+    CoatNormal coat{base.interpolated, base.turn};
     if (chain && hasUv(*in.draw, setOf(map))) {
         const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
         f32::cotan_frame frame = base.frame;
@@ -258,9 +280,12 @@ glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
         const auto format =
             toFormat<f32::cotan_normal_format>(Convention{}, chain->image->type, double(in.material->coat.normalScale));
-        n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), n);
+        coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
+        coat.spread += spreadOf(*in.view, texel);
     }
-    return in.triangle->front ? n : -n;
+    if (!in.triangle->front)
+        coat.n = -coat.n;
+    return coat;
 }
 
 } // namespace cotan::reference

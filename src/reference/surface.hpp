@@ -42,14 +42,12 @@ struct SurfaceInputs {
 // Texture coordinates of a map in one lane, transformed as it asks, with their differences.
 UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives);
 
-// The base colour: factor, map and vertex colour; alpha 1 unless the material is blended.
-// discarded: cut out by a mask, or, where nothing is blended, all but invisible.
-struct BaseColor {
-    glm::vec4 value{1};
-    bool discarded = false;
-};
+// The base colour and alpha: factor, map and vertex colour, whatever the material does with alpha.
+glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
 
-BaseColor baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+// The samples of a pixel that a masked material covers: where alpha, taken as a plane over the pixel, is not below the
+// cutoff. alphas: of the quad's lanes.
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern);
 
 struct SurfaceNormal {
     glm::vec3 interpolated{0}; // unit, as the mesh has it
@@ -58,6 +56,8 @@ struct SurfaceNormal {
     glm::vec3 b{0};
     glm::vec2 uv{0};          // of the normal map
     f32::cotan_frame frame{}; // that `finished` was made with
+    float turn = 0;           // spread of `interpolated` in the pixel, where the view asks for it
+    float spread = 0;         // the same of `finished`
     bool mapped = false;      // there is a normal map, and what follows is set
     glm::vec3 texel{0, 0, 1}; // decoded, unit, in the frame; turned towards the camera's side
 };
@@ -65,8 +65,12 @@ struct SurfaceNormal {
 // As the material's normal map has it.
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
 
-// The coat's normal, from its own map and a frame of the same name, turned towards the camera's side.
-// base: of the surface beneath.
-glm::vec3 coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
+struct CoatNormal {
+    glm::vec3 n{0}; // unit, turned towards the camera's side
+    float spread = 0;
+};
+
+// The coat's normal, from its own map and a frame of the same name. base: of the surface beneath.
+CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
 
 } // namespace cotan::reference

@@ -130,6 +130,11 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
             maps.coatRoughness = get(m.coat.roughnessMap, Content::linear);
             maps.coatNormal = view.normalMaps ? get(m.coat.normalMap, Content::normal) : nullptr;
             maps.anisotropy = get(m.anisotropy.map, Content::linear);
+            maps.specular = get(m.specular.map, Content::linear);
+            maps.specularColor = get(m.specular.colorMap, Content::color);
+            maps.sheenColor = get(m.sheen.colorMap, Content::color);
+            maps.sheenRoughness = get(m.sheen.roughnessMap, Content::linear);
+            maps.transmission = get(m.transmission.map, Content::linear);
         }
         library.materials.push_back(maps);
     }

@@ -38,6 +38,11 @@ struct MaterialMaps {
     const MipChain* coatRoughness = nullptr;
     const MipChain* coatNormal = nullptr;
     const MipChain* anisotropy = nullptr;
+    const MipChain* specular = nullptr;
+    const MipChain* specularColor = nullptr;
+    const MipChain* sheenColor = nullptr;
+    const MipChain* sheenRoughness = nullptr;
+    const MipChain* transmission = nullptr;
 };
 
 // The maps of all materials. An image that is used in two ways has two chains.

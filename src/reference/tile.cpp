@@ -52,7 +52,8 @@ void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
     }
 }
 
-void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern)
+void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
+                 const SamplePattern& pattern)
 {
     if (layers_.size() == kMostLayers)
         throw TooManyLayers{};
@@ -60,7 +61,7 @@ void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
     if (newest_.empty())
         newest_.assign(value_.size() / samplesOfPixel, kNone);
     std::uint32_t& newest = newest_[at(x, y) / samplesOfPixel];
-    Layer layer{glm::vec4(glm::vec3(value) * value.w, value.w), {}, samples, newest};
+    Layer layer{glm::vec3(value) * value.w, through, {}, samples, newest};
     for (std::size_t s = 0; s < samplesOfPixel; ++s)
         layer.nearness[s] = nearnessAt(z, x, y, pattern.offset[s]);
     newest = std::uint32_t(layers_.size());
@@ -90,11 +91,15 @@ glm::vec4 Tile::resolve(int x, int y) const
         std::sort(layers.begin(), layers.end(), [&](const Layer* a, const Layer* b) {
             return a->nearness[s] != b->nearness[s] ? a->nearness[s] < b->nearness[s] : a < b;
         });
-        glm::vec4 value = value_[at(x, y) + s];
+        glm::vec3 light(value_[at(x, y) + s]), through(1);
         for (const Layer* layer : layers) // farthest first
-            if (layer->samples >> s & 1)
-                value = layer->value + value * (1 - layer->value.w);
-        sum += value;
+            if (layer->samples >> s & 1) {
+                light = layer->light + light * layer->through;
+                through *= layer->through;
+            }
+        // Alpha has no colour: it counts what passes of white light.
+        const float passing = (through.x + through.y + through.z) / 3;
+        sum += glm::vec4(light, 1 - passing * (1 - value_[at(x, y) + s].w));
     }
     return sum / float(samples_);
 }

@@ -12,7 +12,7 @@
 
 namespace cotan::reference {
 
-// Of a tile: 1024 for each pixel, 40 MiB.
+// Of a tile: 1024 for each pixel, 48 MiB.
 inline constexpr std::size_t kMostLayers = std::size_t(1) << 20;
 
 struct TooManyLayers {};
@@ -31,8 +31,10 @@ public:
 
     // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
     // composed in `resolve`, by nearness; of equally near ones the later is in front.
+    // through: factors of what is behind, by colour.
     // Throws TooManyLayers over kMostLayers.
-    void blend(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern);
+    void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
+               const SamplePattern& pattern);
 
     // Fills all samples of a pixel, behind everything.
     void clear(int x, int y, glm::vec4 value);
@@ -42,7 +44,8 @@ public:
 
 private:
     struct Layer {
-        glm::vec4 value{0};
+        glm::vec3 light{0}; // times what it covers
+        glm::vec3 through{0};
         std::array<float, 4> nearness{}; // of each sample
         unsigned samples = 0;
         std::uint32_t before = 0; // the pixel's layer that was added before, kNone if none

@@ -176,6 +176,7 @@ void openLogicalDevice(Device& d)
     // Mesa's CPU driver (22.3) draws dots along magnified texel edges with it, and takes long.
     d.anisotropy = core.samplerAnisotropy && !d.cpu;
     d.exact = core.geometryShader && v12.bufferDeviceAddress;
+    d.dualSource = core.dualSrcBlend;
 
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
@@ -186,7 +187,8 @@ void openLogicalDevice(Device& d)
     vk::PhysicalDeviceFeatures2 use;
     use.features.fragmentStoresAndAtomics = VK_TRUE; // lists of translucent fragments
     use.features.samplerAnisotropy = d.anisotropy;
-    use.features.geometryShader = d.exact; // what SPIR-V asks for reading gl_PrimitiveID
+    use.features.dualSrcBlend = d.dualSource; // layers that let colours through
+    use.features.geometryShader = d.exact;    // what SPIR-V asks for reading gl_PrimitiveID
     use.pNext = &use12;
 
     const float priority = 1;

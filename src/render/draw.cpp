@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "cotan/portable.hpp"
 #include "cotan/scene/environment.hpp"
@@ -129,6 +130,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environment = view.environment;
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
+        key.specularAntialiasing = view.specularAntialiasing;
         key.softShadows = key.shadows && view.shadowSoftness > 0;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;
@@ -152,11 +154,13 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
     filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
     pictureSampler_ = vk::raii::Sampler(device.device, filtering);
-    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, 3),
-                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 5)};
-    pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
+    constexpr std::uint32_t kSets = 2;
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 4)};
+    pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, kSets, sizes));
     pictureSet_ = allocateSet(device, pool_, layouts.picture);
+    composeSet_ = allocateSet(device, pool_, layouts.picture);
 }
 
 Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const Axes& axes) const
@@ -174,13 +178,11 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
         item.distance =
             eyeDistance(instance.toWorld, item.mesh->box.empty() ? glm::vec3(0) : item.mesh->box.centre(), axes);
-        switch (item.material->alphaMode) {
-        case AlphaMode::opaque: lists.opaque.push_back(item); break;
-        case AlphaMode::mask: lists.mask.push_back(item); break;
-        case AlphaMode::blend:
-            item.constants.order = static_cast<std::uint32_t>(lists.blend.size());
-            lists.blend.push_back(item);
-            break;
+        if (item.material->translucent) {
+            item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
+            lists.translucent.push_back(item);
+        } else {
+            (item.material->alphaMode == AlphaMode::mask ? lists.mask : lists.opaque).push_back(item);
         }
     }
     const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
@@ -210,15 +212,6 @@ void Drawer::prepare(const View& view, const Axes& axes, const gpu::CotanView& c
     writePictureSet(layered);
 }
 
-void Drawer::prepareLayers()
-{
-    const std::uint32_t width = targets_->kind().width;
-    if (layers_ && layers_->width() == width)
-        return;
-    layers_.reset(); // its memory may be needed for the new ones
-    layers_ = std::make_unique<LayerLists>(*device_, width);
-}
-
 // Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
 // driver (22.3) does.
 void Drawer::writePictureSet(bool layered)
@@ -230,6 +223,7 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
+    const bool multisampled = layered && targets_->multisampled();
     const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
     const auto held = [&](const HeldPicture& picture) {
         return picture.owner
@@ -238,30 +232,33 @@ void Drawer::writePictureSet(bool layered)
     };
     const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
     using T = vk::DescriptorType;
-    device_->device.updateDescriptorSets(
-        {vk::WriteDescriptorSet(pictureSet_, 0, 0, T::eUniformBuffer, {}, view),
-         vk::WriteDescriptorSet(pictureSet_, 1, 0, T::eStorageBuffer, {}, lights),
-         vk::WriteDescriptorSet(pictureSet_, 2, 0, T::eCombinedImageSampler, shadow),
-         vk::WriteDescriptorSet(pictureSet_, 3, 0, T::eStorageBuffer, {}, lists),
-         vk::WriteDescriptorSet(pictureSet_, 4, 0, T::eStorageBuffer, {}, layers),
-         vk::WriteDescriptorSet(pictureSet_, 5, 0, T::eCombinedImageSampler,
-                                layered && targets_->multisampled() ? depth : shadow),
-         vk::WriteDescriptorSet(pictureSet_, 6, 0, T::eCombinedImageSampler, environment),
-         vk::WriteDescriptorSet(pictureSet_, 7, 0, T::eCombinedImageSampler, found),
-         vk::WriteDescriptorSet(pictureSet_, 8, 0, T::eCombinedImageSampler, ground)},
-        {});
+    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths) {
+        device_->device.updateDescriptorSets({vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
+                                              vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
+                                              vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
+                                              vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
+                                              vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
+                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, environment),
+                                              vk::WriteDescriptorSet(set, 6, 0, T::eCombinedImageSampler, found),
+                                              vk::WriteDescriptorSet(set, 7, 0, T::eCombinedImageSampler, ground)},
+                                             {});
+    };
+    write(pictureSet_, shadow);
+    write(composeSet_, multisampled ? depth : shadow);
 }
 
 void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
 {
     const GpuMesh& mesh = *item.mesh;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 1, item.material->set, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layouts_->pipelineOf(item.material->extended()), 1,
+                                item.material->set, {});
     std::array<vk::Buffer, kStreamCount> buffers;
     buffers.fill(*scene.buffers[mesh.buffer].buffer);
     // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
     commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
     commands.bindIndexBuffer(buffers[0], mesh.indices, vk::IndexType::eUint32);
-    commands.pushConstants<gpu::CotanDraw>(*layouts_->pipeline, kBothStages, 0, item.constants);
+    commands.pushConstants<gpu::CotanDraw>(layouts_->pipelineOf(item.material->extended()), kBothStages, 0,
+                                           item.constants);
     commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
 }
 
@@ -269,13 +266,16 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
                        PipelineKey key)
 {
     const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
-    const std::uint32_t asked = shadow ? 0 : mapsNeeded(key);
-    const Item* before = nullptr;
+    std::optional<PipelineKey> bound;
     for (const Item& item : items) {
-        key.maps = item.material->maps & asked;
-        if (!before || (before->material->maps & asked) != key.maps)
+        key.extended = key.pass != Pass::shadow && item.material->extended();
+        if (!shadow) {
+            key.alphaMode = item.material->alphaMode;
+            key.maps = item.material->maps & mapsNeeded(key);
+        }
+        if (bound != key)
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
-        before = &item;
+        bound = key;
         const bool both = shadow || item.material->doubleSided;
         commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
@@ -296,16 +296,14 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
 void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
                            const View& view)
 {
-    PipelineKey key = forwardKey(view, *targets_);
+    const PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
     drawItems(commands, scene, lists.opaque, key);
-    key.alphaMode = AlphaMode::mask;
     drawItems(commands, scene, lists.mask, key);
     if (shaded && (view.background || view.ground))
         drawOver(commands, backgroundKey(view));
-    key.alphaMode = AlphaMode::blend;
     if (!shaded)
-        drawItems(commands, scene, lists.blend, key);
+        drawItems(commands, scene, lists.translucent, key);
 }
 
 const vk::raii::CommandBuffer& Drawer::begin()
@@ -329,7 +327,7 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     const Axes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
     DrawLists lists = makeLists(scene, view, axes);
-    const bool layered = view.output == Output::shaded && !lists.blend.empty();
+    const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     const gpu::CotanView constants = viewConstants(view, axes, scene.bounds);
     prepare(view, axes, constants, layered);
     setAreas(lists, view, constants);

@@ -55,11 +55,11 @@ private:
     };
     // All of them, in the order in which they are drawn.
     struct DrawLists {
-        std::vector<Item> opaque; // near to far
-        std::vector<Item> mask;   // near to far
-        std::vector<Item> blend;  // as in the scene
-        PixelArea area;           // of the picture, that all may cover
-        PixelArea blendArea;
+        std::vector<Item> opaque;      // near to far
+        std::vector<Item> mask;        // near to far
+        std::vector<Item> translucent; // as in the scene
+        PixelArea area;                // of the picture, that all may cover
+        PixelArea translucentArea;
     };
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
@@ -99,7 +99,7 @@ private:
     HeldPicture ground_;
     vk::raii::Sampler pictureSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::DescriptorSet pictureSet_; // owned by the pool
+    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool
     std::unique_ptr<Targets> targets_;
     std::unique_ptr<LayerLists> layers_; // once there is something translucent
     vk::raii::Sampler depthSampler_{nullptr};

@@ -31,8 +31,8 @@ void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& 
             all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
         return all;
     };
-    lists.blendArea = areaOfItems(lists.blend);
-    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.blendArea);
+    lists.translucentArea = areaOfItems(lists.translucent);
+    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
 }
 
 PipelineKey Drawer::backgroundKey(const View& view) const

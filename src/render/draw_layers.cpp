@@ -6,18 +6,26 @@
 
 namespace cotan {
 
+void Drawer::prepareLayers()
+{
+    const std::uint32_t width = targets_->kind().width;
+    if (layers_ && layers_->width() == width)
+        return;
+    layers_.reset(); // its memory may be needed for the new ones
+    layers_ = std::make_unique<LayerLists>(*device_, width);
+}
+
 // Draws the translucent fragments of a band into their lists; returns how many there are.
 std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
                                  const vk::Rect2D& band)
 {
     PipelineKey key = forwardKey(view, *targets_);
     key.pass = Pass::layers;
-    key.alphaMode = AlphaMode::blend;
     key.format = vk::Format::eUndefined;
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
     targets_->beginLayers(commands, band);
-    drawItems(commands, scene, lists.blend, key);
+    drawItems(commands, scene, lists.translucent, key);
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
@@ -33,6 +41,7 @@ void Drawer::composeLayers(const vk::Rect2D& band)
     key.samples = targets_->kind().samples;
     key.format = targets_->kind().format;
     const vk::raii::CommandBuffer& commands = begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
     targets_->beginCompose(commands, band);
     for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(key.samples); ++sample) {
         commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);
@@ -45,7 +54,7 @@ void Drawer::composeLayers(const vk::Rect2D& band)
 // The picture in bands of rows that are low enough for their layers to find room.
 Status Drawer::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
 {
-    const PixelArea& area = lists.blendArea;
+    const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
     std::uint32_t rows = layers_->mostRows();
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {

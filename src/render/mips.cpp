@@ -36,15 +36,18 @@ f32::cotan_normal_format portableFormat(const MipRequest& request)
     return format;
 }
 
+// Unit and 1; zeros where there is no direction.
 vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
 {
-    return vec4(f32::cotan_decode(glm::vec3(texel), format), texel.w);
+    const glm::vec3 unit = f32::cotan_normalize_or(f32::cotan_decode(glm::vec3(texel), format), glm::vec3(0));
+    return vec4(unit, unit == glm::vec3(0) ? 0 : 1);
 }
 
 vec4 encodedNormal(const vec4& average, const f32::cotan_normal_format& format)
 {
     const glm::vec3 unit = f32::cotan_normalize_or(glm::vec3(average), glm::vec3(0, 0, 1));
-    return vec4(f32::cotan_encode_texel(unit, format), average.w);
+    const float length = average.w > 0 ? glm::length(glm::vec3(average)) / average.w : 1;
+    return vec4(f32::cotan_encode_texel(unit, format), length);
 }
 
 // sRGB byte to linear.
@@ -220,9 +223,25 @@ template<class TexelAt> void addLevel(MipChain& chain, int width, int height, Te
     chain.levels.push_back({width, height, data});
 }
 
+bool opaque(const Image& image)
+{
+    const auto ends = [&](const auto* words) {
+        using Word = std::decay_t<decltype(*words)>;
+        bool all = true;
+        for (std::size_t i = 3; i < 4 * image.pixelCount(); i += 4)
+            all = all && words[i] == std::numeric_limits<Word>::max();
+        return all;
+    };
+    return image.type == PixelType::unorm8 ? ends(image.bytes8())
+        : image.type == PixelType::unorm16 ? ends(image.words())
+                                           : false;
+}
+
 bool storedAsItIs(const MipRequest& request)
 {
     const PixelType type = request.image->type;
+    if (request.kind == TextureKind::normal && !opaque(*request.image))
+        return false; // a texel of the file is one direction, whatever its alpha says
     return (type == PixelType::unorm8
             && (request.format == TexelFormat::srgb8 || request.format == TexelFormat::unorm8))
         || (type == PixelType::unorm16 && request.format == TexelFormat::unorm16 && request.kind != TextureKind::color);
@@ -241,6 +260,9 @@ void addFinestLevel(MipChain& chain, const MipRequest& request)
     std::vector<std::byte>& data = chain.own.emplace_back(image.pixelCount() * size);
     for (int y = 0; y < image.height; ++y) {
         readRow(image, y, request.kind, row.data());
+        if (request.kind == TextureKind::normal)
+            for (vec4& texel : row)
+                texel.w = 1;
         std::byte* out = data.data() + std::size_t(y) * row.size() * size;
         for (std::size_t x = 0; x < row.size(); ++x)
             storeTexel(row[x], chain.format, out + x * size);

@@ -12,8 +12,10 @@
 namespace cotan {
 
 enum class TextureKind {
-    color,  // sRGB with linear alpha; float images are linear already
-    normal, // averaged as decoded vectors, made unit, encoded again
+    color, // sRGB with linear alpha; float images are linear already
+    // Averaged as decoded vectors, made unit, encoded again; the fourth channel has the length of the average, 1 in
+    // the finest level.
+    normal,
     data,
 };
 

@@ -19,8 +19,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 15> values;
-    std::array<vk::SpecializationMapEntry, 15> entries;
+    std::array<std::uint32_t, 17> values;
+    std::array<vk::SpecializationMapEntry, 17> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -38,7 +38,9 @@ struct Specialization {
                  key.environmentMap,
                  key.softShadows,
                  static_cast<std::uint32_t>(key.backdrop),
-                 key.ground}
+                 key.ground,
+                 key.samples != vk::SampleCountFlagBits::e1,
+                 key.specularAntialiasing}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -53,6 +55,13 @@ struct StageShaders {
     std::optional<Shader> fragment;
 };
 
+// The shader of a surface. exact: fragments are told their triangle.
+Shader forwardShader(const PipelineKey& key, bool exact)
+{
+    const int kind = key.pass == Pass::layers ? 2 : key.alphaMode == AlphaMode::mask ? 1 : 0;
+    return Shader(int(Shader::forwardFrag) + 4 * kind + (key.extended ? 2 : 0) + (exact ? 1 : 0));
+}
+
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
@@ -61,14 +70,13 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
     case Pass::surround:
     case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers: return {Shader::forwardVert, exact ? Shader::forwardExactLayersFrag : Shader::forwardLayersFrag};
+    case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
     case Pass::compose:
         return {Shader::composeVert,
                 key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
     case Pass::forward: break;
     }
-    return {Shader::forwardVert,
-            info(key.frame).source == FrameSource::triangle ? Shader::forwardExactFrag : Shader::forwardFrag};
+    return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround; }
@@ -104,15 +112,16 @@ struct VertexInput {
     VertexInput(const VertexInput&) = delete;
 };
 
-// Of colours that are multiplied by their alpha.
-vk::PipelineColorBlendAttachmentState blending(bool blend)
+// Of colours that are multiplied by their alpha. What is there counts by a factor of its own for each channel, or,
+// where the device cannot, by the mean of the three.
+vk::PipelineColorBlendAttachmentState blending(bool blend, bool dualSource)
 {
     using C = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState state;
     state.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
     state.blendEnable = blend;
     state.srcColorBlendFactor = vk::BlendFactor::eOne;
-    state.dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    state.dstColorBlendFactor = dualSource ? vk::BlendFactor::eSrc1Color : vk::BlendFactor::eOneMinusSrcAlpha;
     state.srcAlphaBlendFactor = vk::BlendFactor::eOne;
     state.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
     return state;
@@ -148,13 +157,19 @@ Layouts::Layouts(const Device& device)
     constexpr T kImage = T::eCombinedImageSampler;
     picture = makeSetLayout(device,
                             std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
-                                       T::eStorageBuffer, kImage, kImage, kImage, kImage});
+                                       T::eStorageBuffer, kImage, kImage, kImage});
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
+    extendedMaterial = makeSetLayout(device, ofMaterial);
+    ofMaterial.resize(1 + COTAN_MAP_COUNT_PLAIN);
     material = makeSetLayout(device, ofMaterial);
-    const std::array sets{*picture, *material};
     const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
-    pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    const auto pipelineWith = [&](const vk::raii::DescriptorSetLayout& layout) {
+        const std::array sets{*picture, *layout};
+        return vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    };
+    pipeline = pipelineWith(material);
+    extendedPipeline = pipelineWith(extendedMaterial);
 }
 
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
@@ -195,7 +210,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
     const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key.pass);
-    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose);
+    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose, device_->dualSource);
     const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
     std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                           vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
@@ -205,7 +220,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     const vk::PipelineRenderingCreateInfo rendering(
         0, colors, &key.format, hasDepth(key.pass) ? vk::Format::eD32Sfloat : vk::Format::eUndefined);
     vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
-                                        &multisample, &depth, &color, &dynamicState, *layouts_->pipeline);
+                                        &multisample, &depth, &color, &dynamicState,
+                                        layouts_->pipelineOf(key.extended));
     info.pNext = &rendering;
     return vk::raii::Pipeline(device_->device, nullptr, info);
 }

@@ -17,10 +17,18 @@ inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::Shade
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    // Set 0: view, lights, shadow map, lists, layers, opaque depth, environment, shadow map as depth, ground.
+    // Set 0: view, lights, shadow map (or, where layers are composed, opaque depth), lists, layers, environment, shadow
+    // map as depth, ground.
     vk::raii::DescriptorSetLayout picture{nullptr};
-    vk::raii::DescriptorSetLayout material{nullptr}; // set 1
-    vk::raii::PipelineLayout pipeline{nullptr};
+    // Set 1 of materials without extensions and with them, and the pipelines that draw them.
+    vk::raii::DescriptorSetLayout material{nullptr}, extendedMaterial{nullptr};
+    vk::raii::PipelineLayout pipeline{nullptr}, extendedPipeline{nullptr};
+
+    const vk::raii::DescriptorSetLayout& materialOf(bool extended) const
+    {
+        return extended ? extendedMaterial : material;
+    }
+    vk::PipelineLayout pipelineOf(bool extended) const { return extended ? *extendedPipeline : *pipeline; }
 };
 
 // A set that lives as long as its pool.
@@ -44,12 +52,14 @@ struct PipelineKey {
     bool environment = true;
     bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
+    bool specularAntialiasing = false;
     bool softShadows = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
     int backdrop = 0; // BACKDROP_... of background.frag
     bool ground = false;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
+    bool extended = false;  // of materials with extensions
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
 

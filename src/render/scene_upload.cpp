@@ -163,8 +163,14 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
         maps = (maps & ~COTAN_MAP_OCCLUSION) | COTAN_MAP_OCCLUSION_SHARED;
     if (m.coat.strength > 0)
         maps |= COTAN_LAYER_COAT;
-    if (m.anisotropy.strength > 0)
+    if (m.glossy())
         maps |= COTAN_LAYER_GLOSS;
+    if (m.anisotropy.strength > 0)
+        maps |= COTAN_LAYER_ANISOTROPY;
+    if (m.transmission.strength > 0)
+        maps |= COTAN_LAYER_TRANSMISSION;
+    if (m.sheen.present())
+        maps |= COTAN_LAYER_SHEEN;
     return maps;
 }
 
@@ -190,14 +196,17 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
     g.normalMap = normalConstants(scene, m.normalMap, m.normalFormat);
     g.normalMap.w = m.unlit ? 1 : 0;
-    g.coat = gpu::vec4(m.coat.strength, m.coat.roughness, m.coat.normalScale, 0);
+    g.coat = gpu::vec4(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.transmission.strength);
     g.coatNormalMap = normalConstants(scene, m.coat.normalMap, {});
     g.coatNormalMap.w = sameUv(m.coat.normalMap, m.normalMap.present() ? m.normalMap : Texture{}) ? 1 : 0;
     const Anisotropy& a = m.anisotropy;
-    g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), 0);
-    gpu::CotanTextureUse* const uses[] = {&g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,
-                                          &g.occlusionMap,     &g.emissiveMap,          &g.coatMap,
-                                          &g.coatRoughnessMap, &g.coatNormalMapUse,     &g.anisotropyMap};
+    g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
+    g.specular = gpu::vec4(m.specular.color, m.specular.strength);
+    g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
+    gpu::CotanTextureUse* const uses[] = {
+        &g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,      &g.occlusionMap,   &g.emissiveMap,
+        &g.coatMap,          &g.coatRoughnessMap,     &g.coatNormalMapUse,  &g.anisotropyMap,  &g.specularMap,
+        &g.specularColorMap, &g.sheenColorMap,        &g.sheenRoughnessMap, &g.transmissionMap};
     std::size_t k = 0;
     for (const MapUse& use : mapUses(m))
         *uses[k++] = useConstants(*use.texture, textures.present(use));
@@ -303,8 +312,9 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         GpuMaterial& gpu = materials[i];
         gpu.alphaMode = m.alphaMode;
         gpu.doubleSided = m.doubleSided;
+        gpu.translucent = m.translucent();
         gpu.maps = mapsOf(m, textures_);
-        gpu.set = allocateSet(*device_, pool_, layouts.material);
+        gpu.set = allocateSet(*device_, pool_, layouts.materialOf(gpu.extended()));
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
         device_->device.updateDescriptorSets(
             vk::WriteDescriptorSet(gpu.set, 0, 0, vk::DescriptorType::eUniformBuffer, {}, buffer), {});
@@ -314,7 +324,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 }
 
 // Every set of maps is a pipeline to compile. Where there are many, all materials take one that
-// does everything and asks at run time.
+// does everything and asks at run time; those with extensions one of their own.
 void GpuScene::limitPipelines()
 {
     constexpr std::size_t kMost = 4;
@@ -330,20 +340,19 @@ void GpuScene::limitPipelines()
     for (const std::uint32_t set : sets)
         all |= set & ~COTAN_MAP_OCCLUSION_SHARED;
     for (GpuMaterial& material : materials)
-        material.maps = all;
+        material.maps = material.extended() ? all : all & COTAN_MAPS_PLAIN;
 }
 
 void GpuScene::writeTextures(std::size_t material)
 {
+    const std::size_t count = materials[material].extended() ? COTAN_MAP_COUNT : COTAN_MAP_COUNT_PLAIN;
     std::array<vk::DescriptorImageInfo, COTAN_MAP_COUNT> images;
-    for (std::size_t k = 0; k < images.size(); ++k) {
+    std::vector<vk::WriteDescriptorSet> writes;
+    for (std::uint32_t k = 0; k < count; ++k) {
         const BoundMap& map = maps_[material][k];
         images[k] = {samplers_.get(map.sampler, pointSampled_), map.view, vk::ImageLayout::eShaderReadOnlyOptimal};
+        writes.emplace_back(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
     }
-    std::array<vk::WriteDescriptorSet, COTAN_MAP_COUNT> writes;
-    for (std::uint32_t k = 0; k < writes.size(); ++k)
-        writes[k] = vk::WriteDescriptorSet(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler,
-                                           images[k]);
     device_->device.updateDescriptorSets(writes, {});
 }
 

@@ -42,8 +42,11 @@ struct GpuMesh {
 struct GpuMaterial {
     AlphaMode alphaMode = AlphaMode::opaque;
     bool doubleSided = false;
+    bool translucent = false;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...
-    vk::DescriptorSet set;  // owned by the scene's pool
+    vk::DescriptorSet set;  // owned by the scene's pool; as Layouts::materialOf(extended())
+
+    bool extended() const { return (maps & ~COTAN_MAPS_PLAIN) != 0; }
 };
 
 struct GpuInstance {

@@ -5,10 +5,18 @@
 #include "cotanComposeFrag.h"
 #include "cotanComposeMultisampledFrag.h"
 #include "cotanComposeVert.h"
+#include "cotanForwardExactExtendedFrag.h"
+#include "cotanForwardExactExtendedLayersFrag.h"
+#include "cotanForwardExactExtendedMaskedFrag.h"
 #include "cotanForwardExactFrag.h"
 #include "cotanForwardExactLayersFrag.h"
+#include "cotanForwardExactMaskedFrag.h"
+#include "cotanForwardExtendedFrag.h"
+#include "cotanForwardExtendedLayersFrag.h"
+#include "cotanForwardExtendedMaskedFrag.h"
 #include "cotanForwardFrag.h"
 #include "cotanForwardLayersFrag.h"
+#include "cotanForwardMaskedFrag.h"
 #include "cotanForwardVert.h"
 #include "cotanShadowFrag.h"
 #include "cotanShadowVert.h"
@@ -21,8 +29,16 @@ std::span<const std::uint32_t> spirv(Shader shader)
     case Shader::forwardVert: return cotanForwardVert;
     case Shader::forwardFrag: return cotanForwardFrag;
     case Shader::forwardExactFrag: return cotanForwardExactFrag;
+    case Shader::forwardExtendedFrag: return cotanForwardExtendedFrag;
+    case Shader::forwardExactExtendedFrag: return cotanForwardExactExtendedFrag;
+    case Shader::forwardMaskedFrag: return cotanForwardMaskedFrag;
+    case Shader::forwardExactMaskedFrag: return cotanForwardExactMaskedFrag;
+    case Shader::forwardExtendedMaskedFrag: return cotanForwardExtendedMaskedFrag;
+    case Shader::forwardExactExtendedMaskedFrag: return cotanForwardExactExtendedMaskedFrag;
     case Shader::forwardLayersFrag: return cotanForwardLayersFrag;
     case Shader::forwardExactLayersFrag: return cotanForwardExactLayersFrag;
+    case Shader::forwardExtendedLayersFrag: return cotanForwardExtendedLayersFrag;
+    case Shader::forwardExactExtendedLayersFrag: return cotanForwardExactExtendedLayersFrag;
     case Shader::composeVert: return cotanComposeVert;
     case Shader::composeFrag: return cotanComposeFrag;
     case Shader::composeMultisampledFrag: return cotanComposeMultisampledFrag;

@@ -8,10 +8,21 @@ namespace cotan {
 
 enum class Shader {
     forwardVert,
+    // For opaque materials, masked ones and translucent layers; of these for materials without and with what extensions
+    // add; of these without and with the frame `exact` (needs the features geometryShader, for gl_PrimitiveID, and
+    // buffer addresses).
     forwardFrag,
-    forwardExactFrag, // needs the features geometryShader (for gl_PrimitiveID) and buffer addresses
+    forwardExactFrag,
+    forwardExtendedFrag,
+    forwardExactExtendedFrag,
+    forwardMaskedFrag,
+    forwardExactMaskedFrag,
+    forwardExtendedMaskedFrag,
+    forwardExactExtendedMaskedFrag,
     forwardLayersFrag,
-    forwardExactLayersFrag, // as forwardExactFrag
+    forwardExactLayersFrag,
+    forwardExtendedLayersFrag,
+    forwardExactExtendedLayersFrag,
     composeVert,
     composeFrag,
     composeMultisampledFrag,
@@ -21,7 +32,7 @@ enum class Shader {
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 12;
+inline constexpr int kShaderCount = 20;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);

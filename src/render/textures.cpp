@@ -109,7 +109,12 @@ std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
              {&m.coat.map, K::data, {}},
              {&m.coat.roughnessMap, K::data, {}},
              {&m.coat.normalMap, K::normal, {}},
-             {&m.anisotropy.map, K::data, {}}}};
+             {&m.anisotropy.map, K::data, {}},
+             {&m.specular.map, K::data, {}},
+             {&m.specular.colorMap, K::color, {}},
+             {&m.sheen.colorMap, K::color, {}},
+             {&m.sheen.roughnessMap, K::data, {}},
+             {&m.transmission.map, K::data, {}}}};
 }
 
 Textures::Key Textures::keyOf(const MapUse& use)

@@ -107,7 +107,12 @@ private:
             {&m.coat.map, "coat"},
             {&m.coat.roughnessMap, "coat roughness"},
             {&m.coat.normalMap, "coat normal map"},
-            {&m.anisotropy.map, "anisotropy"}};
+            {&m.anisotropy.map, "anisotropy"},
+            {&m.specular.map, "specular"},
+            {&m.specular.colorMap, "specular colour"},
+            {&m.sheen.colorMap, "sheen colour"},
+            {&m.sheen.roughnessMap, "sheen roughness"},
+            {&m.transmission.map, "transmission"}};
         for (const auto& [texture, name] : textures)
             if (Problem problem = checkTexture(*texture, name))
                 return problem;
@@ -115,7 +120,9 @@ private:
         if (Problem problem = checkNumbers("expected finite factors", m.baseColor, m.emissive, factors, m.alphaCutoff))
             return problem;
         const glm::vec4 coat(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.anisotropy.strength);
-        if (Problem problem = checkNumbers("expected finite factors of extensions", coat, m.anisotropy.rotation))
+        const glm::vec4 layers(m.anisotropy.rotation, m.specular.ior, m.specular.strength, m.sheen.roughness);
+        if (Problem problem = checkNumbers("expected finite factors of extensions", coat, layers, m.specular.color,
+                                           m.sheen.color, m.transmission.strength))
             return problem;
         const int expansion = int(m.normalFormat.expansion), channels = int(m.normalFormat.channels);
         if (!below(expansion, COTAN_EXPAND_EXACT16 + 1) || !below(channels, COTAN_CHANNELS_SLOPE + 1))

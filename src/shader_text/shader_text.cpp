@@ -55,7 +55,7 @@ std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
     std::vector<std::string> roots;
     for (const Function& f : module.functions)
         if (f.part == "entry" || (choice.gradients && f.part == "gradient") || (choice.blends && f.part == "blend")
-            || (choice.lights && f.part == "light"))
+            || (choice.lights && (f.part == "light" || f.part == "sheen")))
             roots.push_back(f.name);
     return roots;
 }

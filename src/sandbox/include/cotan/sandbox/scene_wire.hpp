@@ -59,6 +59,17 @@ template<class W, class T> void exchangeLayers(W& w, T& m)
     w.number(m.anisotropy.strength);
     w.number(m.anisotropy.rotation);
     exchangeTexture(w, m.anisotropy.map);
+    w.number(m.specular.ior);
+    w.number(m.specular.strength);
+    w.number(m.specular.color);
+    exchangeTexture(w, m.specular.map);
+    exchangeTexture(w, m.specular.colorMap);
+    w.number(m.sheen.color);
+    w.number(m.sheen.roughness);
+    exchangeTexture(w, m.sheen.colorMap);
+    exchangeTexture(w, m.sheen.roughnessMap);
+    w.number(m.transmission.strength);
+    exchangeTexture(w, m.transmission.map);
 }
 
 template<class W, class T> void exchangeMaterial(W& w, T& m)

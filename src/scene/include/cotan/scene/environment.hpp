@@ -66,20 +66,17 @@ inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, f
 }
 
 // What a surface reflects of its surroundings.
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
+inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
 {
-    return f32::cotan_reflect_image(s, glm::vec3(0.04f), 1, irradianceAlong(map, s.n),
-                                    radianceAlong(map, f32::cotan_mirrored(s.n, s.v), s.roughness),
+    const glm::vec3 mirrored = f32::cotan_mirrored(f32::cotan_reflecting_normal(s, g), s.v);
+    return f32::cotan_reflect_image(s, g, irradianceAlong(map, s.n), radianceAlong(map, mirrored, s.roughness),
                                     albedoOf(map, s.n, s.v, s.roughness));
 }
 
-// The same with reflections of its own.
-inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
+// The same of metallic-roughness alone.
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
 {
-    const glm::vec3 n = g.anisotropy > 0 ? f32::cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t) : s.n;
-    return f32::cotan_reflect_image(s, g.f0, g.f90, irradianceAlong(map, s.n),
-                                    radianceAlong(map, f32::cotan_mirrored(n, s.v), s.roughness),
-                                    albedoOf(map, s.n, s.v, s.roughness));
+    return reflectedGlossy(map, s, f32::cotan_plain_gloss());
 }
 
 inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)

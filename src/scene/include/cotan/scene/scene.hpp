@@ -60,6 +60,31 @@ struct Anisotropy {
     Texture map;        // linear: r and g the direction, 2c - 1, along +u and -v; b, times strength
 };
 
+// What a dielectric reflects (KHR_materials_ior, KHR_materials_specular).
+struct Specular {
+    float ior = 1.5f;         // index of refraction, at least 1; 0: as if infinite
+    float strength = 1;       // 0 to 1
+    glm::vec3 color{1, 1, 1}; // linear, of light from the front
+    Texture map;              // linear: a, times strength
+    Texture colorMap;         // sRGB
+};
+
+// The fibres of cloth (KHR_materials_sheen).
+struct Sheen {
+    glm::vec3 color{0, 0, 0}; // linear, 0 to 1; black: none
+    float roughness = 0;      // 0 to 1
+    Texture colorMap;         // sRGB
+    Texture roughnessMap;     // linear: a, times roughness
+
+    bool present() const { return color != glm::vec3(0); }
+};
+
+// Light that passes as through a thin sheet (KHR_materials_transmission).
+struct Transmission {
+    float strength = 0; // 0 to 1
+    Texture map;        // linear: r, times strength
+};
+
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
@@ -80,7 +105,20 @@ struct Material {
     bool unlit = false;
     Coat coat;
     Anisotropy anisotropy;
+    Specular specular;
+    Sheen sheen;
+    Transmission transmission;
     std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; empty if none
+
+    // What is behind it shows.
+    bool translucent() const { return alphaMode == AlphaMode::blend || transmission.strength > 0; }
+    // Its reflections are others than those of metallic-roughness, or take less than all light.
+    bool glossy() const
+    {
+        const bool plain = specular.ior == 1.5f && specular.strength == 1 && specular.color == glm::vec3(1)
+            && !specular.map.present() && !specular.colorMap.present();
+        return !plain || anisotropy.strength > 0 || transmission.strength > 0;
+    }
 };
 
 // Triangles with one material. Every attribute array is empty or has vertexCount() entries.

@@ -74,7 +74,9 @@ struct View {
     bool linearOutput = false;                   // shaded: float32, linear, not tone mapped
     ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;
-    int samples = 4;           // shaded only: 1 or 4 a pixel
+    int samples = 4; // shaded only: 1 or 4 a pixel
+    // Shaded: rougher where normals turn within a pixel, or where a filtered texel of the normal map is short.
+    bool specularAntialiasing = false;
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers
     Derivatives derivatives = Derivatives::fine;
     // Which way the rows of the raster run while it is drawn. The picture comes out upright in

@@ -43,7 +43,7 @@ struct Choice {
     bool callerDifferences = false; // leave out the function that takes derivatives itself
     bool gradients = false;         // add all of gradient.h
     bool blends = false;            // add all of blend.h
-    bool lights = false;            // add all of light.h
+    bool lights = false;            // add all of light.h and sheen.h
 };
 
 struct ShaderText {
