@@ -4,6 +4,9 @@
 #include <cctype>
 #include <cstring>
 
+#include "gpu_structs.hpp"
+#include "pipeline.hpp"
+
 namespace cotan {
 
 namespace {
@@ -100,6 +103,12 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
         return "lacks dynamicRendering or synchronization2";
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics)
         return "lacks fragmentStoresAndAtomics";
+    const vk::PhysicalDeviceLimits& limits = properties.limits; // Vulkan promises 16 of each
+    const std::uint32_t images =
+        std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages);
+    if (images < kImagesOfPicture + COTAN_MAP_COUNT)
+        return "reads at most " + std::to_string(images) + " images in a shader, needs "
+            + std::to_string(kImagesOfPicture + COTAN_MAP_COUNT);
     return {};
 }
 

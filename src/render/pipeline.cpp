@@ -1,5 +1,6 @@
 #include "pipeline.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "gpu_structs.hpp"
@@ -155,9 +156,10 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    picture = makeSetLayout(device,
-                            std::array{T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer,
-                                       T::eStorageBuffer, kImage, kImage, kImage});
+    constexpr std::array ofPicture{
+        T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage, kImage};
+    static_assert(std::count(ofPicture.begin(), ofPicture.end(), kImage) == kImagesOfPicture);
+    picture = makeSetLayout(device, ofPicture);
     std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
     ofMaterial[0] = T::eUniformBuffer;
     extendedMaterial = makeSetLayout(device, ofMaterial);

@@ -14,6 +14,9 @@ namespace cotan {
 
 inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
+// Of Layouts::picture.
+inline constexpr std::uint32_t kImagesOfPicture = 4;
+
 struct Layouts {
     explicit Layouts(const Device& device);
 
