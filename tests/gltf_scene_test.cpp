@@ -115,6 +115,63 @@ TEST(GltfNodes, aChainOfManyNodesIsNoProblem)
 
 // ---- materials ------------------------------------------------------------------------------
 
+LoadLimits shown(const std::string& variant)
+{
+    LoadLimits limits;
+    limits.variant = variant;
+    return limits;
+}
+
+// A square that is red, green where the variant "leaf" is asked for.
+Gltf leaf()
+{
+    Gltf g = square();
+    g.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}},
+                           {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}}};
+    g.root["meshes"][0]["primitives"][0]["material"] = 0;
+    g.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+        {{"variants", {1}}, {"material", 1}}};
+    g.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "bare"}}, {{"name", "leaf"}}};
+    g.root["extensionsUsed"] = {"KHR_materials_variants"};
+    return g;
+}
+
+TEST(GltfVariant, isThatOfItsNameOrNumber)
+{
+    for (const auto& [variant, green] : {std::pair{"", 0.0f}, {"bare", 0.0f}, {"leaf", 1.0f}, {"1", 1.0f}}) {
+        COTAN_LOADED(scene, leaf().load(shown(variant)));
+        EXPECT_EQ(scene.materials[std::size_t(scene.meshes[0].material)].baseColor.y, green) << variant;
+    }
+}
+
+TEST(GltfVariant, thatIsNotThereOrDamagedIsRefused)
+{
+    const auto none = leaf().load(shown("bark"));
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().kind, ErrorKind::usage);
+    EXPECT_NE(
+        none.error().message.find("expected one of its 2 variants by number or name (bare, leaf), found \"bark\""),
+        std::string::npos)
+        << none.error().message;
+    EXPECT_FALSE(square().load(shown("leaf")));
+    for (const json& broken : {json(2), json(-1), json("red"), json()}) {
+        Gltf g = leaf();
+        g.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"][0]["material"] =
+            broken;
+        EXPECT_TRUE(g.load()) << broken;
+        const auto refused = g.load(shown("leaf"));
+        ASSERT_FALSE(refused) << broken;
+        EXPECT_NE(refused.error().message.find("meshes[0].primitives[0].extensions.KHR_materials_variants"),
+                  std::string::npos)
+            << refused.error().message;
+    }
+    for (const json& odd : {json(3), json::array({1, "x", json::object()}), json::object()}) {
+        Gltf g = leaf();
+        g.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = odd;
+        EXPECT_TRUE(g.load(shown("leaf"))) << odd;
+    }
+}
+
 TEST(GltfMaterial, defaultsAreThoseOfTheSpecification)
 {
     Gltf g = square();

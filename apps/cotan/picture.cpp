@@ -54,6 +54,9 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
     addMemoryOption(a, o.memory);
     addOwnMaps(a, o.maps);
+    a.option("--variant", o.variant,
+             "variant of a glTF model's materials, by name or number; those of the file if left out")
+        .in("NAME|N");
     a.option("--animation", o.animation,
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
@@ -93,6 +96,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     Stopwatch watch;
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
         return size.error();
+    if (!options.variant.empty() && options.model.empty())
+        return usageError("--variant: expected a model; found the built-in scene");
     Picture picture;
     std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings; // made while the model is read
     if (!like)
@@ -105,6 +110,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     } else {
         LoadLimits limits = limitsFor(options.memory);
         limits.pose = {options.animation, options.time};
+        limits.variant = options.variant;
         auto scene = loadTold(common, limits, options.model);
         if (!scene)
             return scene.error();

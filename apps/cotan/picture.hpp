@@ -23,6 +23,7 @@ struct PictureOptions {
     PictureUse use = PictureUse::shown; // for the command to say
     std::string model;                  // empty: the built-in scene
     OwnMaps maps;
+    std::string variant;
     std::string animation;
     double time = 0;
     std::string size = "1280x720";

@@ -4,6 +4,7 @@
 
 #include "animate.hpp"
 #include "unpack.hpp"
+#include "variant.hpp"
 
 namespace cotan {
 
@@ -12,6 +13,7 @@ std::vector<std::string> readGltfModel(GltfModel& model)
     checkGltfShape(model.file.json, model.limits, model.warnings);
     loadGltfBuffers(model.file, model.limits);
     std::vector<std::string> unpacked = unpackGltf(model.file, model.limits);
+    chooseGltfVariant(model);
     model.structure = gltf::readStructure(model.file.json);
     findGltfAccessors(model);
     poseGltf(model);
