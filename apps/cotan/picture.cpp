@@ -32,7 +32,7 @@ Result<View> makeView(const PictureOptions& options, const Scene& scene)
     if (!parsed)
         return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
-    if (Status lit = lightPicture(options, scene, view); !lit)
+    if (Status lit = lightPicture(options, view); !lit)
         return lit.error();
     view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
     view.lighting = options.lighting == "world" ? Lighting::world
@@ -98,13 +98,13 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
         return size.error();
     if (!options.variant.empty() && options.model.empty())
         return usageError("--variant: expected a model; found the built-in scene");
+    if (options.animation.empty() ? options.time > 0 : options.model.empty())
+        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
+                                                    : "--animation: expected a model; found the built-in scene");
     Picture picture;
     std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings; // made while the model is read
     if (!like)
         surroundings = std::async(std::launch::async, openSurroundings, options);
-    if (options.animation.empty() ? options.time > 0 : options.model.empty())
-        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
-                                                    : "--animation: expected a model; found the built-in scene");
     if (options.model.empty()) {
         picture.scene = builtinScene();
     } else {

@@ -147,7 +147,7 @@ Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOpti
     return std::shared_ptr<const EnvironmentMap>(std::make_shared<const EnvironmentMap>(std::move(*map)));
 }
 
-Status lightPicture(const PictureOptions& options, const Scene& scene, View& view)
+Status lightPicture(const PictureOptions& options, View& view)
 {
     view.exposure = 1;
     if (options.exposure != "auto")
@@ -165,7 +165,6 @@ Status lightPicture(const PictureOptions& options, const Scene& scene, View& vie
     view.background = background != "none";
     if (view.background)
         view.backdrop = kBackdrops.at(background);
-    view.lights = lightsOf(options, scene);
     return Done{};
 }
 

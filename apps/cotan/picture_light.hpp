@@ -11,8 +11,9 @@ void addLightOptions(Arguments& a, PictureOptions& options);
 // The surroundings that the options name; null for none.
 Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options);
 
-// Sets what else the view has of light, by the options, for a picture of the scene; all but the ground.
-Status lightPicture(const PictureOptions& options, const Scene& scene, View& view);
+// Sets what else the view has of light, by the options; all but the lights and the ground, which the scene has a part
+// in.
+Status lightPicture(const PictureOptions& options, View& view);
 
 // The lights of the scene, or those that the options give it.
 std::vector<Light> lightsOf(const PictureOptions& options, const Scene& scene);

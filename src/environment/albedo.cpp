@@ -31,8 +31,7 @@ glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)
     return glm::normalize(glm::dvec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-9)));
 }
 
-} // namespace
-
+// The point of a low-discrepancy set (Hammersley).
 glm::dvec2 hammersley(unsigned index, unsigned count)
 {
     unsigned bits = index;
@@ -43,6 +42,8 @@ glm::dvec2 hammersley(unsigned index, unsigned count)
     bits = ((bits & 0x00ff00ffu) << 8) | ((bits & 0xff00ff00u) >> 8);
     return {(index + 0.5) / count, bits * 0x1p-32 + 0x1p-33};
 }
+
+} // namespace
 
 glm::dvec2 albedoFactors(double nv, double roughness)
 {

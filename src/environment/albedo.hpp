@@ -11,7 +11,4 @@ namespace cotan::environment {
 // nv: cosine between normal and eye, held from 1e-4; roughness in [0,1], held from 0.045.
 glm::dvec2 albedoFactors(double nv, double roughness);
 
-// The point of a low-discrepancy set (Hammersley).
-glm::dvec2 hammersley(unsigned index, unsigned count);
-
 } // namespace cotan::environment

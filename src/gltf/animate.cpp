@@ -5,7 +5,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "cotan/parse_number.hpp"
+#include "named.hpp"
 
 namespace cotan {
 
@@ -174,17 +174,7 @@ std::size_t findAnimation(const Json& root, const std::string& wanted)
     if (const Json* const animations = gltf::member(root, "animations"))
         for (const Json& animation : *animations)
             names.push_back(gltf::valueOr(animation, "name", std::string()));
-    if (const auto found = std::find(names.begin(), names.end(), wanted); found != names.end())
-        return std::size_t(found - names.begin());
-    std::size_t number = 0;
-    if (parseNumber(std::string_view(wanted), number) && number < names.size())
-        return number;
-    throw GltfProblem{names.empty()
-                          ? fmt::format("expected a model with animations for \"{}\", it has none", wanted)
-                          : fmt::format("expected one of its {} animations by number or name ({}), found "
-                                        "\"{}\"",
-                                        names.size(), oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted),
-                      ErrorKind::usage};
+    return findNamed(names, wanted, "animations");
 }
 
 } // namespace

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include <fmt/ranges.h>
-
 #include "cotan/gltf/lookup.hpp"
 #include "cotan/gltf/views.hpp"
-#include "cotan/parse_number.hpp"
+#include "named.hpp"
 
 namespace cotan {
 
@@ -27,16 +25,7 @@ std::size_t findVariant(const Json& root, const std::string& wanted)
                 names.push_back(variant.is_object() && variant.contains("name") && variant["name"].is_string()
                                     ? variant["name"].get<std::string>()
                                     : std::string());
-    if (const auto found = std::find(names.begin(), names.end(), wanted); found != names.end())
-        return std::size_t(found - names.begin());
-    std::size_t number = 0;
-    if (parseNumber(std::string_view(wanted), number) && number < names.size())
-        return number;
-    throw GltfProblem{names.empty()
-                          ? fmt::format("expected a model with variants for \"{}\", it has none", wanted)
-                          : fmt::format("expected one of its {} variants by number or name ({}), found \"{}\"",
-                                        names.size(), oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted),
-                      ErrorKind::usage};
+    return findNamed(names, wanted, "variants");
 }
 
 bool names(const Json& mapping, std::size_t variant)

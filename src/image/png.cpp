@@ -52,25 +52,10 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
 
 namespace {
 
-bool opaque(const Image& image)
-{
-    const std::size_t count = image.pixelCount();
-    if (image.type == PixelType::unorm16) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (image.words()[4 * i + 3] != 0xffff)
-                return false;
-        return true;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        if (image.bytes8()[4 * i + 3] != 0xff)
-            return false;
-    return true;
-}
-
 bool writePixels(PngWriter& writer, const Image& image, PngEffort effort)
 {
     const std::size_t rowBytes = std::size_t(image.width) * image.bytesPerPixel();
-    return startPng(writer, {image.width, image.height, image.type, !opaque(image)}, effort)
+    return startPng(writer, {image.width, image.height, image.type, !isOpaque(image)}, effort)
         && writePngRows(writer, image.bytes8(), std::size_t(image.height), rowBytes) && endPng(writer);
 }
 

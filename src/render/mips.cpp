@@ -223,24 +223,10 @@ template<class TexelAt> void addLevel(MipChain& chain, int width, int height, Te
     chain.levels.push_back({width, height, data});
 }
 
-bool opaque(const Image& image)
-{
-    const auto ends = [&](const auto* words) {
-        using Word = std::decay_t<decltype(*words)>;
-        bool all = true;
-        for (std::size_t i = 3; i < 4 * image.pixelCount(); i += 4)
-            all = all && words[i] == std::numeric_limits<Word>::max();
-        return all;
-    };
-    return image.type == PixelType::unorm8 ? ends(image.bytes8())
-        : image.type == PixelType::unorm16 ? ends(image.words())
-                                           : false;
-}
-
 bool storedAsItIs(const MipRequest& request)
 {
     const PixelType type = request.image->type;
-    if (request.kind == TextureKind::normal && !opaque(*request.image))
+    if (request.kind == TextureKind::normal && !isOpaque(*request.image))
         return false; // a texel of the file is one direction, whatever its alpha says
     return (type == PixelType::unorm8
             && (request.format == TexelFormat::srgb8 || request.format == TexelFormat::unorm8))

@@ -44,6 +44,20 @@ inline bool hasPixels(const Image& image)
     return image.width > 0 && image.height > 0 && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
 }
 
+// Whether every texel of an image of whole numbers has the largest alpha; false for floats. The image hasPixels.
+inline bool isOpaque(const Image& image)
+{
+    const auto all = [&](const auto* components, auto largest) {
+        for (std::size_t i = 3; i < 4 * image.pixelCount(); i += 4)
+            if (components[i] != largest)
+                return false;
+        return true;
+    };
+    return image.type == PixelType::unorm8 ? all(image.bytes8(), 0xff)
+        : image.type == PixelType::unorm16 ? all(image.words(), 0xffff)
+                                           : false;
+}
+
 // An image of that size with every byte zero.
 inline Image makeImage(int width, int height, PixelType type, std::string name = {})
 {
