@@ -31,6 +31,7 @@ struct PictureOptions {
     std::string device = "auto";
     std::string shading = "pbr";
     std::string lighting = "world";
+    std::string normalMapping = "shading";
     std::string tangents = "stored";
     std::string environment = "studio"; // or none
     double environmentRotation = 0;     // degrees
