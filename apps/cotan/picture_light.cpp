@@ -151,7 +151,7 @@ Status lightPicture(const PictureOptions& options, View& view)
     const std::string background = backgroundOf(options);
     const bool seen = background == "environment" || background == "blur";
     if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
-        return usageError(fmt::format("--{}: expected --environment with it; found none",
+        return usageError(fmt::format("--{}: expected an --environment other than none with it; found none",
                                       seen                                   ? "background " + background
                                           : options.environmentRotation != 0 ? "environment-rotation"
                                                                              : "environment-intensity"));
