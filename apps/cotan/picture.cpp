@@ -166,13 +166,13 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
         return painter;
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
-    picture.view.ground = ground.get();
-    if (picture.meter) {
-        const auto exposure = meterExposure(**painter, picture.view);
-        if (!exposure)
-            return exposure.error();
-        picture.view.exposure = *exposure;
-    }
+    std::optional<Result<float>> exposure;
+    if (picture.meter)
+        exposure = meterExposure(**painter, picture.view);
+    picture.view.ground = ground.get(); // not needed before, and read by nobody else now
+    if (exposure && !*exposure)
+        return exposure->error();
+    picture.view.exposure = exposure ? **exposure : picture.view.exposure;
     return painter;
 }
 
