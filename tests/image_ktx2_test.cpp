@@ -178,7 +178,7 @@ TEST(Ktx2, basisIsRefusedWithTheCommandThatHelps)
     EXPECT_EQ(
         etc1s.error().message,
         "a.ktx2: BasisU (ETC1S) is not decoded here; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file "
-        "that is");
+        "that is, and \"gltf-transform ktxdecompress IN.glb OUT.glb\" such a model");
     const std::string uastc = makeKtx2({.format = 0, .packing = 2, .levels = {{"some"}}, .colourModel = 166});
     EXPECT_NE(ktx2Refusal(uastc).find("BasisU (UASTC)"), std::string::npos);
     EXPECT_EQ(foreignFormat(std::as_bytes(std::span(uastc))), "KTX2 with BasisU (UASTC)");

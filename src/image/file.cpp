@@ -73,8 +73,10 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
         return unavailableError(fmt::format(
             "{}: {} is not decoded here{}", name, payload,
-            payload.starts_with("BasisU") ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is"
-                                          : ""));
+            payload.starts_with("BasisU")
+                ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is, and \"gltf-transform "
+                  "ktxdecompress IN.glb OUT.glb\" such a model"
+                : ""));
     if (format.empty() && !knownImage(bytes, name))
         return inputError(fmt::format(
             "{}: expected an image (PNG, JPEG, WebP, KTX2, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
