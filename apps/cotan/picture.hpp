@@ -1,11 +1,14 @@
 // What `render` and `compare` share: which model, seen how, drawn by what.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "common.hpp"
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/report/statistics.hpp"
 #include "cotan/scene/view.hpp"
 #include "loading.hpp"
 #include "own_maps.hpp"
@@ -21,7 +24,8 @@ enum class PictureUse {
 
 struct PictureOptions {
     PictureUse use = PictureUse::shown; // for the command to say
-    std::string model;                  // empty: the built-in scene
+    std::string model;                  // empty: the built-in scene, or the shape
+    std::string shape;                  // plane, sphere, torus or teapot
     OwnMaps maps;
     std::string variant;
     std::string animation;
@@ -52,6 +56,19 @@ struct PictureOptions {
 
 void addPictureOptions(Arguments& a, PictureOptions& options);
 
+// The model as it was read, the shape or the built-in scene, without the maps of the options and what frames derive.
+// Errors: as loadScene and checkTrianglesDrawn, in words.
+Result<Scene> openModel(const PictureOptions& options, const CommonOptions& common);
+
+// Puts the options' own maps on it and derives the attributes that the frames need. Errors: as applyOwnMaps.
+Status prepareScene(const PictureOptions& options, std::initializer_list<Frame> frames, Scene& scene);
+
+// The view that the options name, but for surroundings, lights and ground.
+Result<View> viewOf(const PictureOptions& options, const Scene& scene);
+
+// Whether the exposure is to be found by meterExposure.
+bool meters(const PictureOptions& options);
+
 // A model that is loaded and a view of it; the frame and the output are for the caller to set.
 struct Picture {
     Scene scene;
@@ -73,6 +90,17 @@ Status checkLighting(const PictureOptions& options, Frame frame);
 // The picture must outlive it.
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture);
+
+// What --view can show.
+const std::vector<std::string>& showNames();
+
+// What of --view a picture shows, as a renderer draws it.
+Output outputOf(const std::string& show);
+
+// A picture of what --view names; floats: as a file that keeps them has it. `error` is told the degrees of "error".
+// Errors: those of Painter::draw.
+Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const std::string& show, bool floats,
+                       const std::function<void(const AngleStatistics&)>& error = {});
 
 // Sizes and counts for a report.
 Json describeScene(const PictureOptions& options, const Picture& picture);

@@ -1,6 +1,5 @@
 #include "commands.hpp"
 
-#include <map>
 #include <numeric>
 #include <optional>
 
@@ -8,9 +7,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/parse_number.hpp"
-#include "cotan/report/angles.hpp"
 #include "cotan/scene/geometry.hpp"
-#include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 
@@ -26,12 +23,6 @@ struct RenderCommandOptions : CommonOptions {
     double rate = 24;
 };
 
-const std::map<std::string, Output> kShows = {
-    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
-    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
-    {"error", Output::normal},
-};
-
 bool keepsFloats(const std::filesystem::path& file)
 {
     const std::string extension = file.extension().string();
@@ -40,20 +31,11 @@ bool keepsFloats(const std::filesystem::path& file)
 
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
-    View view = picture.view;
-    if (o.show == "error") {
-        auto error = errorAgainstExact(painter, picture.scene, view);
-        if (!error)
-            return error.error();
-        report["error_against_exact"] = toJson(error->degrees);
-        say(o, "{} against exact: {}", o.frame, toText(error->degrees));
-        return std::move(error->difference);
-    }
-    view.linearOutput = o.show == "shaded" && keepsFloats(o.output);
-    auto image = painter.draw(view);
-    if (image && o.show != "shaded" && !keepsFloats(o.output))
-        return asColor(view.output, *image);
-    return image;
+    return drawShow(painter, picture.scene, picture.view, o.show, keepsFloats(o.output),
+                    [&](const AngleStatistics& degrees) {
+                        report["error_against_exact"] = toJson(degrees);
+                        say(o, "{} against exact: {}", o.frame, toText(degrees));
+                    });
 }
 
 // Draws one picture into o.output. The pictures of a sequence share the view that is made for the first: its camera,
@@ -65,7 +47,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
     if (!picture)
         return picture.error();
     picture->view.frame = frame;
-    picture->view.output = kShows.at(o.show);
+    picture->view.output = outputOf(o.show);
 
     Stopwatch watch;
     auto painter = openPicturePainter(o.picture, o, *picture);
