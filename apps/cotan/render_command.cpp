@@ -23,12 +23,6 @@ struct RenderCommandOptions : CommonOptions {
     double rate = 24;
 };
 
-bool keepsFloats(const std::filesystem::path& file)
-{
-    const std::string extension = file.extension().string();
-    return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-}
-
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
     return drawShow(painter, picture.scene, picture.view, o.show, keepsFloats(o.output),

@@ -125,7 +125,9 @@ bool holds(const Event& event, const char* modifier)
 
 std::string bareWord(const Event& event)
 {
-    const std::size_t plus = event.word.rfind('+', event.word.size() - std::min<std::size_t>(event.word.size(), 2));
+    if (event.word.size() < 2)
+        return event.word;
+    const std::size_t plus = event.word.rfind('+', event.word.size() - 2);
     return plus == std::string::npos ? event.word : event.word.substr(plus + 1);
 }
 

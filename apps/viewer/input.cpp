@@ -22,9 +22,12 @@ constexpr const char* kFlyKeys = "wasdqe";
 void run(State& state, const std::string& command)
 {
     const Status done = perform(state, command);
-    state.problem = done ? "" : done.error().message;
-    if (done)
-        state.said.clear();
+    if (!done)
+        state.problem = done.error().message;
+    if (!done || command.starts_with("report ") || command.starts_with("window ")) // what is written is what is seen
+        return;
+    state.problem.clear();
+    state.said.clear();
 }
 
 bool flying(const State& state) { return state.held == "right" && !state.keysDown.empty(); }

@@ -55,7 +55,7 @@ void remember(const std::string& text, State& state)
             perform(state, line);
         else if (first == "size" && state.picture.size == usual.size) {
             glm::ivec2 size{0};
-            std::istringstream(line.substr(5)) >> size.x >> size.y;
+            std::istringstream(line.substr(4)) >> size.x >> size.y;
             if (size.x >= 160 && size.y >= 120 && size.x <= 8192 && size.y <= 8192)
                 state.size = size;
         } else if (first == "set") {

@@ -228,7 +228,9 @@ std::string statusOf(const State& s)
             ? fmt::format("   {}: mean {}, 95 % {}, most {}", s.statisticsOf, degrees(s.statistics.mean),
                           degrees(s.statistics.percentile95), degrees(s.statistics.maximum))
             : fmt::format("   {}: no normal map is seen", s.statisticsOf);
-    text += fmt::format("   {} ({:.0f} ms)", s.device, s.drawSeconds * 1000);
+    text += "   " + s.device;
+    if (s.drawSeconds > 0)
+        text += fmt::format(" ({:.0f} ms)", s.drawSeconds * 1000);
     return s.said.empty() ? text : s.said + "\n" + text;
 }
 

@@ -33,12 +33,6 @@ double secondsNow()
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-bool keepsFloats(const fs::path& file)
-{
-    const std::string e = file.extension().string();
-    return e == ".exr" || e == ".hdr" || e == ".tif" || e == ".tiff";
-}
-
 // What a picture depends on, but for the exposure that was found.
 std::string keyOf(const State& s)
 {
@@ -140,13 +134,10 @@ private:
             }
             for (const Event& event : window_->interact(interface(), events)) {
                 const std::string before = state_.problem;
-                state_.problem.clear();
                 apply(state_, event);
-                if (options_.plays && event.kind == EventKind::command && !state_.problem.empty()
-                    && firstProblem_.empty())
+                if (options_.plays && event.kind == EventKind::command && firstProblem_.empty()
+                    && state_.problem != before)
                     firstProblem_ = state_.problem;
-                if (state_.problem.empty() && (event.kind == EventKind::move || event.kind == EventKind::keyUp))
-                    state_.problem = before;
             }
             goOn(state_, passed);
             fitWindow();
@@ -324,9 +315,7 @@ private:
         wanted.moving = false;
         if (wanted.compare == Compare::divider)
             wanted.compare = Compare::off;
-        const bool floats = keepsFloats(file);
-        if (wanted.metered == 0 && floats)
-            wanted.metered = 1;
+        const bool floats = app::keepsFloats(file);
         Order order = orderOf(wanted);
         if (floats && wanted.show == "shaded")
             order.first.use = order.second.use = app::PictureUse::radiance;
@@ -358,7 +347,7 @@ private:
             if (drawn->picture && drawn->picture != drawn_.picture) {
                 ++serial_;
                 ++state_.pictures;
-                state_.drawSeconds = drawn->seconds;
+                state_.drawSeconds = options_.plays ? 0 : drawn->seconds; // played sessions look the same every time
                 state_.metered = drawn->exposure > 0 && state_.show == "shaded" ? drawn->exposure : state_.metered;
             }
             if (drawn->hasFigures) {

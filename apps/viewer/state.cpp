@@ -116,7 +116,7 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
             continue;
         }
         if (std::string("exposure") == setting.name && value == "auto" && state.metered > 0
-            && o.use == app::PictureUse::shown)
+            && o.use == app::PictureUse::shown && !app::keepsFloats(file))
             value = fmt::format("{}", state.metered);
         if (value != valueOf(setting, usual))
             add(setting.name, value);
