@@ -263,7 +263,7 @@ Status performSwitch(State& state, const std::string& command, Words& words)
         wish(state, Wish::Kind::paste);
     } else if (command == "choose") {
         wish(state, Wish::Kind::chooseFile);
-    } else if (command == "lint") {
+    } else if (command == "find-hot-spots") {
         wish(state, Wish::Kind::lint);
     } else if (command == "lose-surface") {
         wish(state, Wish::Kind::loseSurface);

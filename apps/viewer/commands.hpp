@@ -19,7 +19,7 @@ namespace cotan::viewer {
 //   orthographic | reset | orbit X Y (degrees) | pan X Y (pixels) | zoom FACTOR | fly X Y Z | turn-light DEGREES
 //   compare off|divider|flip|angle | flip | divider SHARE | second frame|tangents|normal-map|convention VALUE | swap
 //   tangents NAME | convention WORDS | toggle NAME | scale X | size W H | play | picture [FILE [W H]] | window FILE
-//   report FILE | copy command|camera | paste | choose | lint | hot-spot N | lose-surface | quit
+//   report FILE | copy command|camera | paste | choose | find-hot-spots | hot-spot N | lose-surface | quit
 Status perform(State& state, const std::string& line);
 
 // One thing that a key does or a menu offers.
