@@ -7,6 +7,7 @@
 
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/draw/exposure.hpp"
+#include "cotan/inspect/inspection.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/report/words.hpp"
 #include "cotan/scene/geometry.hpp"
@@ -56,6 +57,16 @@ bool keepsFloats(const std::filesystem::path& file)
 bool meters(const PictureOptions& options)
 {
     return options.exposure == "auto" && options.use == PictureUse::shown;
+}
+
+void addShowOption(Arguments& a, std::string& show)
+{
+    a.option("--view", show,
+             "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); checker, "
+             "density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map by itself: "
+             "base-color, alpha, normal-map, normal-map-red, -green, -blue, roughness, metallic, occlusion, emissive")
+        .from(showNames())
+        .in("NAME");
 }
 
 void addPictureOptions(Arguments& a, PictureOptions& o)
@@ -126,10 +137,15 @@ Result<Scene> openModel(const PictureOptions& options, const CommonOptions& comm
     return scene;
 }
 
-Status prepareScene(const PictureOptions& options, std::initializer_list<Frame> frames, Scene& scene)
+Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,
+                    Scene& scene)
 {
     if (Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
         return applied;
+    if (const auto inspection = inspectionFromName(show)) {
+        scene = inspected(std::move(scene), *inspection);
+        return Done{};
+    }
     for (Frame frame : frames)
         deriveVertexFrames(scene, frame,
                            options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
@@ -150,7 +166,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (!scene)
         return scene.error();
     picture.scene = std::move(*scene);
-    if (Status prepared = prepareScene(options, frames, picture.scene); !prepared)
+    if (Status prepared = prepareScene(options, options.show, frames, picture.scene); !prepared)
         return prepared.error();
     for (const std::string& line : picture.scene.warnings)
         warn(common, line);
@@ -217,6 +233,7 @@ const std::vector<std::string>& showNames()
         std::vector<std::string> all;
         for (const auto& [name, output] : kShows)
             all.push_back(name);
+        all.insert(all.end(), inspectionNames().begin(), inspectionNames().end());
         return all;
     }();
     return names;
@@ -234,6 +251,8 @@ Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const st
                        const std::function<void(const AngleStatistics&)>& error)
 {
     view.output = outputOf(show);
+    if (inspectionFromName(show))
+        return painter.draw(inspectionView(view));
     if (show == "error") {
         auto found = errorAgainstExact(painter, scene, view);
         if (!found)

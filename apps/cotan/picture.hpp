@@ -24,6 +24,7 @@ enum class PictureUse {
 
 struct PictureOptions {
     PictureUse use = PictureUse::shown; // for the command to say
+    std::string show = "shaded";        // of showNames; for the command to declare
     std::string model;                  // empty: the built-in scene, or the shape
     std::string shape;                  // plane, sphere, torus or teapot
     OwnMaps maps;
@@ -56,12 +57,17 @@ struct PictureOptions {
 
 void addPictureOptions(Arguments& a, PictureOptions& options);
 
+// Adds --view.
+void addShowOption(Arguments& a, std::string& show);
+
 // The model as it was read, the shape or the built-in scene, without the maps of the options and what frames derive.
 // Errors: as loadScene and checkTrianglesDrawn, in words.
 Result<Scene> openModel(const PictureOptions& options, const CommonOptions& common);
 
-// Puts the options' own maps on it and derives the attributes that the frames need. Errors: as applyOwnMaps.
-Status prepareScene(const PictureOptions& options, std::initializer_list<Frame> frames, Scene& scene);
+// Puts the options' own maps on it, and derives the attributes that the frames need or, where `show` asks for it, makes
+// it a scene of telling colours. Errors: as applyOwnMaps.
+Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,
+                    Scene& scene);
 
 // The view that the options name, but for surroundings, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);

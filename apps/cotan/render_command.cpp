@@ -18,14 +18,13 @@ namespace {
 struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame = "cotangent";
-    std::string show = "shaded";
     std::string frames; // "A..B"
     double rate = 24;
 };
 
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
-    return drawShow(painter, picture.scene, picture.view, o.show, keepsFloats(o.output),
+    return drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                     [&](const AngleStatistics& degrees) {
                         report["error_against_exact"] = toJson(degrees);
                         say(o, "{} against exact: {}", o.frame, toText(degrees));
@@ -41,7 +40,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
     if (!picture)
         return picture.error();
     picture->view.frame = frame;
-    picture->view.output = outputOf(o.show);
+    picture->view.output = outputOf(o.picture.show);
 
     Stopwatch watch;
     auto painter = openPicturePainter(o.picture, o, *picture);
@@ -50,7 +49,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
     shared = picture->view;
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     Json report = {{"command", "render"}};
-    const auto image = withProgress(o, o.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
+    const auto image = withProgress(o, o.picture.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
         (*painter)->progress = std::move(progress);
         return drawPicture(**painter, *picture, o, report);
     });
@@ -63,7 +62,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
 
     report.update(describeScene(o.picture, *picture));
     report["frame"] = o.frame;
-    report["view"] = o.show;
+    report["view"] = o.picture.show;
     report["shading"] = o.picture.shading;
     report["device"] = (*painter)->device();
     report["output"] = o.output.string();
@@ -125,7 +124,7 @@ Status run(const RenderCommandOptions& o)
         return planned;
     std::optional<View> shared;
     RenderCommandOptions one = o;
-    one.picture.use = o.show != "shaded" ? PictureUse::data
+    one.picture.use = o.picture.show != "shaded" ? PictureUse::data
         : keepsFloats(o.output)          ? PictureUse::radiance
                                          : PictureUse::shown;
     if (numbers->empty())
@@ -146,10 +145,7 @@ void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
-    a.option("--view", o.show,
-             "what to draw: shaded, normal, tangent, bitangent, uv, depth, or error (degrees from the frame exact)")
-        .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
-        .in("NAME");
+    addShowOption(a, o.picture.show);
     a.option("--frames", o.frames,
              "pictures A to B of --animation, written as NAME-0000.png and so on with the camera of the first")
         .in("A..B");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cotan/draw/exposure.hpp"
+#include "cotan/inspect/inspection.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/verify/frames.hpp"
@@ -38,11 +39,11 @@ struct Stage {
 };
 
 // What of the options and the side the scene depends on.
-std::string sceneKey(const Model& model, const app::PictureOptions& o, Frame frame, const std::string&)
+std::string sceneKey(const Model& model, const app::PictureOptions& o, Frame frame, const std::string& inspection)
 {
     const std::string vertices = readsVertices(frame) ? std::string(name(frame)) + "/" + o.tangents : "";
     const app::OwnMaps& m = o.maps;
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, m.normal, m.baseColor, m.metallicRoughness,
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor, m.metallicRoughness,
                        m.occlusion, m.convention, m.material);
 }
 
@@ -90,7 +91,7 @@ public:
     Status drawFigures(const Order& order, Drawn& drawn)
     {
         const bool two = order.compare != Compare::off;
-        auto first = stage(0, order, false);
+        auto first = stage(0, order, false, true);
         if (!first)
             return first.error();
         auto view = viewFor(order, **first, false, drawn.exposure);
@@ -118,7 +119,7 @@ private:
     Status drawInto(const Order& order, Drawn& drawn, bool floats)
     {
         const bool second = order.compare == Compare::flip && order.flipped;
-        auto first = stage(second ? 1 : 0, order, second);
+        auto first = stage(second ? 1 : 0, order, second, order.compare == Compare::angle);
         if (!first)
             return first.error();
         drawn.device = (*first)->painter->device();
@@ -129,7 +130,7 @@ private:
         if (drawn.draft)
             *view = smaller(*view);
         drawn.view = *view;
-        drawn.exposure = view->exposure;
+        drawn.exposure = meters(second ? order.second : order.first) ? view->exposure : 0;
         if (order.compare == Compare::angle) {
             const auto degrees = degreesOf(order, **first, *view, order.second, true);
             if (!degrees)
@@ -169,7 +170,7 @@ private:
             return a.error();
         Stage* other = &first;
         if (two) {
-            auto staged = stage(1, order, true);
+            auto staged = stage(1, order, true, true);
             if (!staged)
                 return staged.error();
             other = *staged;
@@ -187,14 +188,16 @@ private:
     }
 
     // The scene of a side on a painter; the second has a painter of its own only where its scene is another.
-    Result<Stage*> stage(std::size_t index, const Order& order, bool second)
+    // normals: not in the colours that are shown, but as a surface.
+    Result<Stage*> stage(std::size_t index, const Order& order, bool second, bool normals = false)
     {
         const app::PictureOptions& o = second ? order.second : order.first;
         const Side& side = second ? order.b : order.a;
         const auto frame = app::parseFrame(side.frame);
         if (!frame)
             return frame.error();
-        const std::string key = sceneKey(*order.model, o, *frame, order.show);
+        const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
+        const std::string key = sceneKey(*order.model, o, *frame, inspection);
         for (Stage& known : stages_)
             if (known.key == key && known.painter)
                 return &known;
@@ -212,9 +215,9 @@ private:
         s.own = {};
         s.model = order.model;
         s.scene = &s.model->scene;
-        if (!plain(o, *frame)) {
+        if (!plain(o, *frame) || !inspection.empty()) {
             s.own = s.model->scene;
-            if (Status prepared = prepareScene(o, {*frame}, s.own); !prepared)
+            if (Status prepared = prepareScene(o, inspection, {*frame}, s.own); !prepared)
                 return prepared.error();
             s.scene = &s.own;
         }
@@ -422,7 +425,7 @@ Order orderOf(const State& state)
     order.model = state.model;
     order.exposure = state.metered;
     order.draft = state.moving;
-    order.figures = state.statisticsShown && !state.moving;
+    order.figures = state.statisticsShown && !state.moving && !inspectionFromName(state.show);
     return order;
 }
 

@@ -27,7 +27,7 @@ struct Drawn {
     std::uint64_t number = 0;
     std::shared_ptr<const Image> picture, other; // 8 bits; other: of a divider
     View view;                                   // that the first was drawn with
-    float exposure = 0;
+    float exposure = 0; // that was found for "auto"; 0: it was not asked for
     std::string device, problem; // a problem comes without a picture
     double seconds = 0;
     bool draft = false;

@@ -159,8 +159,8 @@ Status toggle(State& state, const std::string& name)
     if (known != switches.end()) {
         state.*known->second = !(state.*known->second);
         state.pinnedAt = azimuthOf(state.camera);
-        if (name == "hot-spots" && state.hotSpotsShown && !state.lint)
-            wish(state, Wish::Kind::lint);
+        if (name == "hot-spots" && state.hotSpotsShown && !state.hotSpots)
+            wish(state, Wish::Kind::findHotSpots);
         return Done{};
     }
     return expected("toggle", fmt::format("one of {}", fmt::join(std::views::keys(switches), ", ")), name);
@@ -264,7 +264,7 @@ Status performSwitch(State& state, const std::string& command, Words& words)
     } else if (command == "choose") {
         wish(state, Wish::Kind::chooseFile);
     } else if (command == "find-hot-spots") {
-        wish(state, Wish::Kind::lint);
+        wish(state, Wish::Kind::findHotSpots);
     } else if (command == "lose-surface") {
         wish(state, Wish::Kind::loseSurface);
     } else if (command == "quit") {
@@ -373,9 +373,13 @@ Status perform(State& state, const std::string& line)
         const auto number = words.number("hot-spot");
         if (!number)
             return number.error();
-        if (*number < 0 || std::size_t(*number) >= state.hotSpots.size())
-            return expected("hot-spot", fmt::format("0 to {}", state.hotSpots.size()), fmt::format("{}", *number));
-        return setCamera(state, state.hotSpots[std::size_t(*number)]);
+        const std::size_t count = state.hotSpots ? state.hotSpots->size() : 0;
+        if (*number < 0 || std::size_t(*number) >= count)
+            return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
+                            fmt::format("{}", *number));
+        state.camera = (*state.hotSpots)[std::size_t(*number)].camera;
+        moveCamera(state);
+        return Done{};
     }
     return performSwitch(state, command, words);
 }

@@ -35,7 +35,7 @@ struct Line2D { // on the picture, pixels
     std::string label; // at its end
 };
 
-struct HotSpot {
+struct Choice { // of a list
     std::string text, command;
 };
 
@@ -58,7 +58,7 @@ struct Interface {
     std::string leftName, rightName;
     std::vector<std::pair<double, glm::vec3>> scaleBar; // degrees and their colours
     bool hotSpotsShown = false;
-    std::vector<HotSpot> hotSpots;
+    std::vector<Choice> hotSpots;
     std::vector<std::pair<std::string, std::string>> sheet; // key; what it does and how it stands
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 struct Task {
     app::PictureOptions options;
-    std::shared_ptr<const Model> lint; // null: read the options' model
+    std::shared_ptr<const Model> look; // for hot spots; null: read the options' model
 };
 
 Loaded readModel(const app::PictureOptions& options, const app::CommonOptions& common, std::uint64_t number)
@@ -56,7 +56,7 @@ struct Loader::Work {
             loaded.seconds = watch.lap();
             lock.lock();
             working = false;
-            if (!next || task.lint)
+            if (!next || task.look)
                 ready = std::move(loaded);
             if (done)
                 done();
@@ -68,9 +68,9 @@ struct Loader::Work {
         Loaded failed;
         failed.options = task.options;
         try {
-            if (!task.lint)
+            if (!task.look)
                 return readModel(task.options, common, ++number);
-            failed.lint = std::make_shared<const LintReport>(lintScene(task.lint->scene));
+            failed.hotSpots = hotSpots(task.look->scene);
         } catch (const std::bad_alloc&) {
             failed.problem = "not enough memory";
         } catch (const std::exception& e) {
@@ -115,7 +115,7 @@ void Loader::read(const app::PictureOptions& options)
     work_->changed.notify_all();
 }
 
-void Loader::lint(std::shared_ptr<const Model> model)
+void Loader::findHotSpots(std::shared_ptr<const Model> model)
 {
     {
         const std::lock_guard lock(work_->mutex);

@@ -12,7 +12,7 @@ namespace cotan::viewer {
 struct Loaded {
     app::PictureOptions options;        // that it was read with
     std::shared_ptr<const Model> model; // null: problem says why
-    std::shared_ptr<const LintReport> lint;
+    std::optional<std::vector<HotSpot>> hotSpots;
     std::string problem;
     double seconds = 0;
 };
@@ -26,7 +26,7 @@ public:
     // Reads this next; what waits is dropped, what is being read goes on and is forgotten.
     void read(const app::PictureOptions& options);
     // Looks for hot spots of a model.
-    void lint(std::shared_ptr<const Model> model);
+    void findHotSpots(std::shared_ptr<const Model> model);
     std::optional<Loaded> take();
     bool busy() const;
 

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include "camera.hpp"
 #include "commands.hpp"
 #include "cotan/environment/environment.hpp"
+#include "cotan/report/angles.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
@@ -250,6 +253,65 @@ std::vector<Slider> slidersOf(const State& s)
     return sliders;
 }
 
+std::string vectorText(const glm::vec3& v) { return fmt::format("{:.2f} {:.2f} {:.2f}", v.x, v.y, v.z); }
+
+std::vector<std::string> cardOf(const State& s)
+{
+    const Probed& p = s.probe.surface;
+    const Hit& hit = *s.probe.hit;
+    std::vector<std::string> card;
+    if (s.probe.degrees >= 0)
+        card.push_back(degrees(s.probe.degrees) + " " + s.statisticsOf);
+    card.push_back(fmt::format("mesh {}, triangle {}", hit.mesh, hit.triangle));
+    card.push_back(p.hasUv ? fmt::format("uv {:.4f} {:.4f}", p.uv.x, p.uv.y) : "no uv");
+    if (p.texel.x >= 0)
+        card.push_back(fmt::format("texel {} {}", p.texel.x, p.texel.y));
+    if (p.w != 0)
+        card.push_back(fmt::format("w {:+d}", p.w));
+    card.push_back("t " + vectorText(p.t));
+    card.push_back("b " + vectorText(p.b));
+    card.push_back("n " + vectorText(p.normal));
+    if (p.storedTangent != glm::vec3(0))
+        card.push_back("stored t " + vectorText(p.storedTangent));
+    return card;
+}
+
+// The frame on the surface, 60 pixels long.
+std::vector<Line2D> arrowsOf(const State& s)
+{
+    const Hit& hit = *s.probe.hit;
+    const Probed& p = s.probe.surface;
+    const float length = 60 * unitsOfPixel(s.camera, s.camera.orthographic ? 1 : hit.depth, s.size);
+    const glm::vec2 from(onPicture(s.camera, hit.position, s.size));
+    std::vector<Line2D> lines;
+    const auto add = [&](const glm::vec3& direction, const glm::vec3& color, const char* name, float share) {
+        const float size = glm::length(direction);
+        if (!(size > 0))
+            return;
+        const glm::vec3 to = onPicture(s.camera, hit.position + direction / size * length * share, s.size);
+        if (to.z > 0)
+            lines.push_back({from, glm::vec2(to), color, name});
+    };
+    add(p.storedTangent, {0.95f, 0.85f, 0.2f}, "stored", 1.25f);
+    add(p.t, {0.95f, 0.3f, 0.25f}, "t", 1);
+    add(p.b, {0.35f, 0.85f, 0.3f}, "b", 1);
+    add(p.normal, {0.4f, 0.6f, 1}, "n", 1);
+    return lines;
+}
+
+// The false colours of degrees.
+std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
+{
+    const std::vector<float> stops = {0, 0.5f, 2, 5, 15, 45};
+    const Image heat = heatMap(stops, int(stops.size()), 1);
+    std::vector<std::pair<double, glm::vec3>> scale;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        const std::uint8_t* c = heat.bytes8() + 4 * i;
+        scale.emplace_back(double(stops[i]), glm::vec3(c[0], c[1], c[2]) / 255.0f);
+    }
+    return scale;
+}
+
 } // namespace
 
 std::vector<Entry> entriesOf(const State& state)
@@ -288,7 +350,7 @@ Interface interfaceOf(const State& s)
             i.menus.push_back({entry.menu, {}});
         i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable});
         if (!entry.key.empty())
-            i.sheet.emplace_back(entry.key, entry.label + (entry.on ? " \xe2\x80\xa2 on" : ""));
+            i.sheet.emplace_back(entry.key, entry.label + (entry.on ? ": on" : ""));
     }
     for (const auto& [keys, what] : {std::pair("left drag", "turn"), {"middle, right drag", "move"},
                                      {"wheel", "zoom to the pointer"}, {"click", "pivot"},
@@ -299,7 +361,17 @@ Interface interfaceOf(const State& s)
     i.problem = s.problem;
     i.progress = s.progress;
     i.doing = s.loading.empty() ? "" : "loading " + s.loading;
-    if (s.compare == Compare::divider) {
+    if (s.cardShown && s.interfaceShown && s.probe.hit && s.held.empty()) {
+        i.card = cardOf(s);
+        i.cardAt = s.pointer;
+        i.lines = arrowsOf(s);
+    }
+    if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
+        i.scaleBar = scaleOfDegrees();
+    if (s.hotSpots)
+        for (std::size_t k = 0; k < s.hotSpots->size(); ++k)
+            i.hotSpots.push_back({(*s.hotSpots)[k].text, fmt::format("hot-spot {}", k)});
+    if (s.compare == Compare::divider && s.interfaceShown) {
         i.divider = s.divider * float(s.size.x);
         i.leftName = s.a.frame;
         i.rightName = s.b.frame;

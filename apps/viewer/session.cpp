@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <future>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -11,11 +13,14 @@
 
 #include "artist.hpp"
 #include "commands.hpp"
+#include "cotan/draw/camera_words.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/inspect/inspection.hpp"
 #include "dialog.hpp"
 #include "files.hpp"
 #include "input.hpp"
 #include "loader.hpp"
+#include "parse.hpp"
 #include "settings.hpp"
 #include "window.hpp"
 
@@ -145,6 +150,7 @@ private:
                 return done;
             receive();
             ask();
+            probe();
             if (const Status shown = window_->show(interface(), shownNow()); !shown)
                 return shown;
             if (options_.plays && next_ == options_.played.size() && idle())
@@ -163,7 +169,8 @@ private:
 
     bool idle() const
     {
-        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && key_ == keyOf(state_) && !dialog_.open();
+        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && key_ == keyOf(state_) && !dialog_.open()
+            && !probing_.valid();
     }
 
     // The next of the played events, unless one waits.
@@ -273,7 +280,6 @@ private:
             return picture ? write(w.text, *picture) : Status(picture.error());
         }
         case Wish::Kind::writeReport: {
-            probeNow();
             std::ofstream file(w.text, std::ios::binary);
             file << reportOf(state_);
             return file.flush() ? Status(Done{}) : Status(outputError(w.text + ": cannot be written"));
@@ -292,9 +298,9 @@ private:
         case Wish::Kind::chooseFile: return dialog_.ask(state_.picture.model);
         case Wish::Kind::resize: window_->resize(w.size.x, w.size.y); break;
         case Wish::Kind::loseSurface: window_->loseSurface(); break;
-        case Wish::Kind::lint:
+        case Wish::Kind::findHotSpots:
             if (state_.model)
-                loader_->lint(state_.model);
+                loader_->findHotSpots(state_.model);
             break;
         case Wish::Kind::quit: quits_ = true; break;
         case Wish::Kind::load: break;
@@ -335,8 +341,8 @@ private:
     void receive()
     {
         if (auto loaded = loader_->take()) {
-            if (loaded->lint)
-                takeLint(*loaded);
+            if (loaded->hotSpots)
+                state_.hotSpots = std::move(loaded->hotSpots);
             else
                 takeModel(*loaded);
         }
@@ -348,11 +354,17 @@ private:
                 ++serial_;
                 ++state_.pictures;
                 state_.drawSeconds = options_.plays ? 0 : drawn->seconds; // played sessions look the same every time
-                state_.metered = drawn->exposure > 0 && state_.show == "shaded" ? drawn->exposure : state_.metered;
+                state_.metered = drawn->exposure > 0 ? drawn->exposure : state_.metered;
             }
+            if (!drawn->hasFigures && !drawn->draft && state_.statisticsOf.empty() == false && drawn->degrees.empty()
+                && inspectionFromName(state_.show))
+                state_.statisticsOf.clear();
             if (drawn->hasFigures) {
                 state_.statistics = drawn->statistics;
                 state_.statisticsOf = drawn->statisticsOf;
+                figures_ = {{drawn->view.width, drawn->view.height}, std::move(drawn->degrees)};
+            } else if (drawn->picture && !drawn->draft) {
+                figures_ = {};
             }
             if (drawn->picture)
                 drawn_ = std::move(*drawn);
@@ -382,7 +394,9 @@ private:
         if (!state_.playing)
             state_.picture.time = loaded.options.time;
         state_.model = loaded.model;
-        state_.lint = nullptr;
+        state_.hotSpots.reset();
+        if (state_.hotSpotsShown)
+            state_.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
         state_.statisticsOf.clear();
         if (other || !state_.cameraMoved) {
             if (state_.loads > 1 && other) {
@@ -406,11 +420,6 @@ private:
             app::warn(options_.common, line);
         if (!loaded.model->scene.warnings.empty())
             state_.said = loaded.model->scene.warnings[0];
-    }
-
-    void takeLint(const Loaded& loaded)
-    {
-        state_.lint = loaded.lint;
     }
 
     void ask()
@@ -439,7 +448,43 @@ private:
         return shown;
     }
 
-    void probeNow() {}
+    // Looks at what is under the pointer, on a thread of its own: a large mesh takes a moment.
+    void probe()
+    {
+        if (probing_.valid()) {
+            if (probing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+                return;
+            state_.probe = probing_.get();
+        }
+        const bool wanted = state_.cardShown && state_.model && state_.held.empty() && state_.pointer.x >= 0;
+        if (!wanted) {
+            state_.probe = {};
+            probeKey_.clear();
+            return;
+        }
+        const Side& side = sideOf(state_, state_.compare == Compare::flip && state_.second);
+        const std::string key = fmt::format("{} {} {} {} {} {}", state_.pointer.x, state_.pointer.y,
+                                            cameraWords(state_.camera), state_.model->number, side.frame, side.tangents);
+        if (key != probeKey_) {
+            probeKey_ = key;
+            probing_ = std::async(std::launch::async, [this, model = state_.model, camera = state_.camera,
+                                                       size = state_.size, pointer = state_.pointer, side] {
+                Probe probe;
+                probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
+                if (probe.hit)
+                    probe.surface = prober_.at(model->scene, model->number, *probe.hit, *app::parseFrame(side.frame),
+                                               side.tangents == "generated" ? TangentOrigin::generated
+                                                                            : TangentOrigin::stored);
+                wake();
+                return probe;
+            });
+        }
+        const glm::ivec2 at(state_.pointer);
+        const bool inside = at.x >= 0 && at.y >= 0 && at.x < figures_.size.x && at.y < figures_.size.y;
+        state_.probe.degrees = inside && figures_.size == state_.size
+            ? figures_.degrees[std::size_t(at.y) * std::size_t(figures_.size.x) + std::size_t(at.x)]
+            : -1.0f;
+    }
 
     void remember() const
     {
@@ -461,6 +506,13 @@ private:
     Watch watch_;
     std::ofstream recording_;
     Drawn drawn_;
+    struct {
+        glm::ivec2 size{0};
+        std::vector<float> degrees;
+    } figures_; // of the picture that is shown
+    Prober prober_;
+    std::future<Probe> probing_;
+    std::string probeKey_;
     std::string key_, firstProblem_;
     std::uint64_t serial_ = 0, orders_ = 0;
     std::size_t next_ = 0; // of the played events

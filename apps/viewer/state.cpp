@@ -159,15 +159,21 @@ std::string reportOf(const State& state)
     add("cheat sheet", state.cheatSheet ? "shown" : "hidden");
     add("look", state.dark ? "dark" : "light");
     add("degrees", state.statisticsOf.empty() ? "none" : state.statisticsOf + ": " + toText(state.statistics));
-    const Probe& p = state.probe;
-    if (p.found) {
-        add("under the pointer", fmt::format("mesh {} triangle {} at {}", p.mesh, p.triangle, textOf(p.position)));
+    if (const auto& hit = state.probe.hit) {
+        const Probed& p = state.probe.surface;
+        add("under the pointer", fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
         add("uv", fmt::format("{:.4f} {:.4f} texel {} {}", p.uv.x, p.uv.y, p.texel.x, p.texel.y));
         add("t", textOf(p.t));
         add("b", textOf(p.b));
         add("n", textOf(p.normal));
-        add("w", fmt::format("{:+g}", p.w));
-        add("degrees there", p.degrees < 0 ? "none" : fmt::format("{:.2f}", p.degrees));
+        add("w", fmt::format("{:+d}", p.w));
+        add("stored tangent", p.storedTangent == glm::vec3(0) ? "none" : textOf(p.storedTangent));
+        add("degrees there", state.probe.degrees < 0 ? "none" : fmt::format("{:.2f}", state.probe.degrees));
+    }
+    if (state.hotSpots) {
+        add("hot spots", fmt::format("{}", state.hotSpots->size()));
+        for (const HotSpot& spot : *state.hotSpots)
+            add("hot spot", spot.text);
     }
     add("loads", fmt::format("{} failed {}", state.loads, state.failedLoads));
     add("problem", state.problem.empty() ? "none" : state.problem);

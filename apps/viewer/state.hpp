@@ -4,13 +4,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/lint/lint.hpp"
+#include "cotan/inspect/hot_spots.hpp"
+#include "cotan/inspect/probe.hpp"
 #include "cotan/report/statistics.hpp"
 #include "cotan/scene/scene.hpp"
 #include "picture.hpp"
@@ -53,7 +55,7 @@ struct Wish {
         chooseFile,
         resize, // size
         loseSurface,
-        lint,
+        findHotSpots,
         quit,
     } kind = Kind::quit;
     std::string text;
@@ -62,16 +64,9 @@ struct Wish {
 
 // What is under the pointer.
 struct Probe {
-    bool found = false;
-    int instance = -1, mesh = -1;
-    std::size_t triangle = 0;
-    glm::vec3 position{0}, normal{0}, t{0}, b{0}; // world
-    glm::vec3 storedTangent{0};                   // zero: none
-    float w = 0;                                  // +1 or -1: the side that b is on; 0: no frame
-    glm::vec2 uv{0};
-    bool hasUv = false;
-    glm::ivec2 texel{-1}; // of the normal map; -1: none
-    float degrees = -1;   // in the picture of angles; below 0: none
+    std::optional<Hit> hit;
+    Probed surface;
+    float degrees = -1; // in the picture of angles; below 0: none
 };
 
 struct State {
@@ -93,14 +88,12 @@ struct State {
     bool playing = false;
 
     std::shared_ptr<const Model> model; // null until the first one is read
-    std::shared_ptr<const LintReport> lint;
-    std::vector<std::string> hotSpots; // cameras, in words, of the interface's list
+    std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
     std::vector<std::string> recent;   // files, the latest first
 
     bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, hotSpotsShown = false;
     bool cardShown = true, statisticsShown = true;
     float scale = 0; // of the interface; 0: as the screen asks for
-    int edges = 0;   // 1: edges of triangles; 2: seams; 3: both
 
     // Input.
     glm::vec2 pointer{-1, -1}, pressedAt{0, 0};
@@ -126,9 +119,6 @@ struct State {
 // What draws the first picture, or the second.
 app::PictureOptions optionsOf(const State& state, bool second);
 inline const Side& sideOf(const State& state, bool second) { return second ? state.b : state.a; }
-
-// Whether two pictures are there to be drawn, or the angle between them.
-inline bool drawsTwo(const State& state) { return state.compare == Compare::divider || state.compare == Compare::flip; }
 
 // The camera that a reset gives: by picture.camera, or the default of `cotan render`. Does nothing without a model.
 void resetCamera(State& state);

@@ -18,7 +18,6 @@ namespace {
 struct ViewCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame = "cotangent";
-    std::string show = "shaded";
     std::string second;
     std::vector<std::string> commands;
     std::string play, record;
@@ -47,7 +46,7 @@ Status run(const ViewCommandOptions& o)
                o.picture.maps.convention == OwnMaps().convention ? "" : o.picture.maps.convention};
     state.b = state.a;
     state.b.frame = o.second.empty() ? "mikktspace" : o.second;
-    state.show = o.show;
+    state.show = o.picture.show;
     for (const auto& frame : {state.a.frame, state.b.frame})
         if (const auto known = parseFrame(frame); !known)
             return known.error();
@@ -88,9 +87,7 @@ void declare(Arguments& a, ViewCommandOptions& o)
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
     a.option("--second", o.second, "another frame, beside the first").in("NAME");
-    a.option("--view", o.show, "what to draw: shaded, normal, tangent, bitangent, uv, depth, or error")
-        .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
-        .in("NAME");
+    addShowOption(a, o.picture.show);
     a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
         .in("TEXT");
     a.option("--record", o.record, "write what happens in the window to a file").in("FILE");

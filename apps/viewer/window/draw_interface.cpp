@@ -176,12 +176,12 @@ void drawHotSpots(const Interface& interface, Commands& chosen)
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Appearing, {1, 0});
-    ImGui::SetNextWindowSize({std::min(26 * line, size.x * 0.6f), size.y * 0.6f}, ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({std::min(20 * line, size.x * 0.5f), size.y * 0.4f}, ImGuiCond_Appearing);
     if (ImGui::Begin("Hot spots", nullptr, kPanel)) {
         if (interface.hotSpots.empty())
             ImGui::TextWrapped("nothing found, or not looked yet");
         int number = 0;
-        for (const HotSpot& spot : interface.hotSpots) {
+        for (const Choice& spot : interface.hotSpots) {
             ImGui::PushID(number++);
             if (ImGui::Selectable(spot.text.c_str()))
                 chosen.push_back(spot.command);
@@ -210,7 +210,7 @@ void drawSheet(const Interface& interface)
                     if (i >= interface.sheet.size())
                         continue;
                     ImGui::TableSetColumnIndex(2 * column);
-                    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram), "%s",
+                    ImGui::TextColored(interface.dark ? ImVec4(0.95f, 0.75f, 0.2f, 1) : ImVec4(0.6f, 0.3f, 0, 1), "%s",
                                        interface.sheet[i].first.c_str());
                     ImGui::TableSetColumnIndex(2 * column + 1);
                     ImGui::TextUnformatted((interface.sheet[i].second + "   ").c_str());
