@@ -29,9 +29,9 @@ Choice choiceOf(Values values)
         choice.form = form == 1 ? Form::fused : Form::total;
     choice.uvSets = values.next<std::int8_t>();
     choice.callerDifferences = values.flip();
-    choice.gradients = values.flip();
-    choice.blends = values.flip();
-    choice.lights = values.flip();
+    for (const shader_text::Set set : shader_text::kSets)
+        if (values.flip())
+            choice.sets.push_back(set);
     return choice;
 }
 

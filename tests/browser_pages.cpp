@@ -19,10 +19,12 @@ json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pa
     put(harness, "PAGES", json(pages).dump());
     write(folder / "all.html", harness);
     const std::string f = folder.path().string();
+    // A canvas of WebGPU asks for textures that both processes share, and these for Vulkan.
     const std::string line = "timeout " + std::to_string(seconds)
         + " chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
         + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "
-          "--use-webgpu-adapter=swiftshader --dump-dom 'file://"
+          "--use-webgpu-adapter=swiftshader --enable-features=Vulkan --use-vulkan=swiftshader --disable-vulkan-surface "
+          "--dump-dom 'file://"
         + f + "/all.html' > '" + f + "/dom' 2> '" + f + "/log'";
     const int code = std::system(line.c_str());
     const std::string dom = readWhole(folder / "dom");

@@ -14,6 +14,7 @@
 #include "cotan/draw/painter.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/shapes/shapes.hpp"
+#include "cotan/surroundings/surroundings.hpp"
 
 namespace cotan {
 namespace {
@@ -310,6 +311,19 @@ TEST(Environment, picturesOfOtherShapesAndTypesAreRefused)
     ASSERT_TRUE(map);
     for (std::size_t i = 0; i < 4 * map->atlas.pixelCount(); ++i)
         ASSERT_TRUE(map->atlas.floats()[i] >= 0 && map->atlas.floats()[i] <= 65504) << i;
+}
+
+TEST(Environment, theStoredStudioIsTheOneThatIsMade)
+{
+    const auto stored = builtinEnvironment("studio");
+    const EnvironmentMap made = makeEnvironment(*builtinRadiance("studio"), 1);
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(stored->name, "studio");
+    ASSERT_EQ(stored->atlas.width, made.atlas.width);
+    EXPECT_EQ(stored->atlas.data, made.atlas.data);
+    EXPECT_NE(builtinEnvironment("studio", {.rotation = 0, .intensity = 2})->atlas.data, made.atlas.data);
+    EXPECT_NE(builtinEnvironment("studio", {.rotation = 1, .intensity = 1})->atlas.data, made.atlas.data);
+    EXPECT_FALSE(builtinEnvironment("nowhere"));
 }
 
 TEST(Environment, theAtlasHasTheSameBytesForAnyNumberOfThreads)

@@ -87,7 +87,7 @@ TEST_P(ExampleTriangle, drawsTheTeapotAsScreenDerivativesDo)
     // The scale is the triangle's: with 12 cells a patch normals lean by some 4 degrees from their triangle, and
     // slopes change by 1 - cos(4 degrees) = 0.2 %, of domes 45 degrees steep 0.07 degrees. `smooth` is another frame:
     // it is closer to the curved surface, by a fraction of a degree.
-    const bool smooth = std::string(GetParam()) == "smooth";
+    const bool smooth = std::string(GetParam()) == "smooth" || std::string(GetParam()) == "ring";
     EXPECT_LT(d.mean, smooth ? 0.5 : 0.02);
     EXPECT_LT(d.most95, smooth ? 2 : 0.1);
     EXPECT_GT(d.mean, 0); // not the same picture
@@ -95,21 +95,38 @@ TEST_P(ExampleTriangle, drawsTheTeapotAsScreenDerivativesDo)
 
 TEST_P(ExampleTriangle, drawsTheSameSheetHoweverItsTrianglesAreStored) { expectSameHoweverStored(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangle, testing::Values("provoking", "read", "smooth", "visibility"),
+INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangle, testing::Values("provoking", "read", "smooth", "ring", "visibility"),
                          [](const auto& way) { return std::string(way.param); });
 
-TEST(ExampleTriangleMesh, drawsTheSheetsOrSaysThatTheDeviceCannot)
+// The same frames, but made by work groups from a meshlet and the ring around it: rounding to SNORM16 apart.
+TEST(ExampleTriangleRing, makesTheFramesThatTheProcessorMakes)
+{
+    for (const char* what : {"sheets", "teapot"}) {
+        const std::vector<Vec> made = drawn("ring", what), stored = drawn("smooth", what);
+        const Difference d = between(made, stored);
+        EXPECT_GT(d.pixels, 30000u) << what;
+        EXPECT_LT(d.mean, 0.0005) << what;
+        EXPECT_LT(d.most95, 0.003) << what;
+    }
+}
+
+class ExampleTriangleMesh : public testing::TestWithParam<const char*> {};
+
+TEST_P(ExampleTriangleMesh, drawsTheSheetsOrSaysThatTheDeviceCannot)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
-    const int status = std::system((way("mesh") + " '" + f + "/a.ppm' 2>'" + f + "/err'").c_str());
+    const int status = std::system((way(GetParam()) + " '" + f + "/a.ppm' 2>'" + f + "/err'").c_str());
     if (WEXITSTATUS(status) == 3) {
         EXPECT_EQ(readWhole(folder / "err"), "triangle_example: this device has no VK_EXT_mesh_shader\n");
         GTEST_SKIP() << "no mesh shaders here; the shaders are compiled and validated when they are built";
     }
-    expectSheets(way("mesh"), 0.03);
-    expectSameHoweverStored("mesh");
+    expectSheets(way(GetParam()), 0.03);
+    expectSameHoweverStored(GetParam());
 }
+
+INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangleMesh, testing::Values("mesh", "mesh-smooth"),
+                         [](const auto& way) { return std::string(way.param) == "mesh" ? "triangle" : "smooth"; });
 
 TEST(ExampleTriangleWords, areCheckedBeforeAnythingIsDrawn)
 {

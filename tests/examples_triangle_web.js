@@ -52,6 +52,21 @@ function sheetErrors(pixels) {
     }
   return found;
 }
+// How far the lit picture of the sheets is from that of the analytic normals, in steps of 8 bits. bytes: rows from the top.
+function pictureErrors(bytes) {
+  const found = { worst: 0, count: 0 }, toLight = [-1, 1.5, 1.5].map(k => k / Math.hypot(1, 1.5, 1.5));
+  for (let row = 0; row < height; ++row)
+    for (let column = 0; column < width; ++column) {
+      const ray = [(2 * (column + 0.5) / width - 1) * 2 / zoom, (1 - 2 * (row + 0.5) / height) / zoom, -1];
+      const expected = column >= width / 2 ? truth(ray, 1.2, Math.PI - 0.4) : truth(ray, -1.2, 0.4);
+      if (!expected) continue;
+      const n = expected.map(k => k / Math.hypot(...expected));
+      const level = 255 * (0.1 + 0.9 * Math.max(dot(n, toLight), 0)) ** (1 / 2.2);
+      found.worst = Math.max(found.worst, Math.abs(bytes[4 * (row * width + column) + 1] - level));
+      ++found.count;
+    }
+  return found;
+}
 function modelErrors(pixels, expected) {
   const degrees = [];
   for (let k = 0; k < width * height; ++k) {
@@ -121,20 +136,48 @@ function webgl2() {
 async function webgpu() {
   if (!await ready) return { skipped: 'no WebGPU adapter' };
   device.onuncapturederror = e => { throw new Error(e.error.message); };
-  const target = device.createTexture({ size: [width, height], format: 'rgba32float',
-    usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
-  return errorsOf(['provoking'], 'first', modelNames, oddCount, async () => {
+  const usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC;
+  const target = device.createTexture({ size: [width, height], format: 'rgba32float', usage });
+  const found = await errorsOf(['provoking'], 'first', modelNames, oddCount, async () => {
     draw(target, true, 'nearest');
-    const bytes = 16 * width * height; // rows are a multiple of 256 bytes, as copies ask for
-    const read = device.createBuffer({ size: bytes, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
-    const encoder = device.createCommandEncoder();
-    encoder.copyTextureToBuffer({ texture: target }, { buffer: read, bytesPerRow: 16 * width }, [width, height]);
-    device.queue.submit([encoder.finish()]);
-    await read.mapAsync(GPUMapMode.READ);
-    const down = new Float32Array(read.getMappedRange()), pixels = new Float32Array(down.length), row = 4 * width;
-    for (let y = 0; y < height; ++y) pixels.set(down.subarray(y * row, (y + 1) * row), (height - 1 - y) * row);
-    return pixels;
+    return upwards(new Float32Array(await bytesOf(target, 16)));
   });
+  load(sheets('first'));
+  loadMap(map, mapSize);
+  found.canvas = await canvasErrors(usage);
+  return found;
+}
+// Of a texture with so many bytes a pixel; rows from the top.
+async function bytesOf(texture, perPixel) {
+  const row = perPixel * width, bytesPerRow = Math.ceil(row / 256) * 256; // as copies ask for
+  const read = device.createBuffer({ size: bytesPerRow * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+  const encoder = device.createCommandEncoder();
+  encoder.copyTextureToBuffer({ texture }, { buffer: read, bytesPerRow }, [width, height]);
+  device.queue.submit([encoder.finish()]);
+  await read.mapAsync(GPUMapMode.READ);
+  const padded = new Uint8Array(read.getMappedRange()), bytes = new Uint8Array(row * height);
+  for (let y = 0; y < height; ++y) bytes.set(padded.subarray(y * bytesPerRow, y * bytesPerRow + row), y * row);
+  return bytes.buffer;
+}
+function upwards(down) {
+  const pixels = new Float32Array(down.length), row = 4 * width;
+  for (let y = 0; y < height; ++y) pixels.set(down.subarray(y * row, (y + 1) * row), (height - 1 - y) * row);
+  return pixels;
+}
+// The page's own canvas: normals as halfs, and the picture that it shows.
+async function canvasErrors(usage) {
+  const drawn = async (format, showNormals, perPixel) => {
+    context.configure({ device, format, usage, alphaMode: 'premultiplied' });
+    const texture = context.getCurrentTexture();
+    draw(texture, showNormals, 'nearest');
+    return bytesOf(texture, perPixel);
+  };
+  const ofHalf = h => ((h & 0x8000) ? -1 : 1) * ((h >> 10 & 31) ? 2 ** ((h >> 10 & 31) - 15) * (1 + (h & 1023) / 1024)
+                                                                    : (h & 1023) * 2 ** -24);
+  const halfs = new Uint16Array(await drawn('rgba16float', true, 8));
+  const sheets = sheetErrors(upwards(Float32Array.from(halfs, ofHalf)));
+  const picture = pictureErrors(new Uint8Array(await drawn(navigator.gpu.getPreferredCanvasFormat(), false, 4)));
+  return { sheets, picture };
 }
 (async () => {
   let found;

@@ -20,7 +20,7 @@ using namespace test;
 using Words = std::vector<std::string>;
 
 const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",  "tutorial", "normal-matrices",
-                              "mirrored", "targets", "decode", "faceting"};
+                              "mirrored", "targets", "decode", "faceting", "furnace"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -234,6 +234,39 @@ TEST(Lighting, inTangentSpaceIsDrawnByTheReferenceAndAsksForTangents)
         runTool({"render", "-o", "b.png", "--lighting", "tangent-pixel", "--device", "llvmpipe"}, folder.path()).code,
         3);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
+}
+
+TEST(NormalMapping, byRaysIsDrawnByTheReferenceAndAsksForPbrInTheWorld)
+{
+    TemporaryFolder folder;
+    const Words start = {"render",    "-o", "a.png",  "--size", "32x24",
+                         "--samples", "1",  "--json", "-",      "--normal-mapping"};
+    const auto with = [&](Words more) {
+        Words words = start;
+        words.insert(words.end(), more.begin(), more.end());
+        return runTool(words, folder.path());
+    };
+    EXPECT_EQ(with({"facets", "--shading", "blinn-phong"}).code, 1);
+    EXPECT_EQ(with({"facets", "--lighting", "tangent-pixel"}).code, 1);
+    EXPECT_EQ(with({"microfacets"}).code, 1);
+    EXPECT_EQ(with({"facets", "--device", "llvmpipe"}).code, 3); // without Vulkan, too
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+    const ToolRun run = with({"facets"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
+}
+
+// The furnace's bar is 1 %; the ball's rim has every view.
+TEST(Figures, facetsLoseNoLightOfAFurnaceAndTurnedNormalsATenth)
+{
+    const nlohmann::json numbers = report("furnace", "64x48")["figures"][0]["numbers"];
+    const auto lost = [&](const char* way) {
+        return numbers[std::string(way) + ", light lost in a white furnace, %"].get<double>();
+    };
+    EXPECT_NEAR(lost("facets"), 0, 1);
+    EXPECT_NEAR(lost("mirror-facet"), 0, 1);
+    EXPECT_GT(lost("rays"), 10);
+    EXPECT_GT(lost("shadowed"), lost("rays"));
 }
 
 TEST(Page, escapesTextAndEncodesBytes)

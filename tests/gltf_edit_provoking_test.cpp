@@ -187,6 +187,42 @@ TEST(GltfProvoking, aSquareNeedsNoMoreVerticesAndStaysWhatItWas)
     }
 }
 
+// Vertices at zero, which need no bytes.
+Gltf withoutViews()
+{
+    Gltf g = square();
+    for (json& accessor : g.root["accessors"])
+        accessor.erase("bufferView");
+    g.root.erase("bufferViews");
+    g.bytes.clear();
+    primitive(g).erase("indices");
+    return g;
+}
+
+// The first view of a document was added while its primitives were held by reference.
+TEST(GltfProvoking, aModelWithoutAnyViewsGetsItsFirst)
+{
+    const TemporaryFolder folder;
+    auto document = openText(folder, withoutViews().text());
+    ASSERT_TRUE(document) << document.error().message;
+    const auto rows = setGltfProvoking(*document, ProvokingVertex::last);
+    ASSERT_TRUE(rows) << rows.error().message;
+    ASSERT_EQ(rows->size(), 1u);
+    EXPECT_EQ(rows->at(0).triangles, 1u);
+    ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
+    const json out = readBack(folder.path / "out.glb").root;
+    EXPECT_EQ(out["accessors"][out["meshes"][0]["primitives"][0]["indices"].get<int>()]["count"], 3);
+}
+
+TEST(GltfEdit, aModelWithoutAnyViewsIsWrittenWithoutAny)
+{
+    const TemporaryFolder folder;
+    auto document = openText(folder, withoutViews().text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
+    EXPECT_FALSE(readBack(folder.path / "out.glb").root.contains("bufferViews"));
+}
+
 TEST(GltfProvoking, indicesOfAllWidthsStripsFansAndNoneComeOutAsLists)
 {
     const std::vector<std::uint32_t> strip = {0, 1, 3, 2}, fan = {0, 1, 2, 3}, list = {0, 1, 2, 0, 2, 3};

@@ -27,7 +27,7 @@ PrimitiveLint judgedAs(double mean, double percentile95, double area = 1)
 
 MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
 {
-    return {0, "map", spreadAt(0, orthonormal95), spreadAt(0, cotangent95), spreadAt(0, smooth95)};
+    return {{spreadAt(0, orthonormal95), spreadAt(0, cotangent95), spreadAt(0, smooth95)}, 0, "map"};
 }
 
 LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},

@@ -316,6 +316,8 @@ TEST(Lint, tangentsThatAnExtensionReadsAreNotCalledUnused)
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});
     scene.materials[0].name = "hair";
     scene.materials[0].tangentsFor = "KHR_materials_anisotropy";
+    Mesh& mesh = scene.meshes[0]; // along the diagonal of the uv
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(std::sqrt(0.5f), std::sqrt(0.5f), 0, 1));
     EXPECT_NE(lintScene(scene).recommendation.find("hair (KHR_materials_anisotropy)"), std::string::npos);
     scene.materials[0].normalMap.image = -1;
     const std::string text = lintScene(scene).recommendation;

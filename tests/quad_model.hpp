@@ -1,6 +1,8 @@
 // A small glTF model for tests of commands, its parts in separate files.
 #pragma once
 
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -65,12 +67,40 @@ inline Made quad(float stretch, float uvScale = 1)
     return m;
 }
 
+// Turns TANGENT in its plane.
+inline void turnTangents(Made& m, double degrees)
+{
+    const float a = float(degrees * 3.14159265358979 / 180);
+    const std::size_t accessor = m.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"];
+    const std::size_t view = m.root["accessors"][accessor]["bufferView"];
+    const std::size_t at = m.root["bufferViews"][view]["byteOffset"];
+    for (std::size_t v = 0; v < 6; ++v) {
+        const float tangent[] = {std::cos(a), std::sin(a), 0, 1};
+        std::memcpy(m.bytes.data() + at + 16 * v, tangent, sizeof tangent);
+    }
+}
+
+// A clear coat with a normal map: texture 1 reads the image coat.png, the same waves.
+inline void addCoat(Made& m, json normalTexture)
+{
+    m.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform"};
+    m.root["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", 1},
+        {"clearcoatRoughnessFactor", 0.3},
+        {"clearcoatNormalTexture", std::move(normalTexture)}};
+    m.root["textures"].push_back({{"source", 1}});
+    m.root["images"].push_back({{"uri", "coat.png"}});
+}
+
 inline void write(Made m, const std::filesystem::path& folder)
 {
     std::ofstream(folder / "quad.bin", std::ios::binary) << m.bytes;
     m.root["buffers"] = json::array({{{"byteLength", m.bytes.size()}, {"uri", "quad.bin"}}});
     std::ofstream(folder / "quad.gltf") << m.root.dump();
     ASSERT_TRUE(writeImage(folder / "waves.png", makeReliefMap(Relief::waves, 128)));
+    if (m.root["images"].size() > 1 && m.root["images"][1].value("uri", "") == "coat.png")
+        std::filesystem::copy_file(folder / "waves.png", folder / "coat.png",
+                                   std::filesystem::copy_options::overwrite_existing);
 }
 
 } // namespace cotan::test

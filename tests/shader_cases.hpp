@@ -48,10 +48,10 @@ struct Case {
 };
 
 // Every frame in each form, ways of storing maps, two uv sets, every function of gradient.h,
-// blend.h and light.h.
+// blend.h, light.h, sheen.h, environment.h, tone.h and shadow.h.
 std::vector<Case> cases();
 std::vector<Case> frameCases(bool drawn = false); // the frames of them
-std::vector<Case> litCases();                     // light.h of them
+std::vector<Case> litCases();                     // light, surroundings, tone and shadow
 
 // A target of kTiles x kTiles tiles, each with differences of its own that are constant in it: the
 // functions that take derivatives themselves.

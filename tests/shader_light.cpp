@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cotan/scene/picture_text.hpp"
 #include "cotan/truth/patch.hpp"
 #include "shader_cases.hpp"
 
@@ -179,9 +180,64 @@ std::vector<Sample> litSamples()
     return all;
 }
 
+namespace {
+
+// The polynomial of AgX adds terms of up to 40 to a value below one: so much does a rounding inside of it count.
+constexpr double kAgxTerm = 40.14;
+
+void steeper(Case& c, double times)
+{
+    c.allowance = [allowed = c.allowance, times](const Vectors& v) { return allowed(v) * times; };
+}
+
+void addPictureCases(std::vector<Case>& all)
+{
+    // Whole numbers of tiles are not meant to be between; what is there is read from the nearest.
+    all.push_back(COTAN_LIT_CASE("tile", cotan_environment_tile(y * cotan_real(10.0))));
+    all.push_back(COTAN_LIT_CASE("octahedral place",
+                                 cotan_vec3(cotan_octahedral_place(l).x, cotan_octahedral_place(l).y, cotan_real(1.0))));
+    all.push_back(COTAN_LIT_CASE("octahedral direction", cotan_octahedral_direction(cotan_vec2(s.metallic, y))));
+    all.push_back(COTAN_LIT_CASE("environment texel",
+                                 cotan_vec3(cotan_environment_texel(l, cotan_real(0.0)).x,
+                                            cotan_environment_texel(s.v, cotan_real(6.0)).y, cotan_real(1.0))));
+    all.push_back(COTAN_LIT_CASE("albedo texel",
+                                 cotan_vec3(cotan_environment_albedo_texel(x, s.roughness).x,
+                                            cotan_environment_albedo_texel(x, s.roughness).y, cotan_real(1.0))));
+    all.push_back(
+        COTAN_LIT_CASE("bounces, once", cotan_bounces_of(s.base_color, y, cotan_split_sum(y, s.roughness)).once));
+    all.push_back( // 0 of shares that add up to one
+        COTAN_LIT_CASE("bounces, more",
+                       cotan_bounces_of(s.base_color, y, cotan_split_sum(y, s.roughness)).more + s.base_color));
+    all.push_back(COTAN_LIT_CASE("reflect image", cotan_reflect_image(s, g, s.emissive, s.base_color * cotan_real(2.0),
+                                                                      cotan_split_sum(y, s.roughness))));
+    all.push_back(COTAN_LIT_CASE("reflect coat image",
+                                 cotan_reflect_coat_image(c, s.base_color, cotan_split_sum(y, s.roughness))));
+    all.push_back(COTAN_LIT_CASE("tone neutral", cotan_tone_neutral(s.base_color * (y * cotan_real(8.0)))));
+    all.push_back(COTAN_LIT_CASE("AgX, contrast, encoded",
+                                 cotan_vec3(cotan_agx_contrast(y), cotan_agx_encoded(s.roughness * cotan_real(8.0)),
+                                            cotan_real(1.0))));
+    steeper(all.back(), kAgxTerm);
+    all.push_back(COTAN_LIT_CASE("tone AgX", cotan_tone_agx(s.base_color * (y * cotan_real(8.0)))));
+    steeper(all.back(), kAgxTerm);
+    all.push_back(COTAN_LIT_CASE("tone of",
+                                 cotan_vec3(cotan_tone_of(1, s.base_color * x * x).x, cotan_tone_of(2, s.base_color).y,
+                                            cotan_tone_of(3, s.base_color).z)
+                                     + cotan_tone_of(0, s.base_color * x)));
+    steeper(all.back(), kAgxTerm);
+    all.push_back(COTAN_LIT_CASE("saturate color", cotan_saturate_color(s.base_color * x)));
+    all.push_back(COTAN_LIT_CASE("tap", cotan_vec3(cotan_next_tap(cotan_vec2(x, y)).x,
+                                                   cotan_next_tap(cotan_vec2(x, y)).y, cotan_tap_radius(3, 24))));
+    all.push_back(COTAN_LIT_CASE("penumbra",
+                                 cotan_vec3(cotan_penumbra(abs(x), y, cotan_real(0.01), s.roughness),
+                                            cotan_penumbra(abs(x), y, s.metallic, cotan_real(1.0)), cotan_real(1.0))));
+}
+
+} // namespace
+
 std::vector<Case> litCases()
 {
     std::vector<Case> all;
+    addPictureCases(all);
     all.push_back(COTAN_LIT_CASE("saturate, smooth",
                                  cotan_vec3(cotan_saturate(x), cotan_smooth(-y, y + cotan_real(0.1), x),
                                             cotan_smooth(y + cotan_real(0.1), -y, x))));

@@ -50,7 +50,7 @@ json fragmentOf(const FrameInfo& f)
 {
     shader_text::Choice choice;
     choice.frame = f.frame;
-    choice.gradients = choice.blends = choice.lights = true;
+    choice.sets = {std::begin(shader_text::kSets), std::end(shader_text::kSets)};
     choice.language = Language::essl;
     const std::string essl = makeShaderText(choice)->text
         + "in vec3 n, p, t; in vec2 uv; out vec4 o;\nvoid main() { o = vec4(cotan_perturb_normal(n, p, uv, t), 1.0); "

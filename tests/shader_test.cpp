@@ -193,7 +193,7 @@ TEST(ShaderParity, webGl2AndWebGpu)
     expectDrawn(r.drawnWgsl);
 }
 
-// Nothing of light.h is left out above.
+// Nothing of light, its surroundings, shadow and tone is left out above.
 TEST(ShaderParity, everyFunctionOfLightIsRun)
 {
     std::string run;
@@ -201,9 +201,10 @@ TEST(ShaderParity, everyFunctionOfLightIsRun)
         run += c.text(Language::glsl);
     Choice choice;
     const std::vector<std::string> without = makeShaderText(choice)->functions;
-    choice.lights = true;
+    choice.sets = {shader_text::Set::light, shader_text::Set::environment, shader_text::Set::tone,
+                   shader_text::Set::shadow};
     const std::vector<std::string> with = makeShaderText(choice)->functions;
-    EXPECT_GE(with.size(), without.size() + 12);
+    EXPECT_GE(with.size(), without.size() + 50);
     for (const std::string& function : with) {
         const bool light = std::find(without.begin(), without.end(), function) == without.end();
         EXPECT_TRUE(!light || run.find(" " + function + "(") != std::string::npos) << function;
@@ -217,7 +218,7 @@ TEST(ShaderText, theSameChoiceGivesTheSameBytesInEveryLanguage)
             Choice choice;
             choice.language = l;
             choice.frame = f.frame;
-            choice.gradients = choice.blends = choice.lights = true;
+            choice.sets = {std::begin(shader_text::kSets), std::end(shader_text::kSets)};
             const std::string text = makeShaderText(choice)->text;
             EXPECT_EQ(text, makeShaderText(choice)->text);
             // No macro of the portable text is left, no line is too wide for a page.
@@ -262,7 +263,7 @@ TEST(ShaderText, everySetCompilesAsAFragmentShader)
             Choice choice;
             choice.language = l;
             choice.frame = frame.frame;
-            choice.gradients = choice.blends = choice.lights = true;
+            choice.sets = {std::begin(shader_text::kSets), std::end(shader_text::kSets)};
             const bool screen = frame.source == FrameSource::differences;
             const bool hlsl = l == Language::hlsl;
             std::string text = makeShaderText(choice)->text;
@@ -296,7 +297,7 @@ TEST(ShaderCommand, badWordsGetOneLineAndExitCode1)
                                                   {"shader", "--lang", "glsl", "--green", "up"},
                                                   {"shader", "--lang", "glsl", "--channels", "4"},
                                                   {"shader", "--lang", "glsl", "--uv-sets", "9"},
-                                                  {"shader", "--lang", "glsl", "--set", "nothing"}}) {
+                                                  {"shader", "--lang", "glsl", "--set", "tone,nothing"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 1) << words.back();
         EXPECT_EQ(lines(run.err), 1) << run.err;

@@ -2,6 +2,9 @@
 // and so take their time, and cannot see what all languages get wrong alike.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <string>
 
 #include "cotan/shader_text/shader_text.hpp"
@@ -210,19 +213,28 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
 
 TEST(ChosenText, setsOfFunctionsComeOnlyWhenAskedFor)
 {
-    const auto functions = [](bool gradients, bool blends, bool lights) {
-        Choice choice;
-        choice.gradients = gradients;
-        choice.blends = blends;
-        choice.lights = lights;
-        return textOf(choice);
-    };
-    EXPECT_FALSE(has(functions(false, true, true), "cotan_gradient_triplanar("));
-    EXPECT_TRUE(has(functions(true, false, false), "cotan_gradient_triplanar("));
-    EXPECT_FALSE(has(functions(true, false, true), "cotan_blend_udn("));
-    EXPECT_TRUE(has(functions(false, true, false), "cotan_blend_udn("));
-    EXPECT_FALSE(has(functions(true, true, false), "cotan_reflect_pbr("));
-    EXPECT_TRUE(has(functions(false, false, true), "cotan_reflect_pbr("));
+    // Of each set a function that no other one calls.
+    const std::map<Set, std::string> own = {
+        {Set::gradient, "cotan_gradient_triplanar("}, {Set::blend, "cotan_blend_udn("},
+        {Set::light, "cotan_reflect_coat("},          {Set::environment, "cotan_environment_texel("},
+        {Set::tone, "cotan_tone_agx("},               {Set::shadow, "cotan_penumbra("}};
+    for (const Set set : kSets) {
+        Choice with, others;
+        with.sets = {set};
+        std::ranges::copy_if(kSets, std::back_inserter(others.sets), [&](Set s) { return s != set; });
+        EXPECT_TRUE(has(textOf(with), own.at(set))) << name(set);
+        EXPECT_FALSE(has(textOf(others), own.at(set))) << name(set);
+    }
+}
+
+// GLSL ES and WGSL convert no whole number by themselves.
+TEST(ChosenText, wholeNumbersBecomeRealsByName)
+{
+    const char* const text = "COTAN_FUNCTION cotan_real half(int i)\n{\n"
+                             "    return cotan_real(i) * cotan_real(3) + cotan_real(0.5);\n}\n";
+    EXPECT_TRUE(has(translate(Language::essl, text), "return float(i) * 3.0 + 0.5;"));
+    EXPECT_TRUE(has(translate(Language::wgsl, text), "return f32(i) * 3.0 + 0.5;"));
+    EXPECT_TRUE(has(translate(Language::msl, text), "return float(i) * 3.0f + 0.5f;"));
 }
 
 } // namespace

@@ -141,7 +141,7 @@ Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, Gltf
         return done.error();
     for (const ConvertedMap& map : done->maps)
         report["maps"].push_back(toJson(map));
-    if (const std::string line = tangentsLine(*done, o.to); !line.empty())
+    for (const std::string& line : tangentsLines(*done, o.to))
         say(o, line);
     report["tangents"] = tangentsJson(*done);
     notes = done->notes;

@@ -1,6 +1,7 @@
 #include "picture.hpp"
 
 #include <future>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,16 @@
 #include "picture_light.hpp"
 
 namespace cotan::app {
+
+namespace {
+
+const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", NormalMapping::shading},
+                                                              {"rays", NormalMapping::rays},
+                                                              {"shadowed", NormalMapping::shadowed},
+                                                              {"facets", NormalMapping::facets},
+                                                              {"mirror-facet", NormalMapping::mirrorFacet}};
+
+} // namespace
 
 Result<View> viewOf(const PictureOptions& options, const Scene& scene)
 {
@@ -39,6 +50,7 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     view.lighting = options.lighting == "world" ? Lighting::world
         : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
                                                 : Lighting::tangentPixel;
+    view.normalMapping = kNormalMappings.at(options.normalMapping);
     view.rowsUpward = options.rows == "up";
     view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
     view.samples = options.samples;
@@ -98,6 +110,11 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
              "(tangent-pixel), for comparison and on the reference device only")
         .from({"world", "tangent-vertex", "tangent-pixel"})
+        .in("NAME");
+    a.option("--normal-mapping", o.normalMapping,
+             "what a turned normal does: shading; or by rays, on the reference device only: rays (light from below "
+             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet")
+        .from({"shading", "rays", "shadowed", "facets", "mirror-facet"})
         .in("NAME");
     addTangentsOption(
         a, o.tangents,
@@ -186,24 +203,30 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     return picture;
 }
 
+std::string deviceOf(const PictureOptions& options)
+{
+    const bool reference =
+        options.device == "auto" && (options.lighting != "world" || options.normalMapping != "shading");
+    return reference ? "reference" : options.device;
+}
+
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture)
 {
-    const bool reference = options.device == "auto" && options.lighting != "world";
     auto ground =
         std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
-    auto painter = openDevice(reference ? "reference" : options.device, common);
+    auto painter = openDevice(deviceOf(options), common);
     if (!painter)
         return painter;
     if (Status loaded = (*painter)->load(picture.scene); !loaded)
         return loaded.error();
-    picture.view.ground = ground.get();
-    if (picture.meter) {
-        const auto exposure = meterExposure(**painter, picture.view);
-        if (!exposure)
-            return exposure.error();
-        picture.view.exposure = *exposure;
-    }
+    std::optional<Result<float>> exposure;
+    if (picture.meter)
+        exposure = meterExposure(**painter, picture.view);
+    picture.view.ground = ground.get(); // not needed before, and read by nobody else now
+    if (exposure && !*exposure)
+        return exposure->error();
+    picture.view.exposure = exposure ? **exposure : picture.view.exposure;
     return painter;
 }
 
@@ -214,6 +237,10 @@ Status checkLighting(const PictureOptions& options, Frame frame)
             fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                         "mikktspace; found '{}'",
                         name(frame)));
+    if (options.normalMapping != "shading" && (options.shading != "pbr" || options.lighting != "world"))
+        return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
+                                      "{} and {}",
+                                      options.normalMapping, options.shading, options.lighting));
     return Done{};
 }
 

@@ -36,6 +36,7 @@ struct PictureOptions {
     std::string device = "auto";
     std::string shading = "pbr";
     std::string lighting = "world";
+    std::string normalMapping = "shading";
     std::string tangents = "stored";
     std::string environment = "studio"; // or none
     double environmentRotation = 0;     // degrees
@@ -93,6 +94,9 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
 
 // Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
 Status checkLighting(const PictureOptions& options, Frame frame);
+
+// The name of the device that the options ask for: "auto" is the reference renderer for what it alone draws.
+std::string deviceOf(const PictureOptions& options);
 
 // The device that the options name, with the picture's scene loaded and its exposure found; a fallback is warned about.
 // Lighting in tangent space is drawn by the reference renderer unless another device is named.

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/environment/environment.hpp"
 #include "cotan/ground/ground.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
+#include "cotan/surroundings/surroundings.hpp"
 
 namespace cotan::app {
 
@@ -49,12 +49,8 @@ Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
     EnvironmentOptions made;
     made.rotation = float(o.environmentRotation * kRadians);
     made.intensity = o.environmentIntensity;
-    if (const auto radiance = builtinRadiance(o.environment)) {
-        const int samples = o.environment == "evening" ? 2 : 1; // only its sun is small
-        EnvironmentMap map = makeEnvironment(*radiance, samples, made);
-        map.name = o.environment;
-        return map;
-    }
+    if (auto map = builtinEnvironment(o.environment, made))
+        return std::move(*map);
     if (std::filesystem::path(o.environment).extension().empty())
         return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
                                       fmt::join(environmentNames(), ", "), o.environment));

@@ -104,14 +104,15 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
         return caller.error();
     choice.callerDifferences = *caller;
     choice.uvSets = o.uvSets;
-    for (const std::string& set : o.sets) {
-        const Result<int> which =
-            oneOf<int>("--set", set, {{"frame", 0}, {"gradient", 1}, {"blend", 2}, {"light", 4}, {"all", 7}});
-        if (!which)
-            return which.error();
-        choice.gradients |= (*which & 1) != 0;
-        choice.blends |= (*which & 2) != 0;
-        choice.lights |= (*which & 4) != 0;
+    Words<std::vector<shader_text::Set>> sets{{"frame", {}}};
+    for (const shader_text::Set set : shader_text::kSets)
+        sets.push_back({name(set), {set}});
+    sets.push_back({"all", {std::begin(shader_text::kSets), std::end(shader_text::kSets)}});
+    for (const std::string& word : o.sets) {
+        const auto chosen = oneOf("--set", word, sets);
+        if (!chosen)
+            return chosen.error();
+        choice.sets.insert(choice.sets.end(), chosen->begin(), chosen->end());
     }
     return choice;
 }
@@ -173,7 +174,7 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--uv-sets", o.uvSets,
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
-    a.option("--set", o.sets, "more functions: gradient, blend, light, all").separatedByCommas().in("A,B");
+    a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all").separatedByCommas().in("A,B");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")

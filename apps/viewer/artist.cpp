@@ -71,7 +71,7 @@ View smaller(View view)
 // All that is only touched by the artist's thread.
 class Studio {
 public:
-    Studio(std::string device, app::CommonOptions common) : device_(std::move(device)), common_(std::move(common)) {}
+    explicit Studio(app::CommonOptions common) : common_(std::move(common)) {}
 
     Drawn draw(const Order& order)
     {
@@ -204,8 +204,7 @@ private:
         Stage& s = stages_[index];
         s.key.clear();
         if (!s.painter) {
-            const bool reference = device_ == "auto" && o.lighting != "world";
-            auto painter = app::openDevice(reference ? "reference" : device_, common_);
+            auto painter = app::openDevice(deviceOf(o), common_);
             if (!painter)
                 return painter.error();
             s.painter = std::move(*painter);
@@ -260,7 +259,6 @@ private:
         return view;
     }
 
-    std::string device_;
     app::CommonOptions common_;
     std::array<Stage, 2> stages_;
     Kept<std::shared_ptr<const EnvironmentMap>> surroundings_;
@@ -271,8 +269,8 @@ private:
 } // namespace
 
 struct Artist::Work {
-    Work(std::string device, app::CommonOptions common, std::function<void()> tell)
-        : studio(std::move(device), std::move(common)), done(std::move(tell)), thread([this] { run(); })
+    Work(app::CommonOptions common, std::function<void()> tell)
+        : studio(std::move(common)), done(std::move(tell)), thread([this] { run(); })
     {
     }
 
@@ -351,8 +349,8 @@ struct Artist::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Artist::Artist(std::string device, app::CommonOptions common, std::function<void()> done)
-    : work_(std::make_unique<Work>(std::move(device), std::move(common), std::move(done)))
+Artist::Artist(app::CommonOptions common, std::function<void()> done)
+    : work_(std::make_unique<Work>(std::move(common), std::move(done)))
 {
 }
 

@@ -43,8 +43,8 @@ Order orderOf(const State& state);
 
 class Artist {
 public:
-    // device: as openPainter takes it. done: called on the artist's thread where something new can be taken.
-    Artist(std::string device, app::CommonOptions common, std::function<void()> done);
+    // done: called on the artist's thread where something new can be taken.
+    Artist(app::CommonOptions common, std::function<void()> done);
     ~Artist();
 
     // Draws this next; an order that waits is dropped.

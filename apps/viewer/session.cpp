@@ -80,7 +80,7 @@ public:
         app::CommonOptions quiet = options_.common;
         quiet.quiet = true; // what is to be said is said in the window
         loader_.emplace(quiet, [this] { wake(); });
-        artist_.emplace(state_.picture.device, quiet, [this] { wake(); });
+        artist_.emplace(quiet, [this] { wake(); });
         state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
         loadWished();
         auto opened = openWindow(window);

@@ -122,7 +122,8 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
             add(setting.name, value);
     }
     for (const auto& [name, value, other] :
-         {std::tuple("device", o.device, usual.device), {"lighting", o.lighting, usual.lighting}, {"rows", o.rows, usual.rows}})
+         {std::tuple("device", o.device, usual.device), {"lighting", o.lighting, usual.lighting}, {"rows", o.rows, usual.rows},
+          {"normal-mapping", o.normalMapping, usual.normalMapping}})
         if (value != other)
             add(name, value);
     return text;

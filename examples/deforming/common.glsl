@@ -6,6 +6,7 @@
 #include "cotan/frame.h"
 #include "cotan/triangle.h"
 #include "cotan/pack.h"
+#include "cotan/corner.h"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { float at[]; };
@@ -53,22 +54,6 @@ Corner cornerAt(uint c)
     vec3 p = positionOf(v0);
     vec2 uv = texcoordOf(v0);
     return Corner(positionOf(v1) - p, positionOf(v2) - p, texcoordOf(v1) - uv, texcoordOf(v2) - uv);
-}
-
-// The angle between two edges seen along the unit normal n; right where one of them vanishes. GLSL's own
-// arc cosine may be coarse; this is Abramowitz and Stegun 4.4.46, as the C++ has it.
-float angleSeen(Corner c, vec3 n)
-{
-    vec3 a = c.dp1 - n * dot(n, c.dp1), b = c.dp2 - n * dot(n, c.dp2);
-    a *= cotan_power_of_two_scale(cotan_max_abs(a));
-    b *= cotan_power_of_two_scale(cotan_max_abs(b));
-    float lengths2 = dot(a, a) * dot(b, b);
-    float x = lengths2 > 0.0 ? dot(a, b) * inversesqrt(lengths2) : 0.0;
-    float y = min(abs(x), 1.0), y2 = y * y;
-    float low = 1.5707963050 + y * (-0.2145988016 + y * (0.0889789874 - y * 0.0501743046));
-    float high = 0.0308918810 + y * (-0.0170881256 + y * (0.0066700901 - y * 0.0012624911));
-    float angle = sqrt(1.0 - y) * (low + y2 * y2 * high);
-    return x < 0.0 ? 3.14159265 - angle : angle;
 }
 
 // Writes four numbers in [-1, 1] to all vertices of a group.

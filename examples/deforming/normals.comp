@@ -15,7 +15,7 @@ void main()
         Corner c = cornerAt(derive.corners.at[i]);
         cotan_differences d = cotan_scale_differences(c.dp1, c.dp2, c.duv1, c.duv2);
         vec3 face = cotan_normalize_or(cross(d.dpdx, d.dpdy), zero);
-        sum += face * (dot(face, face) > 0.0 ? angleSeen(c, face) : 0.0);
+        sum += face * (dot(face, face) > 0.0 ? cotan_corner_angle(face, c.dp1, c.dp2) : 0.0);
     }
     vec3 n = cotan_normalize_or(sum, zero);
     for (uint i = derive.vertexBegin.at[group]; dot(n, n) > 0.0 && i < derive.vertexBegin.at[group + 1u]; ++i) {

@@ -19,7 +19,7 @@ void main()
         float side = sign(d.duvdx.x * d.duvdy.y - d.duvdx.y * d.duvdy.x);
         vec3 along = cotan_normalize_or((d.dpdx * d.duvdy.y - d.dpdy * d.duvdx.y) * side, zero);
         vec3 t = cotan_normalize_or(along - n * dot(n, along), zero);
-        sum += t * (dot(t, t) > 0.0 ? angleSeen(c, n) : 0.0);
+        sum += t * (dot(t, t) > 0.0 ? cotan_corner_angle(n, c.dp1, c.dp2) : 0.0);
     }
     vec3 t = cotan_normalize_or(sum, zero);
     bool found = dot(t, t) > 0.0;

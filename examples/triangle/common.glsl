@@ -20,6 +20,11 @@ layout(push_constant, std430) uniform Draw {
     Words packed;    // three words a triangle: U and V as halfs
     Words ids;       // per pixel the number of the triangle plus one (visibility)
     Floats result;   // per pixel (visibility)
+    Words meshlets;  // the arrays of cotan::RingMeshlets (mesh-smooth, ring)
+    Words meshletVertices;
+    Words meshletTriangles;
+    Words ringBegin;
+    Words ring;
     uint triangles;
     uint width;
     uint height;

@@ -1,5 +1,5 @@
-// The frame `triangle`, delivered in five ways: triangle_example WAY picture.ppm [normals.pfm] [sheets|teapot|MODEL]
-// WAY: provoking, read, smooth, mesh, visibility; derivatives for comparison.
+// The frame `triangle`, delivered in five ways, and `smooth` in three: triangle_example WAY picture.ppm [normals.pfm]
+// [sheets|teapot|MODEL] WAY: provoking, read, smooth, mesh, mesh-smooth, ring, visibility; derivatives for comparison.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <exception>
 #include <string>
 
+#include <cotan/meshlets.hpp>
 #include <cotan/provoking.hpp>
 #include <cotan/triangle.hpp>
 
@@ -17,9 +18,11 @@
 #include "gpu.hpp"
 #include "mesh.hpp"
 #include "meshlet.mesh.h"
+#include "meshlet_smooth.mesh.h"
 #include "plain.vert.h"
 #include "provoking.vert.h"
 #include "read.frag.h"
+#include "ring.comp.h"
 #include "smooth.frag.h"
 #include "smooth.vert.h"
 #include "visibility.comp.h"
@@ -33,6 +36,7 @@ constexpr std::size_t kPixels = kSize.width * kSize.height;
 // As common.glsl has it.
 struct Draw {
     std::uint64_t positions, normals, texcoords, corners, sources, packed, ids, result;
+    std::uint64_t meshlets, meshletVertices, meshletTriangles, ringBegin, ring;
     std::uint32_t triangles, width = kSize.width, height = kSize.height, spare = 0;
 };
 
@@ -41,6 +45,7 @@ struct Way {
     std::vector<Stage> stages;
     bool meshShader = false;
     bool visibility = false;
+    bool ring = false; // meshlets with the ring around them; frames are made before, where no mesh shader makes them
 };
 
 using S = vk::ShaderStageFlagBits;
@@ -52,6 +57,8 @@ const std::vector<Way>& ways()
         {"read", {{S::eVertex, plain_vert}, {S::eFragment, read_frag}}},
         {"smooth", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}},
         {"mesh", {{S::eMeshEXT, meshlet_mesh}, {S::eFragment, flat_mesh_frag}}, true},
+        {"mesh-smooth", {{S::eMeshEXT, meshlet_smooth_mesh}, {S::eFragment, smooth_frag}}, true, false, true},
+        {"ring", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}, false, false, true},
         {"visibility", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, true},
         {"derivatives", {{S::eVertex, plain_vert}, {S::eFragment, derivatives_frag}}},
     };
@@ -61,13 +68,14 @@ const std::vector<Way>& ways()
 // What the mesh gets before it is drawn, on the device.
 struct Prepared {
     Buffer positions, normals, texcoords, corners, sources, packed, indices;
-    std::uint32_t indexCount = 0;
+    Buffer meshlets, meshletVertices, meshletTriangles, ringBegin, ring;
+    std::uint32_t indexCount = 0, groups = 0; // work groups of a mesh shader, one a meshlet
 };
 
 Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
 {
     const std::string name = way.name;
-    const Mesh mesh = name == "smooth" ? splitAtMirrors(given) : given;
+    const Mesh mesh = name == "smooth" || way.ring ? splitAtMirrors(given) : given;
     const cotan::MeshView view{mesh.positions, mesh.normals, mesh.texcoords, mesh.indices};
     Prepared p;
     p.positions = makeBuffer(gpu, mesh.positions);
@@ -78,6 +86,21 @@ Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
     p.sources = makeBuffer(gpu, nullptr, 0);
     p.packed = makeBuffer(gpu, nullptr, 0);
     p.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
+    p.groups = (p.indexCount / 3 + 31) / 32; // of meshlet.mesh
+    cotan::RingMeshlets cut;
+    if (way.ring) {
+        cut = cotan::ringMeshlets(view);
+        p.groups = static_cast<std::uint32_t>(cut.meshlets.size());
+        p.sources = makeBuffer(gpu, nullptr, mesh.positions.size() * 8);
+        std::printf("meshlets: %zu of %zu triangles; %zu vertices, %.2f times as many as the mesh\n",
+                    cut.meshlets.size(), cut.triangles.size(), cut.vertices.size(),
+                    double(cut.vertices.size()) / double(mesh.positions.size()));
+    }
+    p.meshlets = makeBuffer(gpu, cut.meshlets);
+    p.meshletVertices = makeBuffer(gpu, cut.vertices);
+    p.meshletTriangles = makeBuffer(gpu, cut.triangles);
+    p.ringBegin = makeBuffer(gpu, cut.ringBegin);
+    p.ring = makeBuffer(gpu, cut.corners);
     if (name == "provoking") {
         const cotan::ProvokingMesh own =
             cotan::provokingMesh(mesh.indices, mesh.positions.size(), cotan::ProvokingVertex::first);
@@ -112,15 +135,36 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     vk::raii::Pipeline resolve{nullptr};
     if (way.visibility)
         resolve = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, visibility_comp}}, format, kSize);
+    vk::raii::Pipeline derive{nullptr};
+    if (way.ring && !way.meshShader)
+        derive = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, ring_comp}}, format, kSize);
 
-    const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
-    const Draw constants{p.positions.address, p.normals.address, p.texcoords.address,
-                         p.corners.address,   p.sources.address, p.packed.address,
-                         ids.address,         result.address,    triangles};
+    const Draw constants{p.positions.address,
+                         p.normals.address,
+                         p.texcoords.address,
+                         p.corners.address,
+                         p.sources.address,
+                         p.packed.address,
+                         ids.address,
+                         result.address,
+                         p.meshlets.address,
+                         p.meshletVertices.address,
+                         p.meshletTriangles.address,
+                         p.ringBegin.address,
+                         p.ring.address,
+                         static_cast<std::uint32_t>(mesh.indices.size() / 3)};
     const vk::raii::CommandBuffers list(gpu.device, {*gpu.pool, vk::CommandBufferLevel::ePrimary, 1});
     const vk::raii::CommandBuffer& commands = list.front();
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     commands.pushConstants<Draw>(*layout, everywhere, 0, constants);
+    if (way.ring && !way.meshShader) {
+        using P = vk::PipelineStageFlagBits2;
+        const vk::MemoryBarrier2 made(P::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite, P::eVertexShader,
+                                      vk::AccessFlagBits2::eShaderStorageRead);
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, *derive);
+        commands.dispatch(p.groups, 1, 1);
+        commands.pipelineBarrier2(vk::DependencyInfo({}, made));
+    }
     barrier(commands, *color.image, A::eColor, L::eUndefined, L::eColorAttachmentOptimal);
     barrier(commands, *depth.image, A::eDepth, L::eUndefined, L::eDepthAttachmentOptimal);
     const vk::RenderingAttachmentInfo colorInfo(*color.view, L::eColorAttachmentOptimal, {}, {}, {},
@@ -131,7 +175,7 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     commands.beginRendering(vk::RenderingInfo({}, vk::Rect2D({0, 0}, kSize), 1, 0, colorInfo, &depthInfo));
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     if (way.meshShader) {
-        commands.drawMeshTasksEXT((triangles + 31) / 32, 1, 1);
+        commands.drawMeshTasksEXT(p.groups, 1, 1);
     } else {
         commands.bindIndexBuffer(*p.indices.buffer, 0, vk::IndexType::eUint32);
         commands.drawIndexed(p.indexCount, 1, 0, 0, 0);
@@ -183,9 +227,10 @@ try {
         if (count > 2 && std::string(words[1]) == w.name)
             way = &w;
     if (!way)
-        return std::fprintf(stderr,
-                            "usage: triangle_example provoking|read|smooth|mesh|visibility|derivatives picture.ppm "
-                            "[normals.pfm] [sheets|teapot|MODEL]\n"),
+        return std::fprintf(
+                   stderr,
+                   "usage: triangle_example provoking|read|smooth|mesh|mesh-smooth|ring|visibility|derivatives "
+                   "picture.ppm [normals.pfm] [sheets|teapot|MODEL]\n"),
                1;
     const std::string what = count > 4 ? words[4] : "sheets";
     const Mesh mesh = what == "sheets" ? sheets() : what == "teapot" ? teapot() : model(what);

@@ -81,7 +81,7 @@ COTAN_FUNCTION cotan_vec3 cotan_tone_agx(cotan_vec3 c)
             dot(l, cotan_vec3(cotan_real(-0.0182), cotan_real(-0.1006), cotan_real(1.1187)))));
 }
 
-// The curve of that number, COTAN_TONE_...; ACES is cotan_tone_map of light.h.
+// The curve of that number: 0 cuts off, 1 is ACES (cotan_tone_map), 2 Khronos PBR Neutral, 3 AgX.
 COTAN_FUNCTION cotan_vec3 cotan_tone_of(int curve, cotan_vec3 c)
 {
     if (curve == COTAN_TONE_ACES)

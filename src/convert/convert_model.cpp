@@ -137,10 +137,10 @@ private:
             report_.notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
             return Done{};
         }
-        const auto dropped = dropTangents(document_, report_.notes);
+        auto dropped = dropTangents(document_, options_.frames, report_.notes);
         if (!dropped)
             return dropped.error();
-        report_.dropped = *dropped;
+        report_.dropped = std::move(*dropped);
         return Done{};
     }
 

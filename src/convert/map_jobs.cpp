@@ -20,7 +20,7 @@ bool readElsewhere(const Json& root, std::size_t image)
 {
     std::set<std::size_t> textures;
     for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
-        textures.merge(texturesBesideNormalMap(root["materials"][m]));
+        textures.merge(texturesBesideNormalMaps(root["materials"][m]));
     return std::any_of(textures.begin(), textures.end(), [&](std::size_t t) {
         return t < countOf(root, "textures") && textureAt(root, int(t)).image == int(image);
     });
@@ -52,27 +52,58 @@ void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vecto
             takeOffExtension(root, name);
 }
 
-// One primitive with one of its materials, added to the job of that material's normal map.
+// The factor on the slopes; 0 of a coat that is not there.
+double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot slot)
+{
+    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
+    return slot == NormalSlot::coat && coat->value("clearcoatFactor", 0.0) <= 0 ? 0 : map.scale;
+}
+
+const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }
+
+// The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
+// Without triangles or the uv of the map: no mesh, and `why`.
+Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, NormalSlot slot, std::string& why)
+{
+    auto geometry = gltfGeometry(document, m, p);
+    if (!geometry)
+        return geometry.error();
+    Mesh mesh = gltfMesh(std::move(*geometry));
+    if (slot == NormalSlot::coat) {
+        auto coat = gltfGeometry(document, m, p, slot);
+        if (!coat)
+            return coat.error();
+        mesh.texcoords[1] = std::move(gltfMesh(std::move(*coat)).texcoords[0]);
+    }
+    if (mesh.indices.empty())
+        why = "no triangles";
+    else if (mesh.texcoords[slot == NormalSlot::coat ? 1 : 0].empty())
+        why = std::string("no uv for ") + whatOf(slot);
+    return mesh;
+}
+
+// One primitive with one of its materials, added to the job of a normal map of that material.
 // document: with the material in the primitive's place, for its uv.
-Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::size_t material, bool foreign,
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, bool foreign,
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
     const Json& root = document.root;
-    const gltf::TextureUse map = normalMapOf(root, material);
+    const gltf::TextureUse map = normalMapOf(root, place.material, place.slot);
     if (map.texture < 0)
         return Done{};
     if (foreign) {
-        notes.push_back(primitiveField(m, p) + ": its normal map is in a format that is not read here; left as it is");
+        notes.push_back(fmt::format("{}: {} is in a format that is not read here; left as it is", primitiveField(m, p),
+                                    whatOf(place.slot)));
         return Done{};
     }
-    auto geometry = gltfGeometry(document, m, p);
-    if (!geometry)
-        return geometry.error();
-    if (geometry->texcoords.empty() || geometry->indices.empty()) {
-        notes.push_back(primitiveField(m, p)
-                        + (geometry->indices.empty() ? ": no triangles" : ": no uv for its normal map")
-                        + "; its normal map is not converted for it");
+    std::string why;
+    const auto mesh = meshFor(document, m, p, place.slot, why);
+    if (!mesh)
+        return mesh.error();
+    if (!why.empty()) {
+        notes.push_back(
+            fmt::format("{}: {}; {} is not converted for it", primitiveField(m, p), why, whatOf(place.slot)));
         return Done{};
     }
     const gltf::Texture texture = textureAt(root, map.texture);
@@ -83,13 +114,14 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
     job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
     if (job.name.empty() || job.name.starts_with("data:"))
         job.name = fmt::format("image {}", image);
-    if (std::find(job.materials.begin(), job.materials.end(), material) == job.materials.end())
-        job.materials.push_back(material);
-    const Mesh mesh = gltfMesh(std::move(*geometry));
+    if (std::ranges::find(job.places, place) == job.places.end())
+        job.places.push_back(place);
     for (const glm::dmat3& linear : placed) {
         MapUse use;
-        use.surface = makeSurface(mesh, Texture{}, linear);
-        use.strength = map.scale;
+        use.surface = place.slot == NormalSlot::coat
+            ? makeCoatSurface(*mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, linear)
+            : makeSurface(*mesh, Texture{}, linear);
+        use.strength = strengthOf(root["materials"][place.material], map, place.slot);
         use.wrapU = sampler.wrapU;
         use.wrapV = sampler.wrapV;
         job.uses.push_back(std::move(use));
@@ -99,26 +131,24 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, std::s
 
 } // namespace
 
-std::vector<bool> foreignNormalMaps(const GltfDocument& document)
+std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
 {
     const Json& root = document.root;
-    std::map<std::size_t, bool> images;
-    std::vector<bool> foreign(countOf(root, "materials"), false);
-    for (std::size_t m = 0; m < foreign.size(); ++m) {
-        const gltf::TextureUse map = normalMapOf(root, m);
-        if (map.texture < 0)
-            continue;
-        const int source = textureAt(root, map.texture).image;
-        foreign[m] = source < 0;
-        if (foreign[m])
-            continue;
-        const auto image = std::size_t(source);
-        if (!images.contains(image)) {
-            const auto bytes = gltfImageBytes(document, image);
-            images[image] = bytes && !foreignFormat(*bytes).empty();
+    std::map<int, bool> images = {{-1, true}};
+    std::vector<MapPlace> foreign;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
+        for (const NormalSlot slot : kNormalSlots) {
+            const gltf::TextureUse map = normalMapOf(root, m, slot);
+            if (map.texture < 0)
+                continue;
+            const int image = textureAt(root, map.texture).image;
+            if (!images.contains(image)) {
+                const auto bytes = gltfImageBytes(document, std::size_t(image));
+                images[image] = bytes && !foreignFormat(*bytes).empty();
+            }
+            if (images[image])
+                foreign.push_back({m, slot});
         }
-        foreign[m] = images[image];
-    }
     return foreign;
 }
 
@@ -126,14 +156,18 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 {
     const Json& root = document.root;
     const auto placed = gltfPlacings(root);
-    const std::vector<bool> foreign = foreignNormalMaps(document);
+    const std::vector<MapPlace> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
     GltfDocument seen = document; // each primitive with the material it is seen with
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
             seen.root["meshes"][m]["primitives"][p]["material"] = material;
-            if (Status added = addUse(seen, m, p, material, foreign[material], placed[m], jobs, notes); !added)
-                return added;
+            for (const NormalSlot slot : kNormalSlots) {
+                const MapPlace place{material, slot};
+                const bool unread = std::ranges::find(foreign, place) != foreign.end();
+                if (Status added = addUse(seen, m, p, place, unread, placed[m], jobs, notes); !added)
+                    return added;
+            }
         }
         return Done{};
     });
@@ -159,11 +193,12 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     }
     const std::size_t image = addGltfImage(document, std::move(png), "image/png", job.name);
     std::map<std::size_t, std::size_t> copies;
-    for (std::size_t m : job.materials) {
-        const std::size_t texture = document.root["materials"][m]["normalTexture"]["index"].get<std::size_t>();
+    for (const MapPlace place : job.places) {
+        Json& index = normalSlotOf(document.root, place.material, place.slot)["index"];
+        const std::size_t texture = index.get<std::size_t>();
         if (!copies.contains(texture))
             copies[texture] = copyGltfTexture(document, texture, image);
-        document.root["materials"][m]["normalTexture"]["index"] = copies[texture];
+        index = copies[texture];
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "cotan/convert/map_jobs.hpp"
 #include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf/placed.hpp"
 
 namespace cotan {
 
@@ -13,35 +14,69 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// What of a material reads tangents and is not converted; empty if nothing.
-std::string whyTangentsStay(const Json& root, std::size_t material, bool foreign)
+// How far the direction of a primitive's highlights turns with its worst placing.
+Result<Spread> turnOf(const GltfDocument& document, std::size_t m, std::size_t p, const std::vector<glm::dmat3>& placed,
+                      const FramePair& frames)
 {
-    if (foreign)
-        return "its normal map, in a format that is not read here,";
-    const std::string reader = gltf::tangentReader(root["materials"][material]);
-    return reader.empty() ? reader : reader + " reads tangents and";
+    auto geometry = gltfGeometry(document, m, p);
+    if (!geometry)
+        return geometry.error();
+    const Mesh mesh = gltfMesh(std::move(*geometry));
+    Spread worst;
+    for (const glm::dmat3& linear : placed) {
+        const Spread turn = directionTurn(makeSurface(mesh, Texture{}, linear), frames);
+        if (turn.count == 0)
+            return turn;
+        if (worst.count == 0 || turn.percentile95 > worst.percentile95)
+            worst = turn;
+    }
+    return worst;
+}
+
+// Whether a direction stays where TANGENT goes; what to say where it does not.
+std::string whyDirectionNeedsTangents(const TurnedDirection& d, Frame to)
+{
+    if (d.degrees.count == 0)
+        return "the direction of its anisotropy is that of TANGENT alone, without uv to derive it from";
+    return fmt::format("the direction of its anisotropy would turn by {:.1f} degrees with {} (95 % of {})",
+                       d.degrees.percentile95, name(to), primitiveField(d.mesh, d.primitive));
 }
 
 } // namespace
 
-Result<TangentBytes> dropTangents(GltfDocument& document, std::vector<std::string>& notes)
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, told;
-    const std::vector<bool> foreign = foreignNormalMaps(document);
+    const std::vector<MapPlace> foreign = foreignNormalMaps(document);
+    const auto placed = gltfPlacings(document.root);
     const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = document.root;
         const Json& primitive = root["meshes"][m]["primitives"][p];
         if (!primitive["attributes"].contains("TANGENT"))
             return Done{};
-        for (const std::size_t material : materialsOf(root, primitive)) {
-            const std::string reason = whyTangentsStay(root, material, foreign[material]);
-            if (reason.empty())
-                continue;
+        bool stays = false;
+        const auto keepFor = [&](std::size_t material, const std::string& reason) {
+            stays = true;
             if (told.insert(material).second)
-                notes.push_back(fmt::format("materials[{}]: {} is not converted; TANGENT stays", material, reason));
-            return Done{};
+                notes.push_back(fmt::format("materials[{}]: {}; TANGENT stays", material, reason));
+        };
+        for (const std::size_t material : materialsOf(root, primitive)) {
+            for (const MapPlace& place : foreign)
+                if (place.material == material)
+                    keepFor(material, "its normal map, in a format that is not read here, is not converted");
+            if (gltf::tangentReader(root["materials"][material]).empty())
+                continue;
+            const auto turn = turnOf(document, m, p, placed[m], frames);
+            if (!turn)
+                return turn.error();
+            TurnedDirection& d = dropped.directions.emplace_back(TurnedDirection{m, p, material, *turn, false});
+            d.stays = !directionStays(d.degrees);
+            if (d.stays)
+                keepFor(material, whyDirectionNeedsTangents(d, frames.to));
         }
+        if (stays)
+            return Done{};
         auto count = [&](const Json& attributes, bool base) {
             if (!attributes.contains("TANGENT"))
                 return;

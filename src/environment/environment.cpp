@@ -75,7 +75,6 @@ void put(Image& atlas, int x, int y, glm::vec3 value)
     float* p = atlas.floats() + 4 * (std::size_t(y) * std::size_t(atlas.width) + std::size_t(x));
     for (int c = 0; c < 3; ++c)
         p[c] = glm::unpackHalf2x16(glm::packHalf2x16(glm::vec2(std::min(value[c], kBrightest), 0))).x;
-    p[3] = 1;
 }
 
 // With its border.
@@ -105,6 +104,8 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
 {
     EnvironmentMap map;
     map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
+    for (std::size_t i = 0; i < map.atlas.pixelCount(); ++i)
+        map.atlas.floats()[4 * i + 3] = 1;
     const Octahedral finest = sampled(radiance, sizeOfTile(0), samples, options);
     const LampTree lamps(finest);
     putTile(map.atlas, 0, finest);

@@ -51,5 +51,6 @@ Figure makeMirroredFigure(Studio& studio);
 Figure makeTargetsFigure(Studio& studio);
 Figure makeDecodeFigure(Studio& studio);
 Figure makeFacetingFigure(Studio& studio);
+Figure makeFurnaceFigure(Studio& studio);
 
 } // namespace cotan::figures

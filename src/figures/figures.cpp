@@ -33,6 +33,7 @@ constexpr FigureInfo kFigures[] = {
     {"targets", makeTargetsFigure},
     {"decode", makeDecodeFigure},
     {"faceting", makeFacetingFigure},
+    {"furnace", makeFurnaceFigure},
 };
 
 // The figures of these names, in the order of the table; all if there are none.

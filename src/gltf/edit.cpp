@@ -64,6 +64,8 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     source->views = std::move(model.views);
     GltfDocument document;
     document.root = source->root;
+    if (!document.root.contains("bufferViews")) // a member that is added later would leave no reference in place
+        document.root["bufferViews"] = Json::array();
     for (const std::string& name : unpacked)
         document.notes.push_back(fmt::format("{}: decoded; the geometry is written plain", name));
     document.source = std::move(source);

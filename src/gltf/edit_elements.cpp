@@ -75,13 +75,10 @@ std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Prim
                                      choice, {accessor, field + "." + name});
 }
 
-// The uv as the material's normal map reads them; uv set 0 where there is no normal map.
-void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitive, const gltf::Choice& choice,
-                   const std::string& field, GltfGeometry& out)
+// The uv as a map reads them.
+void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitive, const gltf::TextureUse& map,
+                   const gltf::Choice& choice, const std::string& field, GltfGeometry& out)
 {
-    const Json* const material =
-        primitive.material < 0 ? nullptr : &document.root["materials"][std::size_t(primitive.material)];
-    const gltf::TextureUse map = gltf::readTextureUse(material, "normalTexture");
     out.texcoordSet = map.texcoord;
     out.texcoords =
         readAttribute<glm::vec2>(document, primitive, fmt::format("TEXCOORD_{}", map.texcoord), choice, field);
@@ -93,9 +90,11 @@ void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitiv
     }
 }
 
-GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field)
+GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot)
 {
     const gltf::Primitive primitive = gltf::readPrimitive(source);
+    const gltf::TextureUse map =
+        primitive.material < 0 ? gltf::TextureUse{} : normalMapOf(document.root, std::size_t(primitive.material), slot);
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
     GltfGeometry out;
     if (positions < 0) // what it may hold else has not been checked
@@ -107,17 +106,18 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
     out.positions = readAttribute<glm::vec3>(document, primitive, "POSITION", choice, field);
     out.normals = readAttribute<glm::vec3>(document, primitive, "NORMAL", choice, field);
     out.tangents = readAttribute<glm::vec4>(document, primitive, "TANGENT", choice, field);
-    readTexcoords(document, primitive, choice, field, out);
+    readTexcoords(document, primitive, map, choice, field, out);
     return out;
 }
 
 } // namespace
 
-Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive)
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
+                                  NormalSlot slot)
 {
     return caughtGltf(document.source->path, [&] {
         return readGeometry(document, document.root["meshes"][mesh]["primitives"][primitive],
-                            primitiveField(mesh, primitive));
+                            primitiveField(mesh, primitive), slot);
     });
 }
 

@@ -150,6 +150,8 @@ Layout layOut(GltfDocument& document)
             place(out, part, out.buffer.size());
             out.buffer.insert(out.buffer.end(), part.bytes.begin(), part.bytes.end());
         }
+    if (countOf(out.root, "bufferViews") == 0)
+        out.root.erase("bufferViews");
     describeBuffer(document, out);
     return out;
 }

@@ -10,22 +10,31 @@ using gltf::Json;
 
 namespace {
 
-// top: object is a material, whose normalTexture is left out.
-void collectTextures(const Json& object, bool top, std::set<std::size_t>& textures)
+// besides: a slot that is left out.
+void collectTextures(const Json& object, const std::vector<const Json*>& besides, std::set<std::size_t>& textures)
 {
     if (object.is_array())
         for (const Json& item : object)
-            collectTextures(item, false, textures);
+            collectTextures(item, besides, textures);
     if (!object.is_object())
         return;
     for (const auto& [key, value] : object.items()) {
-        if (top && key == "normalTexture")
+        if (std::ranges::find(besides, &value) != besides.end())
             continue;
         const bool slot = key.size() >= 7 && key.ends_with("exture") && value.is_object() && value.contains("index");
         if (slot && value["index"].is_number_unsigned())
             textures.insert(value["index"].get<std::size_t>());
-        collectTextures(value, false, textures);
+        collectTextures(value, besides, textures);
     }
+}
+
+// Where a material has a normal map; null where it has none.
+const Json* slotOf(const Json& material, NormalSlot slot)
+{
+    if (slot == NormalSlot::surface)
+        return gltf::member(material, "normalTexture");
+    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
+    return coat ? gltf::member(*coat, "clearcoatNormalTexture") : nullptr;
 }
 
 } // namespace
@@ -54,9 +63,17 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
     return materials;
 }
 
-gltf::TextureUse normalMapOf(const Json& root, std::size_t material)
+gltf::TextureUse normalMapOf(const Json& root, std::size_t material, NormalSlot slot)
 {
-    return gltf::readTextureUse(&root["materials"][material], "normalTexture");
+    const Json& surface = root["materials"][material];
+    return slot == NormalSlot::surface
+        ? gltf::readTextureUse(&surface, "normalTexture")
+        : gltf::readTextureUse(gltf::extension(surface, "KHR_materials_clearcoat"), "clearcoatNormalTexture");
+}
+
+Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)
+{
+    return const_cast<Json&>(*slotOf(root["materials"][material], slot));
 }
 
 gltf::Texture textureAt(const Json& root, int texture)
@@ -72,14 +89,14 @@ Sampler samplerOf(const Json& root, const gltf::Texture& texture)
 std::set<std::size_t> texturesReadBy(const Json& object)
 {
     std::set<std::size_t> textures;
-    collectTextures(object, /*top*/ false, textures);
+    collectTextures(object, {}, textures);
     return textures;
 }
 
-std::set<std::size_t> texturesBesideNormalMap(const Json& material)
+std::set<std::size_t> texturesBesideNormalMaps(const Json& material)
 {
     std::set<std::size_t> textures;
-    collectTextures(material, /*top*/ true, textures);
+    collectTextures(material, {slotOf(material, NormalSlot::surface), slotOf(material, NormalSlot::coat)}, textures);
     return textures;
 }
 

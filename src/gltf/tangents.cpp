@@ -41,8 +41,10 @@ Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::s
 bool hasNormalMap(const Json& root, std::size_t m, std::size_t p)
 {
     const auto materials = materialsOf(root, root["meshes"][m]["primitives"][p]);
-    return std::any_of(materials.begin(), materials.end(),
-                       [&](std::size_t k) { return normalMapOf(root, k).texture >= 0; });
+    return std::any_of(materials.begin(), materials.end(), [&](std::size_t k) {
+        return std::ranges::any_of(kNormalSlots,
+                                   [&](NormalSlot slot) { return normalMapOf(root, k, slot).texture >= 0; });
+    });
 }
 
 // Calls visit(geometry, row), with the row filled as far as the file alone fills it, for each primitive that the

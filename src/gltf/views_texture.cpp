@@ -142,10 +142,7 @@ Json writeSampler(const Sampler& s)
 
 std::string tangentReader(const Json& material)
 {
-    if (extension(material, "KHR_materials_anisotropy"))
-        return "KHR_materials_anisotropy";
-    const Json* const coat = extension(material, "KHR_materials_clearcoat");
-    return coat && coat->contains("clearcoatNormalTexture") ? "KHR_materials_clearcoat" : "";
+    return extension(material, "KHR_materials_anisotropy") ? "KHR_materials_anisotropy" : "";
 }
 
 } // namespace cotan::gltf

@@ -1,5 +1,6 @@
 // Whether a DDS file holds the levels that its header promises.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -77,7 +78,7 @@ DdsFormat ddsFormat(Numbers& numbers)
 // Microsoft's DDS_HEADER and DDS_HEADER_DXT10; the first level only.
 Problem checkDds(File& file)
 {
-    Numbers numbers(file, /*bigEndian*/ false);
+    Numbers numbers = numbersOf(file);
     const std::uint64_t height = numbers.at(12, 4), width = numbers.at(16, 4);
     const bool dx10 = (numbers.at(80, 4) & 0x4) && numbers.at(84, 4) == 0x30315844;
     const DdsFormat format = ddsFormat(numbers);

@@ -142,7 +142,7 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 Problem checkExr(File& file, const LoadLimits& limits)
 {
     constexpr std::uint64_t kSeveralParts = 0x1000;
-    Numbers numbers(file, /*bigEndian*/ false);
+    Numbers numbers = numbersOf(file);
     std::uint64_t at = 8;
     const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
     for (bool first = true, more = true; more; first = false) {

@@ -33,7 +33,7 @@ std::string pictureFormat(std::span<const std::byte> bytes)
     if (head.starts_with("DDS "))
         return "DDS";
     const bool box = head.starts_with(std::string_view("\0\0", 2)); // its first box is shorter than 64 KiB
-    return box && head.substr(4) == "ftypavif" ? "AVIF" : "";
+    return box && head.size() == 12 && head.ends_with("ftypavif") ? "AVIF" : "";
 }
 
 bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }

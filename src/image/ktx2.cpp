@@ -8,33 +8,19 @@
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
+#include "cotan/image/dds.hpp"
 #include "cotan/image/size.hpp"
 
 namespace cotan {
 
 namespace {
 
-// A DDS of one level, in memory: DDS_HEADER, DDS_HEADER_DXT10 where the letters say so, then the blocks.
+// A DDS of one level, in memory.
 std::vector<std::byte> asDds(const Ktx2Picture& picture, std::span<const std::byte> blocks)
 {
-    std::array<std::uint32_t, 37> header{};
-    header[0] = 0x20534444; // "DDS "
-    header[1] = 124;
-    header[2] = 0x1 | 0x2 | 0x4 | 0x1000 | 0x80000; // caps, height, width, format, size
-    header[3] = std::uint32_t(picture.height);
-    header[4] = std::uint32_t(picture.width);
-    header[5] = std::uint32_t(blocks.size());
-    header[19] = 32;
-    header[20] = 0x4; // four letters
-    std::memcpy(&header[21], picture.format.letters.data(), 4);
-    header[27] = 0x1000; // texture
-    header[32] = picture.format.dxgi;
-    header[33] = 3; // two dimensions
-    header[35] = 1; // of one
-    const std::size_t size = picture.format.letters == "DX10" ? sizeof header : 128;
-    std::vector<std::byte> dds(size + blocks.size());
-    std::memcpy(dds.data(), header.data(), size);
-    std::ranges::copy(blocks, dds.begin() + std::ptrdiff_t(size));
+    const Ktx2Format& f = picture.format;
+    std::vector<std::byte> dds = ddsHeader({f.letters, f.dxgi, f.block}, picture.width, picture.height, 1);
+    dds.insert(dds.end(), blocks.begin(), blocks.end());
     return dds;
 }
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "ktx2.hpp"
-#include "little_endian.hpp"
+#include "numbers.hpp"
 
 namespace cotan {
 
@@ -55,7 +55,7 @@ constexpr std::array<Ktx2Format, 38> kFormats = {{{9, 1, 1},
 constexpr std::uint64_t kHeader = 80, kLevelEntry = 24;
 
 // The model of the colours in the data format descriptor: 163 is ETC1S, 166 UASTC.
-std::uint64_t colourModel(LittleEndian& file) { return file.at(file.at(48, 4) + 12, 1); }
+std::uint64_t colourModel(Numbers& file) { return file.at(file.at(48, 4) + 12, 1); }
 
 std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::uint64_t height)
 {
@@ -65,7 +65,7 @@ std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::ui
 }
 
 // Keys and values, each a length, a text with its zero, a value, and zeros up to a multiple of four.
-Status readKeys(LittleEndian& file, std::span<const std::byte> bytes, Ktx2Picture& picture)
+Status readKeys(Numbers& file, std::span<const std::byte> bytes, Ktx2Picture& picture)
 {
     const std::uint64_t start = file.at(56, 4), length = file.at(60, 4);
     if (length > 0 && (start > file.size() || length > file.size() - start))
@@ -97,7 +97,7 @@ Status readKeys(LittleEndian& file, std::span<const std::byte> bytes, Ktx2Pictur
 
 std::string foreignKtx2(std::span<const std::byte> bytes)
 {
-    LittleEndian file(bytes);
+    Numbers file(bytes);
     const std::uint64_t format = file.at(12, 4);
     if (!file.says(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return "";
@@ -110,7 +110,7 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
 
 Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
 {
-    LittleEndian file(bytes);
+    Numbers file(bytes);
     if (!file.says(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return inputError(fmt::format("its header takes {} bytes, the file has {}", kHeader, bytes.size()));
     const std::uint64_t format = file.at(12, 4), width = file.at(20, 4), height = file.at(24, 4),

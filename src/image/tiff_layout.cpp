@@ -36,7 +36,7 @@ std::size_t wholeNumberBytes(std::uint64_t type)
 
 class TiffDirectory {
 public:
-    explicit TiffDirectory(File& file) : numbers_(file, startsWithM(file))
+    explicit TiffDirectory(File& file) : numbers_(numbersOf(file, startsWithM(file)))
     {
         const bool large = numbers_.at(2, 2) == 43; // BigTIFF
         const std::size_t word = large ? 8 : 4;

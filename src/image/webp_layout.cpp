@@ -1,7 +1,7 @@
 // Whether a WebP file holds one picture of the size that its headers promise.
 #include <fmt/format.h>
 
-#include "little_endian.hpp"
+#include "numbers.hpp"
 #include "webp.hpp"
 
 namespace cotan {
@@ -13,7 +13,7 @@ struct Chunk {
 };
 
 // VP8's frame header: 3 bytes of tag, of which the lowest bit is 0 in a key frame, a mark, two sizes of 14 bits.
-Result<WebpSize> lossySize(LittleEndian& file, const Chunk& chunk)
+Result<WebpSize> lossySize(Numbers& file, const Chunk& chunk)
 {
     if (chunk.size < 10)
         return inputError(fmt::format("its VP8 chunk has {} bytes, expected at least 10", chunk.size));
@@ -29,7 +29,7 @@ Result<WebpSize> lossySize(LittleEndian& file, const Chunk& chunk)
 }
 
 // VP8L's header: a mark, two sizes of 14 bits less one, whether there is alpha, 3 bits of version.
-Result<WebpSize> losslessSize(LittleEndian& file, const Chunk& chunk)
+Result<WebpSize> losslessSize(Numbers& file, const Chunk& chunk)
 {
     if (chunk.size < 5)
         return inputError(fmt::format("its VP8L chunk has {} bytes, expected at least 5", chunk.size));
@@ -43,7 +43,7 @@ Result<WebpSize> losslessSize(LittleEndian& file, const Chunk& chunk)
 
 Result<WebpSize> checkWebp(std::span<const std::byte> bytes)
 {
-    LittleEndian file(bytes);
+    Numbers file(bytes);
     const std::uint64_t end = 8 + file.at(4, 4);
     if (end > file.size())
         return inputError(fmt::format("its header promises {} bytes, the file has {}", end, file.size()));

@@ -64,6 +64,13 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
     return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
 }
 
+template<class Make> void eachAdvised(FrameSpreads& spreads, const Make& make)
+{
+    spreads.orthonormal = make(Frame::orthonormal);
+    spreads.cotangent = make(Frame::cotangent);
+    spreads.smooth = make(Frame::smooth);
+}
+
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -71,6 +78,14 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
+    if (!p.tangentsFor.empty())
+        eachAdvised(p.turned,
+                    [&](Frame frame) { return directionTurn(surface, {.from = Frame::mikktspace, .to = frame}); });
+    const Texture& coat = material.coat.normalMap;
+    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
+        p.tangentsFor = "KHR_materials_clearcoat";
+        p.turned = {};
+    }
     p.triangles = mesh.triangleCount();
     p.hasUv = !surface.uv.empty();
     p.uv = lint::uvQuality(surface);
@@ -127,25 +142,32 @@ void addMaps(LintReport& report, const Scene& scene)
     }
 }
 
+// A clear coat's map, as a primitive reads it.
+struct CoatUse {
+    int image = -1;
+    MapUse use;
+};
+
 // How each map would do as it is with the frames that may be advised.
-void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses)
+void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
 {
     std::map<int, std::vector<const MapUse*>> readers;
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (report.primitives[i].image >= 0)
             readers[report.primitives[i].image].push_back(&uses[i]);
+    for (const CoatUse& coat : coats)
+        readers[coat.image].push_back(&coat.use);
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
     for (const auto& [image, users] : readers) {
         const Image& map = scene.images[std::size_t(image)];
-        MapFit fit{image, map.name, {}, {}, {}};
+        MapFit fit{{}, image, map.name};
         std::vector<const MapUse*> shown;
         std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
                      [](const MapUse* u) { return !u->surface.uv.empty(); });
         if (hasPixels(map))
-            for (auto [frame, spread] : {std::pair(Frame::orthonormal, &fit.orthonormal),
-                                         {Frame::cotangent, &fit.cotangent},
-                                         {Frame::smooth, &fit.smooth}})
-                *spread = mapError(map, map, shown, {Frame::mikktspace, frame, from, TangentOrigin::generated});
+            eachAdvised(fit, [&](Frame frame) {
+                return mapError(map, map, shown, {Frame::mikktspace, frame, from, TangentOrigin::generated});
+            });
         report.fits.push_back(std::move(fit));
     }
 }
@@ -163,6 +185,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     }
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
+    std::vector<CoatUse> coats;
     const auto placed = placings(scene);
     std::size_t all = 0, done = 0; // triangles
     for (const Mesh& mesh : scene.meshes)
@@ -178,6 +201,10 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
             p.placing = k;
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
+            if (const Texture& coat = material.coat.normalMap; coat.present())
+                coats.push_back({coat.image,
+                                 {makeCoatSurface(mesh, material.normalMap, coat, placed[i][k]), Convention{},
+                                  double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
         }
         done += mesh.triangleCount();
         if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))
@@ -185,7 +212,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     }
     addOverlaps(report, uses);
     addMaps(report, scene);
-    addFits(report, scene, uses);
+    addFits(report, scene, uses, coats);
     lint::recommend(report);
     return report;
 }

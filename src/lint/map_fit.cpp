@@ -81,6 +81,25 @@ Spread mapError(const Image& before, const Image& after, const std::vector<const
     return spreadOf(std::move(errors));
 }
 
+Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
+{
+    std::vector<std::pair<double, double>> turns;
+    for (const SurfacePoint& p : pointsOver(surface, kMost)) {
+        const auto way = [&](Frame frame, TangentOrigin tangents) {
+            const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
+            const glm::dvec3 n = f64::cotan_normalize_or(f.n, glm::dvec3(0));
+            return f64::cotan_direction_on_surface(n, f.t, f.b, {1, 0}, n);
+        };
+        const glm::dvec3 from = way(frames.from, frames.fromTangents), to = way(frames.to, frames.toTangents);
+        if (from == glm::dvec3(0) || to == glm::dvec3(0))
+            return {};
+        turns.emplace_back(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to), 1);
+    }
+    return spreadOf(std::move(turns));
+}
+
+bool directionStays(const Spread& turn) { return turn.percentile95 <= kTurnedDirection; }
+
 bool fitsAsItIs(const Spread& off) { return !(off.percentile95 > kAsRounding); }
 
 } // namespace cotan

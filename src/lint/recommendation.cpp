@@ -150,16 +150,29 @@ std::string defects(const LintReport& report)
     return text;
 }
 
-// Which extension reads tangents in which material, as a sentence; empty if none.
+const Spread& of(const FrameSpreads& spreads, Advice advice)
+{
+    return advice == Advice::convertToCotangent ? spreads.cotangent
+        : advice == Advice::convertToSmooth     ? spreads.smooth
+                                                : spreads.orthonormal;
+}
+
+// Whether something else than a normal map that is converted needs the tangents of a primitive.
+bool neededElsewhere(const PrimitiveLint& p, Advice advice)
+{
+    return !p.tangentsFor.empty() && !directionStays(of(p.turned, advice));
+}
+
+// Which extension needs tangents in which material, as a sentence; empty if none.
 std::string otherReaders(const LintReport& report)
 {
     std::vector<std::string> names;
     for (const PrimitiveLint& p : report.primitives)
-        if (!p.tangentsFor.empty())
+        if (neededElsewhere(p, report.advice))
             addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
     return names.empty()
         ? ""
-        : fmt::format("Tangents are also read by what is not looked at here and stay for it: {}.", listed(names));
+        : fmt::format("Tangents are also read by what is not converted and stay for it: {}.", listed(names));
 }
 
 std::string nameOf(const PrimitiveLint& p)
@@ -204,20 +217,14 @@ std::string seen(const LintReport& report, const Whole& orthonormal, const Whole
                        how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
 }
 
-const Spread& fitOf(const MapFit& fit, Advice advice)
-{
-    return advice == Advice::convertToCotangent ? fit.cotangent
-        : advice == Advice::convertToSmooth     ? fit.smooth
-                                                : fit.orthonormal;
-}
-
 // Counts what `convert` would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)
-        ++(fitsAsItIs(fitOf(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
+        ++(fitsAsItIs(of(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
     for (const PrimitiveLint& p : report.primitives)
-        report.dropsTangents = report.dropsTangents || (p.stored.present && p.tangentsFor.empty() && !p.unread);
+        report.dropsTangents =
+            report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
 }
 
 // What to do, given what the command would do.
@@ -242,6 +249,8 @@ void adviseWithoutMaps(LintReport& report)
 {
     if (!report.notJudged.empty())
         report.advised = "No normal map was judged, so nothing is advised.";
+    else if (!report.fits.empty())
+        report.advised = "Only clear coats have normal maps: cotan convert judges each by itself.";
     else if (report.otherReaders.empty())
         report.advised =
             "No primitive has a normal map and uv to read it with: nothing here uses tangents, they can be dropped.";
@@ -272,13 +281,14 @@ bool distrustStored(const LintReport& report)
 
 void recommend(LintReport& report)
 {
-    report.otherReaders = otherReaders(report);
     report.notJudged = notJudged(report);
     if (std::any_of(report.primitives.begin(), report.primitives.end(), judged)) {
         report.distrustStored = distrustStored(report);
         report.defects = defects(report);
         adviseForMaps(report);
+        report.otherReaders = otherReaders(report);
     } else {
+        report.otherReaders = otherReaders(report);
         adviseWithoutMaps(report);
     }
     for (const std::string* sentence :

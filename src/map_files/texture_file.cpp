@@ -1,7 +1,6 @@
 #include "texture_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -11,6 +10,7 @@
 
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/image/dds.hpp"
 #include "cotan/maps/block.hpp"
 
 namespace cotan::maps {
@@ -46,37 +46,12 @@ void appendNumber(std::string& bytes, std::uint64_t number, int size)
         bytes += char(number >> 8 * i & 0xff);
 }
 
-// Microsoft's DDS_HEADER of 124 bytes, little-endian, and DDS_HEADER_DXT10 for blocks; then the levels.
 std::string ddsBytes(TexelCode code, const std::vector<TextureLevel>& levels)
 {
     const CodeFacts facts = factsOf(code);
-    const bool blocks = code != TexelCode::rgba8;
-    std::array<std::uint32_t, 37> header{};
-    header[0] = 0x20534444; // "DDS "
-    header[1] = 124;
-    header[2] = 0x1 | 0x2 | 0x4 | (blocks ? 0x80000 : 0x8) | 0x1000; // caps, height, width, size or pitch, format
-    header[3] = std::uint32_t(levels[0].height);
-    header[4] = std::uint32_t(levels[0].width);
-    header[5] = blocks ? std::uint32_t(levels[0].texels.size()) : std::uint32_t(levels[0].width) * 4;
-    header[19] = 32;     // the pixel format's own size
-    header[27] = 0x1000; // texture
-    if (levels.size() > 1) {
-        header[2] |= 0x20000;
-        header[7] = std::uint32_t(levels.size());
-        header[27] |= 0x8 | 0x400000; // complex, mip map
-    }
-    if (blocks) {
-        header[20] = 0x4;        // four letters
-        header[21] = 0x30315844; // "DX10"
-        header[32] = facts.dxgi;
-        header[33] = 3; // two dimensions
-        header[35] = 1; // of one
-    } else {
-        header[20] = 0x1 | 0x40; // alpha and RGB
-        header[22] = 32;
-        header[23] = 0x000000ff, header[24] = 0x0000ff00, header[25] = 0x00ff0000, header[26] = 0xff000000;
-    }
-    std::string bytes(reinterpret_cast<const char*>(header.data()), blocks ? sizeof header : 128);
+    const DdsCode stored = code == TexelCode::rgba8 ? DdsCode{} : DdsCode{"DX10", facts.dxgi, facts.bytes};
+    std::string bytes;
+    append(bytes, ddsHeader(stored, levels[0].width, levels[0].height, levels.size()));
     for (const TextureLevel& level : levels)
         append(bytes, level.texels);
     return bytes;

@@ -1,12 +1,15 @@
 #include "light.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/environment.hpp"
+#include "facets.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {
@@ -58,6 +61,22 @@ glm::vec3 surroundings(const f32::cotan_surface& surface, const Layers& layers, 
     return f32::cotan_reflect_sheen_around(*layers.sheen, surface.n, surface.v, irradiance * surface.occlusion, light);
 }
 
+bool goesByRays(const View& view, const TangentSpace* tangent)
+{
+    return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
+}
+
+// From the place: the same in every picture of the same view.
+std::uint32_t seedOf(glm::vec3 place)
+{
+    std::uint32_t seed = 0;
+    for (int i = 0; i < 3; ++i) {
+        seed = (seed ^ std::bit_cast<std::uint32_t>(place[i])) * 0x9e3779b1u;
+        seed = (seed ^ seed >> 15) * 0x85ebca77u;
+    }
+    return seed ^ seed >> 13;
+}
+
 } // namespace
 
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
@@ -88,19 +107,29 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
     Layers even = layers; // in tangent space highlights are not stretched
     if (even.gloss)
         even.gloss->anisotropy = 0;
+    const bool rays = goesByRays(view, tangent);
+    std::vector<ArrivingLight> arrivals; // of rays
     for (const PreparedLight& light : lights) {
         Arrival arrival = arrivalOf(light, point, shadow, view.shadowSoftness);
         if (!(arrival.strength > 0))
             continue;
         const glm::vec3 arriving = light.radiance * arrival.strength;
-        radiance += arriving
-            * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
-                       : reflected(surface, layers, arrival.toLight, view.shading));
+        if (rays)
+            arrivals.push_back({arrival.toLight, arriving});
+        else
+            radiance += arriving
+                * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
+                           : reflected(surface, layers, arrival.toLight, view.shading));
         if (layers.coat)
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
+    if (rays)
+        radiance += radianceByRays(
+            {surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point.normal, seedOf(point.position)}, view,
+            arrivals);
     if (view.environment) {
-        radiance += surroundings(surface, layers, view);
+        if (!rays)
+            radiance += surroundings(surface, layers, view);
         if (layers.coat)
             fromCoat += surface.occlusion
                 * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)

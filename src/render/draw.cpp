@@ -72,6 +72,8 @@ Status checkView(const Device& device, const View& view)
     if (view.lighting != Lighting::world)
         return unavailableError("lighting in tangent space: only the reference renderer does it "
                                 "(--device reference)");
+    if (view.normalMapping != NormalMapping::shading)
+        return unavailableError("normal mapping by rays: only the reference renderer does it (--device reference)");
     const std::uint32_t largest = std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
                                             device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
                                             device.limits.maxViewportDimensions[1]});

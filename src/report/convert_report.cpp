@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/report/words.hpp"
 
 namespace cotan {
@@ -83,16 +84,31 @@ Json toJson(const ConvertedMap& map)
             {"bytes_after", map.bytesAfter}};
 }
 
-std::string tangentsLine(const ConvertModelReport& report, const std::string& to)
+std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to)
 {
     if (report.tangents == TangentsAfter::kept)
-        return "";
+        return {};
     if (report.tangents == TangentsAfter::given)
-        return fmt::format("{} got TANGENT for {}", counted(report.primitivesGiven, "primitive"), to);
+        return {fmt::format("{} got TANGENT for {}", counted(report.primitivesGiven, "primitive"), to)};
     const TangentBytes& d = report.dropped;
-    return d.bytes > 0 ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
-                                     counted(d.primitives, "primitive"), bytesPerVertex(d), d.vertices, d.bytes)
-                       : "no TANGENT to drop";
+    std::vector<std::string> lines = {
+        d.bytes > 0 ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
+                                  counted(d.primitives, "primitive"), bytesPerVertex(d), d.vertices, d.bytes)
+                    : "no TANGENT to drop"};
+    const TurnedDirection* worst = nullptr;
+    std::size_t turned = 0;
+    for (const TurnedDirection& direction : d.directions)
+        if (!direction.stays) {
+            ++turned;
+            if (!worst || direction.degrees.percentile95 > worst->degrees.percentile95)
+                worst = &direction;
+        }
+    if (worst)
+        lines.push_back(fmt::format("  highlights of {} were stretched along it; along {} they turn by {} degrees at "
+                                    "the worst, in {}",
+                                    counted(turned, "primitive"), to, toText(worst->degrees),
+                                    primitiveField(worst->mesh, worst->primitive)));
+    return lines;
 }
 
 Json tangentsJson(const ConvertModelReport& report)
@@ -102,10 +118,17 @@ Json tangentsJson(const ConvertModelReport& report)
     if (report.tangents == TangentsAfter::given)
         return {{"given_primitives", report.primitivesGiven}};
     const TangentBytes& d = report.dropped;
-    return {{"dropped_primitives", d.primitives},
-            {"bytes_per_vertex", bytesPerVertex(d)},
-            {"vertices", d.vertices},
-            {"bytes", d.bytes}};
+    Json json = {{"dropped_primitives", d.primitives},
+                 {"bytes_per_vertex", bytesPerVertex(d)},
+                 {"vertices", d.vertices},
+                 {"bytes", d.bytes}};
+    for (const TurnedDirection& turned : d.directions)
+        json["anisotropy"].push_back({{"mesh", turned.mesh},
+                                      {"primitive", turned.primitive},
+                                      {"material", turned.material},
+                                      {"turned_degrees", toJson(turned.degrees)},
+                                      {"tangents_stay", turned.stays}});
+    return json;
 }
 
 namespace {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "entry.hpp"
 #include "fill.hpp"
 #include "print.hpp"
@@ -189,16 +191,38 @@ std::string limits(const Choice& choice, Form form)
     return text + std::string(languageNote(choice.language));
 }
 
+bool hasSet(const Choice& choice, Set set) { return std::ranges::find(choice.sets, set) != choice.sets.end(); }
+
+// What the sets leave to the caller.
+std::string ofSets(const Choice& choice)
+{
+    std::string text;
+    if (hasSet(choice, Set::environment))
+        text += "//   environment  one picture of square tiles, 970 x 524 texels of linear light, read by the caller with\n"
+                "//              bilinear filtering and no mips where cotan_environment_texel says. Tiles 0 to 8 hold\n"
+                "//              radiance filtered for roughness 0, 1/8, ... 1; 9 irradiance over pi; 10 what GGX\n"
+                "//              reflects of white light (x times f0, plus y). World space, y up\n";
+    if (hasSet(choice, Set::tone))
+        text += "//   tone       linear colours with the primaries of sRGB, not negative, to linear in [0,1]; curve 0 cuts\n"
+                "//              off, 1 is ACES, 2 Khronos PBR Neutral, 3 AgX\n";
+    if (hasSet(choice, Set::shadow))
+        text += "//   shadow     reads of the map of depths are yours: 8 or so around the point for the mean depth of\n"
+                "//              what is before it, then 24 or so comparisons in the disc of cotan_penumbra\n";
+    return text.empty() ? text : "// Sets:\n" + text + "//\n";
+}
+
 std::string credits(const Choice& choice)
 {
     std::string text = "// After:\n"
                        "//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006\n"
                        "//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013\n";
-    if (choice.gradients || choice.uvSets > 1 || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
+    if (hasSet(choice, Set::gradient) || choice.uvSets > 1 || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
         text += "//   [2020] M. Mikkelsen, Surface Gradient Based Bump Mapping Framework, JCGT 9(3), 2020\n";
     if (choice.frame == Frame::mikktspace)
         text += "//   M. Mikkelsen, mikktspace.h\n";
-    if (choice.blends)
+    if (hasSet(choice, Set::shadow))
+        text += "//   R. Fernando, Percentage-Closer Soft Shadows, 2005\n";
+    if (hasSet(choice, Set::blend))
         text += "//   [2012] C. Barre-Brisebois, S. Hill, Blending in Detail, 2012\n";
     return text;
 }
@@ -213,7 +237,7 @@ std::string introduction(const Choice& choice, Form form)
                 "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
-                "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}\n",
+                "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
                 name(choice.frame), form == Form::fused ? "fused" : "total form",
                 halfs && choice.language == Language::glsl ? "GLSL 4.20 and later" : title(choice.language),
                 channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
@@ -221,7 +245,7 @@ std::string introduction(const Choice& choice, Form form)
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh
                     ? "three words, the same for the whole triangle"
                     : "the perturbed normal, unit, in the space of the arguments",
-                limits(choice, form), credits(choice));
+                limits(choice, form), ofSets(choice), credits(choice));
 }
 
 } // namespace cotan::shader_text

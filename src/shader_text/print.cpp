@@ -140,8 +140,12 @@ private:
     {
         if (e.text == "cotan_real") {
             const Expression& inside = e.children[0];
-            if (names_.realCalls)
-                return "cotan_real(" + expression(inside) + ")";
+            bool variable = false; // converted; what is left is a literal
+            visitAll(inside, [&](const Expression& x) { variable |= x.kind == Kind::name; });
+            if (names_.realCalls || variable)
+                return word(e.text) + "(" + expression(inside) + ")";
+            if (inside.kind == Kind::number && !isReal(inside.text))
+                return number(inside.text + ".0");
             return inside.kind == Kind::binary ? "(" + expression(inside) + ")" : expression(inside);
         }
         const bool vector = e.text.rfind("cotan_vec", 0) == 0;
@@ -149,11 +153,12 @@ private:
         return word(e.text) + (braces ? "{" : "(") + arguments(e.children) + (braces ? "}" : ")");
     }
 
-    std::string number(const std::string& text) const
+    static bool isReal(const std::string& text)
     {
-        const bool real = text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
-        return real ? text + names_.floatSuffix : text;
+        return text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
     }
+
+    std::string number(const std::string& text) const { return isReal(text) ? text + names_.floatSuffix : text; }
 
     std::string expression(const Expression& e) const
     {

@@ -1,6 +1,7 @@
 #include "cotan/shader_text/shader_text.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "entry.hpp"
 #include "fill.hpp"
@@ -52,10 +53,15 @@ void bindConvention(Module& module, const Convention& c)
 
 std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
 {
+    std::set<std::string_view> parts = {"entry"};
+    for (const Set set : choice.sets) {
+        parts.insert(name(set));
+        if (set == Set::light)
+            parts.insert("sheen");
+    }
     std::vector<std::string> roots;
     for (const Function& f : module.functions)
-        if (f.part == "entry" || (choice.gradients && f.part == "gradient") || (choice.blends && f.part == "blend")
-            || (choice.lights && (f.part == "light" || f.part == "sheen")))
+        if (parts.contains(f.part))
             roots.push_back(f.name);
     return roots;
 }
@@ -80,6 +86,12 @@ Result<Form> formOf(const Choice& choice)
 }
 
 } // namespace
+
+std::string_view name(Set set)
+{
+    constexpr std::string_view kNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
+    return kNames[int(set)];
+}
 
 bool hasFusedForm(Frame frame) { return info(frame).fused; }
 

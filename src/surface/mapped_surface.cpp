@@ -105,6 +105,17 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     return surface;
 }
 
+MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
+                              const glm::dmat3& linear)
+{
+    MappedSurface own = makeSurface(mesh, surfaceMap, linear), coat = makeSurface(mesh, coatMap, linear);
+    if (own.uv == coat.uv)
+        return own;
+    coat.generated = std::move(own.generated);
+    coat.ofCoat = true;
+    return coat;
+}
+
 f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric)
 {
@@ -115,6 +126,8 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     if (s.uv.empty())
         return {glm::dvec3(0), glm::dvec3(0), n};
     // `mikktspace` wants its normal as interpolated.
+    if (readsCotangents(frame) && s.ofCoat)
+        return evaluate(Frame::cotangent, n, e.p1, e.p2, e.uv1, e.uv2);
     if (readsVertices(frame))
         return frameOfVertices(s, frame, tangents, triangle, barycentric, frame == Frame::mikktspace ? raw : n);
     return evaluate(frame, n, e.p1, e.p2, e.uv1, e.uv2);

@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/provoking.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
@@ -69,9 +70,10 @@ struct GltfGeometry {
     int texcoordSet = 0;                // which uv set that is
 };
 
-// mesh, primitive: indices into `root`. Points and lines, and primitives without POSITION, give an
-// empty geometry. Errors (ErrorKind::input): indices out of range.
-Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive);
+// mesh, primitive: indices into `root`. slot: the map whose uv are read; uv set 0 where there is none. Points and
+// lines, and primitives without POSITION, give an empty geometry. Errors (ErrorKind::input): indices out of range.
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
+                                  NormalSlot slot = NormalSlot::surface);
 
 // ---- tangents -------------------------------------------------------------------------------
 

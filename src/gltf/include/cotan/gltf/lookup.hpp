@@ -36,8 +36,14 @@ template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root
 // has none.
 std::vector<std::size_t> materialsOf(const nlohmann::ordered_json& root, const nlohmann::ordered_json& primitive);
 
-// How a material uses its normal map; no texture where it has none.
-gltf::TextureUse normalMapOf(const nlohmann::ordered_json& root, std::size_t material);
+// Where a material has normal maps: its own and that of its clear coat (KHR_materials_clearcoat).
+enum class NormalSlot { surface, coat };
+inline constexpr NormalSlot kNormalSlots[] = {NormalSlot::surface, NormalSlot::coat};
+
+// How a material uses a normal map; no texture where it has none. And the texture info itself, of one that it has.
+gltf::TextureUse normalMapOf(const nlohmann::ordered_json& root, std::size_t material,
+                             NormalSlot slot = NormalSlot::surface);
+nlohmann::ordered_json& normalSlotOf(nlohmann::ordered_json& root, std::size_t material, NormalSlot slot);
 
 // A texture of the root, and the sampler that it is read with.
 gltf::Texture textureAt(const nlohmann::ordered_json& root, int texture);
@@ -46,8 +52,8 @@ Sampler samplerOf(const nlohmann::ordered_json& root, const gltf::Texture& textu
 // Indices of the textures that slots of an object, or of anything below it, read. glTF's slots all end in "Texture".
 std::set<std::size_t> texturesReadBy(const nlohmann::ordered_json& object);
 
-// The same for a material, its normalTexture left out.
-std::set<std::size_t> texturesBesideNormalMap(const nlohmann::ordered_json& material);
+// The same for a material, its normal maps left out.
+std::set<std::size_t> texturesBesideNormalMaps(const nlohmann::ordered_json& material);
 
 // Takes an extension out of the lists of those used and required.
 void takeOffExtension(nlohmann::ordered_json& root, const std::string& name);

@@ -56,15 +56,23 @@ struct Reading {
     Spread error;
 };
 
+// For each of the frames that may be advised.
+struct FrameSpreads {
+    Spread orthonormal, cotangent, smooth;
+};
+
 struct PrimitiveLint {
     std::string mesh, material;
     // Instances of one mesh that stretch it differently are reported apart: this is number `placing`, from
     // 0, of `placings`; of those only the first kMostPlacings.
     std::size_t placing = 0, placings = 1;
-    std::string tangentsFor; // an extension of the material that reads tangents and is not looked at
-    int image = -1;          // of the normal map; -1: none
-    bool unread = false;     // there is one, in a format that is not read: nothing is known of its pixels
-    std::string notJudged;   // why a normal map that there is was not judged; empty if it was
+    // An extension of the material that reads tangents without a map of its own that could be converted; and how far
+    // what it reads turns with the frames that may be advised (directionTurn), empty where that is not known.
+    std::string tangentsFor;
+    FrameSpreads turned;
+    int image = -1;        // of the normal map; -1: none
+    bool unread = false;   // there is one, in a format that is not read: nothing is known of its pixels
+    std::string notJudged; // why a normal map that there is was not judged; empty if it was
     std::size_t triangles = 0;
     bool hasUv = false;
     UvQuality uv;
@@ -90,10 +98,9 @@ struct GreenEvidence {
 
 // One normal map read as it is with the frames that may be advised, against MikkTSpace with the stored tangents,
 // where these are to be trusted: what `convert` decides by (mapError, fitsAsItIs).
-struct MapFit {
+struct MapFit : FrameSpreads { // empty where nothing was judged: no pixels, or nothing shows the map
     int image = -1;
     std::string name;
-    Spread orthonormal, cotangent, smooth; // empty where nothing was judged: no pixels, or nothing shows the map
 };
 
 enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmooth };

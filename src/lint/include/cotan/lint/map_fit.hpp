@@ -43,6 +43,17 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
                 const FramePair& frames);
 
+// Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
+// at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame
+// no direction.
+Spread directionTurn(const MappedSurface& surface, const FramePair& frames);
+
+// Degrees, of 95 % of the area: a streak that turns by less is still the same streak.
+inline constexpr double kTurnedDirection = 5;
+
+// Whether highlights stay stretched as they are, being turned by so much.
+bool directionStays(const Spread& turn);
+
 // Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
 inline constexpr double kAsRounding = 0.3;
 

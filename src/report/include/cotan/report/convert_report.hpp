@@ -13,8 +13,8 @@ namespace cotan {
 std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to);
 Json toJson(const ConvertedMap& map);
 
-// What became of the tangents; empty where nothing did.
-std::string tangentsLine(const ConvertModelReport& report, const std::string& to);
+// What became of the tangents, and of highlights that are stretched along them; empty where nothing did.
+std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to);
 Json tangentsJson(const ConvertModelReport& report);
 
 // How many vertices the triangles used before and use now; provoking: "first" or "last".

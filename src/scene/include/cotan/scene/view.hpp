@@ -32,6 +32,17 @@ enum class Lighting {
     tangentPixel,  // the same in each pixel, by the inverse of the frame
 };
 
+// What a turned normal does to a surface that is otherwise flat there. All but the first follow rays from the point, 64
+// a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference renderer
+// only; with Blinn-Phong and in tangent space all are the first.
+enum class NormalMapping {
+    shading,     // lights and surroundings meet the turned normal
+    rays,        // the same, but light from below the surface is lost, as path tracers have it
+    shadowed,    // less of what grazes, too, so that no edge shows (Conty Estevez, Lecocq, Stein 2019)
+    facets,      // a second facet of the same material makes up for the turned one (Schuessler and others 2017)
+    mirrorFacet, // the same with a mirror as second facet, the paper's own choice
+};
+
 // Which differences a 2x2 quad gives: of the pixel's own row and column, or one pair for all four.
 enum class Derivatives { fine, coarse };
 
@@ -62,6 +73,7 @@ struct View {
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     Lighting lighting = Lighting::world;
+    NormalMapping normalMapping = NormalMapping::shading;
     std::vector<Light> lights; // the first directional one casts shadows
     bool shadows = true;
     float shadowSoftness = 0; // tangent of half the angle that the light which casts shadows covers; 0: sharp

@@ -33,6 +33,18 @@ enum class Stage {
     compute, // both in one
 };
 
+// More functions than the frame's own: all of one or two parts of the portable text.
+enum class Set {
+    gradient,
+    blend,
+    light, // light.h and sheen.h
+    environment,
+    tone,
+    shadow,
+};
+inline constexpr Set kSets[] = {Set::gradient, Set::blend, Set::light, Set::environment, Set::tone, Set::shadow};
+std::string_view name(Set set);
+
 struct Choice {
     Language language = Language::glsl;
     Frame frame = Frame::cotangent;
@@ -41,9 +53,7 @@ struct Choice {
     int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
     Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
-    bool gradients = false;         // add all of gradient.h
-    bool blends = false;            // add all of blend.h
-    bool lights = false;            // add all of light.h and sheen.h
+    std::vector<Set> sets;          // in any order
 };
 
 struct ShaderText {

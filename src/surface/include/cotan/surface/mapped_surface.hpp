@@ -27,6 +27,7 @@ struct MappedSurface {
     std::vector<glm::dvec4> stored;  // as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Empty if none
     std::array<std::vector<glm::dvec4>, kFrameCount> generated; // likewise; of the frames that read tangents
     std::vector<glm::dvec3> cotangentsU, cotangentsV;
+    bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent` here
 
     std::size_t triangleCount() const { return positions.size() / 3; }
     static Corners cornersOf(std::size_t triangle) { return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2}; }
@@ -38,6 +39,11 @@ struct MappedSurface {
 // Degenerate input: a mesh without triangles or uv gives a surface without them; uv that are not
 // finite are taken as 0, and tangents and cotangents stay as their generators say.
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear = glm::dmat3(1));
+
+// The same as the normal map of a clear coat over it sees it, as both renderers do: tangents are those of the surface's
+// own map, and where the uv are others `smooth` is `cotangent`.
+MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
+                              const glm::dmat3& linear = glm::dmat3(1));
 
 // The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are
 // made of differences take the triangle's edges, which gives the same as a pixel's differences.

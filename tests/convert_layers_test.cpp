@@ -1,0 +1,220 @@
+// `cotan convert` where layers over the surface read its frame: a clear coat's normal map, the direction of anisotropy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "cotan/image/file.hpp"
+#include "cotan/model/load.hpp"
+#include "quad_model.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+json converted(const std::filesystem::path& folder, const std::string& frame, const std::string& out = "out.glb")
+{
+    const ToolRun run =
+        runTool({"convert", "quad.gltf", "--to-frame", frame, "-o", out, "--json", "-", "--quiet"}, folder, 120);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out, nullptr, false);
+}
+
+Scene loaded(const std::filesystem::path& file)
+{
+    auto scene = loadScene(file);
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
+    return scene ? std::move(*scene) : Scene{};
+}
+
+Image imageOf(const Scene& scene, const Texture& texture) { return scene.images.at(std::size_t(texture.image)); }
+
+bool hasTangents(const std::filesystem::path& file) { return !loaded(file).meshes.at(0).tangents.empty(); }
+
+TEST(ConvertCoat, itsMapIsConvertedAsTheSurfacesOwnWouldBe)
+{
+    const json moves = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {0.5, 0.75}}}}}}};
+    for (const char* frame : {"cotangent", "orthonormal", "smooth"})
+        for (const json& how : {json{{"index", 0}}, json{{"index", 0}, {"scale", 0.5}}, moves}) {
+            TemporaryFolder own, coated;
+            Made plain = quad(2);
+            plain.root["extensionsUsed"] = {"KHR_texture_transform"};
+            plain.root["materials"][0]["normalTexture"] = how;
+            write(plain, own.path());
+            converted(own.path(), frame);
+            Made m = quad(2);
+            json coat = how;
+            coat["index"] = 1;
+            addCoat(m, coat);
+            write(m, coated.path());
+            const json r = converted(coated.path(), frame);
+            ASSERT_EQ(r["maps"].size(), 2u);
+            // A surface of the new frame reads its own map as its coat does, wherever the uv of both are: but for
+            // `smooth`, which a coat with other uv reads as `cotangent`. On a flat patch these are one.
+            const Scene a = loaded(own / "out.glb"), b = loaded(coated / "out.glb");
+            EXPECT_EQ(imageOf(a, a.materials[0].normalMap).data, imageOf(b, b.materials[0].coat.normalMap).data)
+                << frame << how;
+            EXPECT_TRUE(b.meshes[0].tangents.empty());
+            EXPECT_EQ(b.materials[0].coat.normalScale, how.value("scale", 1.0f));
+        }
+}
+
+// The mean difference of two pictures in steps of 8 bits, over all channels.
+double stepsApart(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    const auto one = readImage(a), other = readImage(b);
+    EXPECT_TRUE(one && other);
+    double sum = 0;
+    for (std::size_t i = 0; one && other && i < 4 * one->pixelCount(); ++i)
+        sum += std::abs(int(one->bytes8()[i]) - int(other->bytes8()[i]));
+    return one ? sum / double(4 * one->pixelCount()) : 255;
+}
+
+void drawn(const std::filesystem::path& folder, const std::string& model, const std::string& frame,
+           const std::string& picture)
+{
+    const ToolRun run =
+        runTool({"render",        model,      "-o",           picture,    "--frame",    frame,      "--size",
+                 "120x60",        "--device", "reference",    "--ground", "off",        "--camera", "fit",
+                 "--environment", "none",     "--background", "none",     "--exposure", "1",        "--quiet"},
+                folder, 60);
+    EXPECT_EQ(run.code, 0) << run.err;
+}
+
+// As renderers have it: the coat's map is read with the tangents of the surface, whatever its own uv are.
+TEST(ConvertCoat, theCoatLooksTheSameAfterwardsWhereItsUvAreTurnedAndStretched)
+{
+    for (const auto& [frame, stored] : {std::pair("cotangent", true),
+                                        {"cotangent", false},
+                                        {"orthonormal", true},
+                                        {"smooth", true},
+                                        {"smooth", false}}) {
+        TemporaryFolder folder;
+        Made m = quad(2);
+        if (!stored) // made of the surface's uv
+            m.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+        addCoat(m,
+                {{"index", 1},
+                 {"extensions",
+                  {{"KHR_texture_transform", {{"rotation", 0.6}, {"scale", {1.0, 2.0}}, {"offset", {0.3, 0.1}}}}}}});
+        m.root["materials"][0].erase("normalTexture");
+        m.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1}; // the coat alone is seen
+        write(m, folder.path());
+        const json r = converted(folder.path(), frame);
+        EXPECT_LT(r["maps"][0]["degrees_after_rounding"]["mean"].get<double>(), 2.0) << r;
+        drawn(folder.path(), "quad.gltf", "mikktspace", "before.png");
+        drawn(folder.path(), "out.glb", frame, "after.png");
+        drawn(folder.path(), "quad.gltf", frame, "unconverted.png");
+        const double off = stepsApart(folder / "before.png", folder / "after.png"),
+                     unconverted = stepsApart(folder / "before.png", folder / "unconverted.png");
+        EXPECT_GT(unconverted, 1.2) << frame;
+        EXPECT_LT(off, 0.25 * unconverted) << frame;
+        EXPECT_FALSE(hasTangents(folder / "out.glb"));
+    }
+}
+
+// One image in both slots, with uv of its own in each: they want different maps, and the report counts where.
+TEST(ConvertCoat, anImageInBothSlotsIsOneMapAndSaysWhereTheyDisagree)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    addCoat(m, {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"rotation", 1.5708}}}}}});
+    write(m, folder.path());
+    const json r = converted(folder.path(), "cotangent");
+    ASSERT_EQ(r["maps"].size(), 1u);
+    EXPECT_EQ(r["maps"][0]["surfaces"], 2);
+    EXPECT_GT(r["maps"][0]["texels_that_disagree"].get<int>(), 1000);
+    EXPECT_NE(r["notes"].dump().find("no one map fits"), std::string::npos) << r["notes"];
+    const Scene scene = loaded(folder / "out.glb");
+    EXPECT_EQ(scene.materials[0].normalMap.image, scene.materials[0].coat.normalMap.image);
+}
+
+TEST(ConvertCoat, anImageThatAnotherSlotReadsStaysForIt)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    addCoat(m, {{"index", 1}});
+    m.root["materials"][0]["occlusionTexture"] = {{"index", 1}};
+    write(m, folder.path());
+    converted(folder.path(), "cotangent");
+    const Scene scene = loaded(folder / "out.glb");
+    EXPECT_EQ(imageOf(scene, scene.materials[0].occlusionMap).data, makeReliefMap(Relief::waves, 128).data);
+    EXPECT_NE(imageOf(scene, scene.materials[0].coat.normalMap).data, makeReliefMap(Relief::waves, 128).data);
+}
+
+TEST(ConvertCoat, ofAStrengthOfZeroItStays)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    addCoat(m, {{"index", 1}});
+    m.root["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatFactor");
+    write(m, folder.path());
+    const json r = converted(folder.path(), "cotangent");
+    EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
+    EXPECT_TRUE(r["maps"][1]["kept"].get<bool>());
+    EXPECT_FALSE(hasTangents(folder / "out.glb"));
+}
+
+Made stretchedHighlights()
+{
+    Made m = quad(2);
+    m.root["extensionsUsed"] = {"KHR_materials_anisotropy"};
+    m.root["materials"][0]["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.9}};
+    return m;
+}
+
+TEST(ConvertAnisotropy, tangentsGoWhereTheFrameHasTheirDirection)
+{
+    for (const char* frame : {"cotangent", "orthonormal", "smooth"})
+        for (const double degrees : {0.0, 4.0, 30.0}) {
+            TemporaryFolder folder;
+            Made m = stretchedHighlights();
+            turnTangents(m, degrees);
+            write(m, folder.path());
+            const json r = converted(folder.path(), frame);
+            const json& turned = r["tangents"]["anisotropy"];
+            ASSERT_EQ(turned.size(), 1u) << r;
+            EXPECT_NEAR(turned[0]["turned_degrees"]["mean"].get<double>(), degrees, 1e-4) << frame;
+            EXPECT_EQ(turned[0]["tangents_stay"], degrees > 5) << frame;
+            EXPECT_EQ(hasTangents(folder / "out.glb"), degrees > 5) << frame;
+            EXPECT_EQ(r["notes"].dump().find("anisotropy would turn by 30.0 degrees") != std::string::npos, degrees > 5)
+                << r["notes"];
+        }
+}
+
+TEST(ConvertAnisotropy, tangentsStayWithoutUvToDeriveADirectionFrom)
+{
+    TemporaryFolder folder;
+    Made m = stretchedHighlights();
+    m.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    m.root["materials"][0].erase("normalTexture");
+    write(m, folder.path());
+    const json r = converted(folder.path(), "cotangent");
+    EXPECT_TRUE(hasTangents(folder / "out.glb"));
+    EXPECT_NE(r["notes"].dump().find("without uv"), std::string::npos) << r["notes"];
+}
+
+// The pictures of Khronos' model before and after: a step of 8 bits and less in the mean.
+TEST(ConvertAnisotropy, aRealModelLooksTheSameWithoutTangents)
+{
+    const std::string model =
+        std::string(COTAN_SHARED_DATA) + "/models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb";
+    if (!std::filesystem::exists(model))
+        GTEST_SKIP() << model << " is missing";
+    for (const auto& [frame, bar] : {std::pair("smooth", 0.3), {"cotangent", 1.0}}) {
+        TemporaryFolder folder;
+        ASSERT_EQ(runTool({"convert", model, "--to-frame", frame, "-o", "out.glb", "--quiet"}, folder.path()).code, 0);
+        drawn(folder.path(), model, "mikktspace", "before.png");
+        drawn(folder.path(), "out.glb", frame, "after.png");
+        const double off = stepsApart(folder / "before.png", folder / "after.png");
+        std::cout << frame << ": " << off << " steps\n";
+        EXPECT_LT(off, bar) << frame;
+    }
+}
+
+} // namespace
+} // namespace cotan
