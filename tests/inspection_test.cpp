@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/draw/draw.hpp"
+#include "cotan/inspect/edges.hpp"
 #include "cotan/inspect/hot_spots.hpp"
 #include "cotan/inspect/inspection.hpp"
 #include "cotan/inspect/probe.hpp"
@@ -180,6 +181,80 @@ TEST(HotSpots, aStoredTangentOnTheWrongSideIsFound)
         tangent.w = -1;
     ASSERT_EQ(hotSpots(scene).size(), 1u);
     EXPECT_NE(hotSpots(scene)[0].text.find("wrong side"), std::string::npos);
+}
+
+} // namespace
+} // namespace cotan
+
+namespace cotan {
+namespace {
+
+// Two triangles that share an edge, with corners of their own; uv of the second are moved, or mirrored at the edge.
+Scene twoTriangles(float moved, bool mirrored)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+    mesh.normals.assign(6, {0, 0, 1});
+    for (const glm::vec3& p : mesh.positions)
+        mesh.texcoords[0].push_back({p.x, 1 - p.y});
+    for (std::size_t i = 3; i < 6; ++i)
+        mesh.texcoords[0][i].x += moved;
+    if (mirrored)
+        mesh.texcoords[0][5] = {0, 1};
+    mesh.indices = {0, 1, 2, 3, 4, 5};
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({"two", 0, glm::mat4(1)});
+    return scene;
+}
+
+EdgeKind sharedEdgeOf(const Scene& scene)
+{
+    const std::vector<SurfaceEdge> edges = surfaceEdges(scene);
+    EXPECT_EQ(edges.size(), 5u);
+    int borders = 0;
+    EdgeKind found = EdgeKind::border;
+    for (const SurfaceEdge& edge : edges) {
+        borders += edge.kind == EdgeKind::border;
+        if (edge.kind != EdgeKind::border)
+            found = edge.kind;
+    }
+    EXPECT_EQ(borders, 4);
+    return found;
+}
+
+TEST(Edges, tellWhereUvGoOnBreakAndAreMirrored)
+{
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0, false)), EdgeKind::inner);
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0.25f, false)), EdgeKind::seam);
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0, true)), EdgeKind::mirroredSeam);
+}
+
+TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
+{
+    Scene scene = twoTriangles(0, false);
+    View view;
+    view.width = view.height = 64;
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 1.28f; // 50 pixels are a unit
+    view.camera.eye = {0.5f, 0.5f, 5};
+    view.camera.target = {0.5f, 0.5f, 0};
+    const auto seen = [&] {
+        View depths = view;
+        depths.output = Output::depth;
+        const auto depth = drawView(scene, depths, "reference");
+        Image picture = makeImage(64, 64, PixelType::unorm8);
+        drawEdges(picture, *depth, view.camera, surfaceEdges(twoTriangles(0, false)), {false, true});
+        int cyan = 0;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+            cyan += picture.bytes8()[4 * i + 2] == 255;
+        return cyan;
+    };
+    EXPECT_NEAR(seen(), 200, 8); // four sides of 50 pixels
+    scene.meshes.push_back(scene.meshes[0]); // the same, before it and larger
+    scene.instances.push_back({"before", 1, glm::scale(glm::translate(glm::mat4(1), {-1, -1, 1}), {8, 8, 1})});
+    EXPECT_LE(seen(), 4);
 }
 
 } // namespace

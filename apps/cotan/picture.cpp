@@ -105,6 +105,10 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
          "own)")
         .in("CAMERA");
     addDeviceOption(a, o.device);
+    a.option("--edges", o.edges,
+             "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
+        .from({"none", "triangles", "seams", "all"})
+        .in("NAME");
     a.option("--shading", o.shading, "shading model: pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
     a.option("--lighting", o.lighting,
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
@@ -183,6 +187,8 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     if (!scene)
         return scene.error();
     picture.scene = std::move(*scene);
+    if (options.edges != "none")
+        picture.edges = surfaceEdges(picture.scene);
     if (Status prepared = prepareScene(options, options.show, frames, picture.scene); !prepared)
         return prepared.error();
     for (const std::string& line : picture.scene.warnings)
@@ -293,6 +299,20 @@ Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const st
     if (image && show != "shaded" && !floats)
         return asColor(view.output, *image);
     return image;
+}
+
+Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
+                Image& picture)
+{
+    if (options.edges == "none" || picture.type != PixelType::unorm8)
+        return Done{};
+    view.output = Output::depth;
+    const auto depth = painter.draw(view);
+    if (!depth)
+        return depth.error();
+    drawEdges(picture, *depth, view.camera, edges,
+              {options.edges != "seams", options.edges != "triangles"});
+    return Done{};
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common.hpp"
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/inspect/edges.hpp"
 #include "cotan/report/statistics.hpp"
 #include "cotan/scene/view.hpp"
 #include "loading.hpp"
@@ -34,6 +36,7 @@ struct PictureOptions {
     std::string size = "1280x720";
     std::string camera; // empty: the built-in scene's own, front for a model
     std::string device = "auto";
+    std::string edges = "none"; // or triangles, seams, all
     std::string shading = "pbr";
     std::string lighting = "world";
     std::string normalMapping = "shading";
@@ -84,6 +87,7 @@ struct Picture {
     Scene scene;
     View view;
     bool meter = false; // the exposure is to be found
+    std::vector<SurfaceEdge> edges; // to be drawn over it
     double loadSeconds = 0;
 };
 
@@ -114,6 +118,11 @@ Output outputOf(const std::string& show);
 // Errors: those of Painter::draw.
 Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const std::string& show, bool floats,
                        const std::function<void(const AngleStatistics&)>& error = {});
+
+// Draws the edges that the options ask for over a picture of 8 bits that the painter has drawn of the view. Nothing for
+// pictures that keep floats. Errors: those of Painter::draw.
+Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
+                Image& picture);
 
 // Sizes and counts for a report.
 Json describeScene(const PictureOptions& options, const Picture& picture);

@@ -24,11 +24,15 @@ struct RenderCommandOptions : CommonOptions {
 
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
-    return drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
+    auto image = drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                     [&](const AngleStatistics& degrees) {
                         report["error_against_exact"] = toJson(degrees);
                         say(o, "{} against exact: {}", o.frame, toText(degrees));
                     });
+    if (image)
+        if (Status laid = layEdges(painter, picture.view, o.picture, picture.edges, *image); !laid)
+            return laid.error();
+    return image;
 }
 
 // Draws one picture into o.output. The pictures of a sequence share the view that is made for the first: its camera,

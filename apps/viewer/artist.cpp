@@ -141,6 +141,8 @@ private:
         auto image = app::drawShow(*(*first)->painter, *(*first)->scene, *view, order.show, floats);
         if (!image)
             return image.error();
+        if (Status laid = layEdgesOn(order, **first, *view, order.first, *image); !laid)
+            return laid;
         drawn.picture = std::make_shared<Image>(std::move(*image));
         if (order.compare != Compare::divider)
             return Done{};
@@ -155,8 +157,20 @@ private:
         image = app::drawShow(*(*other)->painter, *(*other)->scene, *otherView, order.show, floats);
         if (!image)
             return image.error();
+        if (Status laid = layEdgesOn(order, **other, *otherView, order.second, *image); !laid)
+            return laid;
         drawn.other = std::make_shared<Image>(std::move(*image));
         return Done{};
+    }
+
+    Status layEdgesOn(const Order& order, Stage& s, const View& view, const app::PictureOptions& o, Image& picture)
+    {
+        if (o.edges == "none")
+            return Done{};
+        const std::string key = fmt::format("{}", order.model->number);
+        if (edges_.key != key || !edges_.value)
+            edges_ = {key, surfaceEdges(order.model->scene)};
+        return layEdges(*s.painter, view, o, *edges_.value, picture);
     }
 
     // Between the normals of the first picture and those of the second, or those of the frame `exact`.
@@ -263,6 +277,7 @@ private:
     std::array<Stage, 2> stages_;
     Kept<std::shared_ptr<const EnvironmentMap>> surroundings_;
     Kept<std::shared_ptr<const GroundMap>> ground_;
+    Kept<std::vector<SurfaceEdge>> edges_;
     double seconds_ = 0; // of the last whole picture
 };
 

@@ -161,6 +161,12 @@ void addShowEntries(Entries& e, const State& s)
     e.flag("Normal maps", "n", "no-normal-maps", true);
     e.flag("Nearest texels", "", "point-sampled");
     e.line();
+    const std::string& edges = s.picture.edges;
+    const bool triangles = edges == "triangles" || edges == "all", seams = edges == "seams" || edges == "all";
+    const auto shown = [](bool t, bool m) { return t && m ? "all" : t ? "triangles" : m ? "seams" : "none"; };
+    e.add("Edges of triangles", "w", std::string("set edges ") + shown(!triangles, seams), triangles);
+    e.add("Seams", "m", std::string("set edges ") + shown(triangles, !seams), seams);
+    e.line();
     e.add("Menus and panels", "tab", "toggle interface", s.interfaceShown);
     e.add("Settings", "s", "toggle settings", s.settingsShown);
     e.add("Keys", "h", "toggle help", s.cheatSheet);

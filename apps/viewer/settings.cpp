@@ -42,6 +42,7 @@ std::span<const Setting> settings()
         {"point-sampled", &Options::pointSampled},
         {"specular-antialiasing", &Options::specularAntialiasing},
         {"samples", &Options::samples, {"1", "4"}, 1, 4},
+        {"edges", &Options::edges, {"none", "triangles", "seams", "all"}},
         {"shading", &Options::shading, {"pbr", "blinn-phong"}},
         {"derivatives", &Options::derivatives, {"fine", "coarse"}},
         {"variant", &Options::variant, {}, 0, 0, false, true},
