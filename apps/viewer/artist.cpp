@@ -73,6 +73,15 @@ class Studio {
 public:
     explicit Studio(app::CommonOptions common) : common_(std::move(common)) {}
 
+    // What can be had before there is a model. What fails fails again, and is said, when it is needed.
+    void open(const app::PictureOptions& o)
+    {
+        if (auto painter = app::openDevice(deviceOf(o), common_))
+            stages_[0].painter = std::move(*painter);
+        if (auto opened = openSurroundings(o))
+            surroundings_ = {lightKey(o), *opened};
+    }
+
     Drawn draw(const Order& order)
     {
         Drawn drawn;
@@ -250,13 +259,14 @@ private:
         view->frame = *app::parseFrame((second ? order.b : order.a).frame);
         view->output = app::outputOf(order.show);
         view->lights = lightsOf(o, *s.scene);
-        if (surroundings_.key != lightKey(o) || !surroundings_.value) {
+        const bool dark = o.use == app::PictureUse::data; // nothing is lit then
+        if (!dark && (surroundings_.key != lightKey(o) || !surroundings_.value)) {
             auto opened = openSurroundings(o);
             if (!opened)
                 return opened.error();
             surroundings_ = {lightKey(o), *opened};
         }
-        view->environmentMap = *surroundings_.value;
+        view->environmentMap = dark ? nullptr : *surroundings_.value;
         const std::string under = fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows,
                                               o.shadowSoftness);
         if (under != ground_.key || !ground_.value)
@@ -284,13 +294,19 @@ private:
 } // namespace
 
 struct Artist::Work {
-    Work(app::CommonOptions common, std::function<void()> tell)
-        : studio(std::move(common)), done(std::move(tell)), thread([this] { run(); })
+    Work(app::CommonOptions common, app::PictureOptions first, std::function<void()> tell)
+        : studio(std::move(common)), done(std::move(tell)), thread([this, first = std::move(first)] { run(first); })
     {
     }
 
-    void run()
+    void run(const app::PictureOptions& first)
     {
+        guarded(
+            [&] {
+                studio.open(first);
+                return Drawn{};
+            },
+            0);
         std::unique_lock lock(mutex);
         for (;;) {
             changed.wait(lock, [&] { return stop || next || file; });
@@ -364,8 +380,8 @@ struct Artist::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Artist::Artist(app::CommonOptions common, std::function<void()> done)
-    : work_(std::make_unique<Work>(std::move(common), std::move(done)))
+Artist::Artist(app::CommonOptions common, app::PictureOptions first, std::function<void()> done)
+    : work_(std::make_unique<Work>(std::move(common), std::move(first), std::move(done)))
 {
 }
 

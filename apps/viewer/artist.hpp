@@ -43,8 +43,9 @@ Order orderOf(const State& state);
 
 class Artist {
 public:
+    // first: what will be asked for; its device and surroundings are opened while the model is still being read.
     // done: called on the artist's thread where something new can be taken.
-    Artist(app::CommonOptions common, std::function<void()> done);
+    Artist(app::CommonOptions common, app::PictureOptions first, std::function<void()> done);
     ~Artist();
 
     // Draws this next; an order that waits is dropped.

@@ -318,6 +318,21 @@ std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
     return scale;
 }
 
+// A line of the cheat sheet; the keys 1 to 9 of a menu share one, which says what is chosen.
+void addToSheet(const Entry& entry, std::vector<std::pair<std::string, std::string>>& sheet)
+{
+    const std::string before = entry.key.substr(0, entry.key.size() - std::min<std::size_t>(entry.key.size(), 1));
+    const bool digit = (before.empty() || before == "shift+" || before == "alt+") && !entry.key.empty()
+        && entry.key.back() >= '1' && entry.key.back() <= '9';
+    const std::string shared = entry.menu + ": ";
+    if (digit && (sheet.empty() || !sheet.back().second.starts_with(shared)))
+        sheet.emplace_back(before + "1 ... 9", shared);
+    if (!sheet.empty() && sheet.back().second == shared && entry.on)
+        sheet.back().second += entry.label;
+    else if (!digit && !entry.key.empty())
+        sheet.emplace_back(entry.key, entry.label + (entry.on ? ": on" : ""));
+}
+
 } // namespace
 
 std::vector<Entry> entriesOf(const State& state)
@@ -355,8 +370,7 @@ Interface interfaceOf(const State& s)
         if (i.menus.empty() || i.menus.back().title != entry.menu)
             i.menus.push_back({entry.menu, {}});
         i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable});
-        if (!entry.key.empty())
-            i.sheet.emplace_back(entry.key, entry.label + (entry.on ? ": on" : ""));
+        addToSheet(entry, i.sheet);
     }
     for (const auto& [keys, what] : {std::pair("left drag", "turn"), {"middle, right drag", "move"},
                                      {"wheel", "zoom to the pointer"}, {"click", "pivot"},

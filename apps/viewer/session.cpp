@@ -77,16 +77,18 @@ public:
         window.played = options_.plays;
         if (state_.picture.device != "auto" && state_.picture.device != "reference")
             window.device = state_.picture.device;
+        begun_ = secondsNow();
         app::CommonOptions quiet = options_.common;
         quiet.quiet = true; // what is to be said is said in the window
         loader_.emplace(quiet, [this] { wake(); });
-        artist_.emplace(quiet, [this] { wake(); });
+        artist_.emplace(quiet, optionsOf(state_, false), [this] { wake(); });
         state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
         loadWished();
         auto opened = openWindow(window);
         if (!opened)
             return opened.error();
         window_ = std::move(*opened);
+        windowSeconds_ = secondsNow() - begun_;
         if (options_.plays)
             window_->resize(state_.size.x, state_.size.y);
         if (!options_.record.empty()) {
@@ -102,6 +104,9 @@ public:
             wakes_ = nullptr;
         }
         remember();
+        if (done)
+            if (const Status written = writeReport(options_.common, reportOfTimes()); !written)
+                return written;
         if (done && options_.validation && !window_->messages().empty())
             return unavailableError("validation: " + window_->messages()[0]);
         return done;
@@ -153,6 +158,8 @@ private:
             probe();
             if (const Status shown = window_->show(interface(), shownNow()); !shown)
                 return shown;
+            if (firstShown_ == 0 && drawn_.picture)
+                firstShown_ = secondsNow() - begun_;
             if (options_.plays && next_ == options_.played.size() && idle())
                 quits_ = true;
         }
@@ -352,6 +359,7 @@ private:
                 state_.problem = drawn->problem;
             if (drawn->picture && drawn->picture != drawn_.picture) {
                 ++serial_;
+                firstPicture_ = firstPicture_ > 0 ? firstPicture_ : drawn->seconds;
                 ++state_.pictures;
                 state_.drawSeconds = options_.plays ? 0 : drawn->seconds; // played sessions look the same every time
                 state_.metered = drawn->exposure > 0 ? drawn->exposure : state_.metered;
@@ -385,6 +393,7 @@ private:
             return;
         }
         ++state_.loads;
+        loadSeconds_ = loadSeconds_ > 0 ? loadSeconds_ : loaded.seconds;
         const bool other = !state_.model || loaded.options.model != state_.picture.model
             || loaded.options.shape != state_.picture.shape;
         state_.picture.model = loaded.options.model;
@@ -486,6 +495,18 @@ private:
             : -1.0f;
     }
 
+    Json reportOfTimes() const
+    {
+        return {{"command", "view"},
+                {"device", state_.device},
+                {"pictures", state_.pictures},
+                {"loads", state_.loads},
+                {"failed_loads", state_.failedLoads},
+                {"seconds",
+                 {{"window", windowSeconds_}, {"load", loadSeconds_}, {"first_picture", firstPicture_},
+                  {"first_shown", firstShown_}}}};
+    }
+
     void remember() const
     {
         if (options_.memory.empty())
@@ -517,6 +538,7 @@ private:
     std::uint64_t serial_ = 0, orders_ = 0;
     std::size_t next_ = 0; // of the played events
     double start_ = 0, last_ = 0, playedTo_ = 0, waitsSince_ = 0;
+    double begun_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstPicture_ = 0, firstShown_ = 0; // of a report
     bool waits_ = false, quits_ = false;
 };
 
