@@ -49,4 +49,5 @@ cotan_optional(MESHOPTIMIZER meshoptimizer::meshoptimizer meshoptimizer libmesho
 cotan_optional(EMBREE embree "Embree 3" libembree-dev "no baking" embree 3 CONFIG)
 cotan_optional(VULKAN Vulkan::Headers Vulkan "libvulkan-dev glslang-tools"
   "pictures are drawn on the processor, no cotan cost" Vulkan)
+cotan_optional(WINDOW Cotan::Window "GLFW and Dear ImGui" "libglfw3-dev and libimgui-dev" "no cotan view" CotanWindow)
 find_program(COTAN_GLSLANG glslangValidator)

@@ -10,6 +10,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
+#include "quad_model.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {
@@ -244,6 +245,32 @@ TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
     ASSERT_TRUE(scene);
     EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "second.gltf"))["images"].size(), 1u); // the first map is gone
     EXPECT_EQ(scene->meshes[0].tangents.empty(), frame != "mikktspace" && frame != "vertex");
+}
+
+// Green points up in the model's map; read as if it pointed down, every normal leans the other way.
+TEST(OwnMaps, aConventionAloneReadsTheModelsOwnMapsOtherwise)
+{
+    TemporaryFolder folder;
+    write(quad(1), folder.path());
+    writeSquare(folder / "plain.obj");
+    std::vector<Image> pictures;
+    for (const char* words : {"gltf", "directx", "opengl"}) {
+        const ToolRun r = runTool(drawn({"render", "quad.gltf", "--convention", words}), folder.path());
+        ASSERT_EQ(r.code, 0) << r.err;
+        pictures.push_back(*readImage(folder / "n.png"));
+    }
+    int most = 0;
+    for (std::size_t i = 1; i < pictures[0].data.size(); i += 4) {
+        if (pictures[0].bytes8()[i + 2] == 0) // nothing there
+            continue;
+        const int up = pictures[0].bytes8()[i], down = pictures[1].bytes8()[i];
+        EXPECT_NEAR(up + down, 255, 2);
+        EXPECT_EQ(up, pictures[2].bytes8()[i]);
+        most = std::max(most, std::abs(up - down));
+    }
+    EXPECT_GT(most, 40);
+    const ToolRun none = runTool(drawn({"render", "plain.obj", "--convention", "directx"}), folder.path());
+    EXPECT_EQ(none.code, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, BakeIntoModel, testing::Values("cotangent", "smooth", "mikktspace", "vertex"));

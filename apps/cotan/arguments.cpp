@@ -50,6 +50,12 @@ Argument& Argument::from(std::initializer_list<std::string> words)
     return *this;
 }
 
+Argument& Argument::from(const std::vector<std::string>& words)
+{
+    option_->check(CLI::IsMember(words));
+    return *this;
+}
+
 Argument& Argument::from(std::initializer_list<int> numbers)
 {
     option_->check(CLI::IsMember(numbers));

@@ -26,6 +26,7 @@ public:
 
     Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"
     Argument& from(std::initializer_list<std::string> words);
+    Argument& from(const std::vector<std::string>& words);
     Argument& from(std::initializer_list<int> numbers);
     Argument& within(int least, int most);
     Argument& within(double least, double most);

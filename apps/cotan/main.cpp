@@ -12,6 +12,7 @@
 #include "cotan/files/interrupt.hpp"
 #include "cotan/files/sandbox.hpp"
 #include "cotan/model/reader.hpp"
+#include "view_command.hpp"
 
 namespace {
 
@@ -40,7 +41,7 @@ int runCommandLine(std::vector<std::string> words)
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
     for (const auto add :
          {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,
-          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand})
+          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand, addViewCommand})
         add(tool);
     return finish(tool.run(std::move(words), print));
 }

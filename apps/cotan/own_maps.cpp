@@ -35,13 +35,38 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     return readImageWithin(memory, file);
 }
 
-Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
+Result<Convention> conventionOf(const OwnMaps& maps)
 {
-    const auto convention = parseConvention(maps.convention, "--convention");
+    auto convention = parseConvention(maps.convention, "--convention");
+    if (convention && convention->kind != MapKind::tangentSpace)
+        return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
+    return convention;
+}
+
+// The maps that the model has, read in another way.
+Status readOtherwise(const OwnMaps& maps, Scene& scene)
+{
+    const auto convention = conventionOf(maps);
     if (!convention)
         return convention.error();
-    if (convention->kind != MapKind::tangentSpace)
-        return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
+    bool any = false;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& m = scene.materials[i];
+        if (!m.normalMap.present() || (maps.material >= 0 && int(i) != maps.material))
+            continue;
+        m.normalFormat = inScene(*convention);
+        any = true;
+    }
+    if (!any)
+        return usageError("--convention: expected --normal-map FILE with it, or a model with normal maps; found none");
+    return Done{};
+}
+
+Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
+{
+    const auto convention = conventionOf(maps);
+    if (!convention)
+        return convention.error();
     auto image = readFor(maps, maps.normal, &Material::normalMap, memory, scene);
     if (!image)
         return image.error();
@@ -57,7 +82,7 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
 {
     a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
         .in("FILE");
-    a.option("--convention", maps.convention, "how that image is stored: " + conventionWords()).in("WORDS");
+    a.option("--convention", maps.convention, "how that image is stored, or without one how the model's own normal maps are to be read: " + conventionWords()).in("WORDS");
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
         .in("N");
@@ -77,13 +102,15 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
 {
     const bool any =
         !(maps.normal.empty() && maps.baseColor.empty() && maps.metallicRoughness.empty() && maps.occlusion.empty());
-    if (maps.normal.empty() && maps.convention != kDefaults.convention)
-        return usageError("--convention: expected --normal-map FILE with it; found none");
-    if (!any && maps.material != kDefaults.material)
+    const bool otherwise = maps.normal.empty() && maps.convention != kDefaults.convention;
+    if (!any && !otherwise && maps.material != kDefaults.material)
         return usageError("--material: expected --normal-map FILE or another map with it; found none");
-    if (any && maps.material >= int(scene.materials.size()))
+    if ((any || otherwise) && maps.material >= int(scene.materials.size()))
         return usageError(
             fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, maps.material));
+    if (otherwise)
+        if (Status read = readOtherwise(maps, scene); !read)
+            return read;
     if (!maps.normal.empty())
         if (Status applied = applyNormalMap(maps, memory, scene); !applied)
             return applied;

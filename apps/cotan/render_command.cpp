@@ -1,6 +1,5 @@
 #include "commands.hpp"
 
-#include <map>
 #include <numeric>
 #include <optional>
 
@@ -9,9 +8,7 @@
 #include "cotan/image/animation.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/parse_number.hpp"
-#include "cotan/report/angles.hpp"
 #include "cotan/scene/geometry.hpp"
-#include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 
@@ -22,38 +19,20 @@ namespace {
 struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame = "cotangent";
-    std::string show = "shaded";
     std::string frames; // "A..B"
     double rate = 24;
 };
 
-const std::map<std::string, Output> kShows = {
-    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
-    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
-    {"error", Output::normal},
-};
-
-bool keepsFloats(const std::filesystem::path& file)
-{
-    const std::string extension = file.extension().string();
-    return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-}
-
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
-    View view = picture.view;
-    if (o.show == "error") {
-        auto error = errorAgainstExact(painter, picture.scene, view);
-        if (!error)
-            return error.error();
-        report["error_against_exact"] = toJson(error->degrees);
-        say(o, "{} against exact: {}", o.frame, toText(error->degrees));
-        return std::move(error->difference);
-    }
-    view.linearOutput = o.show == "shaded" && keepsFloats(o.output);
-    auto image = painter.draw(view);
-    if (image && o.show != "shaded" && !keepsFloats(o.output))
-        return asColor(view.output, *image);
+    auto image = drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
+                    [&](const AngleStatistics& degrees) {
+                        report["error_against_exact"] = toJson(degrees);
+                        say(o, "{} against exact: {}", o.frame, toText(degrees));
+                    });
+    if (image)
+        if (Status laid = layEdges(painter, picture.view, o.picture, picture.edges, *image); !laid)
+            return laid.error();
     return image;
 }
 
@@ -73,7 +52,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
     if (!picture)
         return picture.error();
     picture->view.frame = frame;
-    picture->view.output = kShows.at(o.show);
+    picture->view.output = outputOf(o.picture.show);
 
     Stopwatch watch;
     auto painter = openPicturePainter(o.picture, o, *picture);
@@ -82,7 +61,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
     shared = picture->view;
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     Json report = {{"command", "render"}};
-    const auto image = withProgress(o, o.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
+    const auto image = withProgress(o, o.picture.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
         (*painter)->progress = std::move(progress);
         return drawPicture(**painter, *picture, o, report);
     });
@@ -95,7 +74,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
 
     report.update(describeScene(o.picture, *picture));
     report["frame"] = o.frame;
-    report["view"] = o.show;
+    report["view"] = o.picture.show;
     report["shading"] = o.picture.shading;
     report["device"] = (*painter)->device();
     report["output"] = o.output.string();
@@ -178,7 +157,7 @@ Status run(const RenderCommandOptions& o)
         return planned;
     Sequence sequence;
     RenderCommandOptions one = o;
-    one.picture.use = o.show != "shaded" ? PictureUse::data
+    one.picture.use = o.picture.show != "shaded" ? PictureUse::data
         : keepsFloats(o.output)          ? PictureUse::radiance
                                          : PictureUse::shown;
     if (numbers->empty())
@@ -203,10 +182,7 @@ void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
-    a.option("--view", o.show,
-             "what to draw: shaded, normal, tangent, bitangent, uv, depth, or error (degrees from the frame exact)")
-        .from({"shaded", "normal", "tangent", "bitangent", "uv", "depth", "error"})
-        .in("NAME");
+    addShowOption(a, o.picture.show);
     a.option(
          "--frames", o.frames,
          "pictures A to B of --animation with the camera of the first, written as NAME-0000.png and so on, or into one "

@@ -1,8 +1,11 @@
 #include "cotan/draw/camera_words.hpp"
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <numbers>
 #include <string_view>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -14,27 +17,60 @@ namespace cotan {
 
 namespace {
 
+constexpr double kRadians = std::numbers::pi / 180;
+
+std::vector<std::string_view> between(std::string_view text, char mark)
+{
+    std::vector<std::string_view> parts;
+    for (std::size_t start = 0;;) {
+        const std::size_t end = text.find(mark, start);
+        parts.push_back(text.substr(start, end == std::string_view::npos ? end : end - start));
+        if (end == std::string_view::npos)
+            return parts;
+        start = end + 1;
+    }
+}
+
+bool finite(std::string_view text, float& value) { return parseNumber(text, value) && std::isfinite(value); }
+
+// The seventh part. Degrees are read as double: a lens in float radians comes back as it was.
+bool lensOf(std::string_view text, Camera& camera)
+{
+    camera.orthographic = text.starts_with('h');
+    if (camera.orthographic)
+        return finite(text.substr(1), camera.verticalExtent) && camera.verticalExtent > 0;
+    double degrees = 0;
+    if (!parseNumber(text, degrees) || !(degrees > 0 && degrees < 180))
+        return false;
+    camera.verticalFieldOfView = float(degrees * kRadians);
+    return true;
+}
+
 Result<Camera> lookingFromTo(const std::string& text)
 {
+    const std::vector<std::string_view> parts = between(text, ',');
     std::array<float, 6> v{};
-    std::size_t start = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-        const std::size_t comma = text.find(',', start);
-        const bool last = i + 1 == v.size();
-        if ((comma == std::string::npos) != last
-            || !parseNumber(std::string_view(text).substr(start, last ? std::string::npos : comma - start), v[i])
-            || !std::isfinite(v[i]))
-            return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz; found '"
-                              + text + "'");
-        start = comma + 1;
-    }
+    bool good = parts.size() == 6 || parts.size() == 7 || parts.size() == 10;
+    for (std::size_t i = 0; good && i < v.size(); ++i)
+        good = finite(parts[i], v[i]);
     Camera camera;
+    if (good && parts.size() > 6)
+        good = lensOf(parts[6], camera);
+    for (std::size_t i = 7; good && i < parts.size(); ++i)
+        good = finite(parts[i], camera.up[int(i) - 7]);
+    if (!good)
+        return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz and perhaps a "
+                          "lens and a direction up; found '"
+                          + text + "'");
     camera.eye = {v[0], v[1], v[2]};
     camera.target = {v[3], v[4], v[5]};
     const glm::vec3 forward = camera.target - camera.eye;
     if (glm::length(forward) == 0)
         return usageError("the eye and the target are the same point");
-    const bool vertical = glm::length(glm::cross(forward, camera.up)) < 1e-4f * glm::length(forward);
+    const bool vertical =
+        glm::length(glm::cross(forward, camera.up)) <= 1e-4f * glm::length(forward) * glm::length(camera.up);
+    if (vertical && parts.size() > 7)
+        return usageError("the direction up is that of the view, or none");
     if (vertical)
         camera.up = {0, 0, -1};
     return camera;
@@ -55,6 +91,31 @@ Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int 
         return usageError("expected a camera of the model, it has " + std::to_string(scene.cameras.size()) + "; found "
                           + std::to_string(number));
     return scene.cameras[std::size_t(number)];
+}
+
+std::string cameraWords(const Camera& camera)
+{
+    std::string text;
+    const auto add = [&](auto value) {
+        std::array<char, 64> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr; // as few as tell it
+        text += (text.empty() || text.back() == 'h' ? "" : ",") + std::string(digits.data(), end);
+    };
+    for (const glm::vec3& point : {camera.eye, camera.target})
+        for (int i = 0; i < 3; ++i)
+            add(point[i]);
+    if (camera.orthographic) {
+        text += ",h";
+        add(camera.verticalExtent);
+    } else {
+        add(double(camera.verticalFieldOfView) / kRadians);
+    }
+    const glm::vec3 forward = camera.target - camera.eye;
+    const bool vertical = glm::length(glm::cross(forward, {0, 1, 0})) <= 1e-4f * glm::length(forward);
+    if (camera.up != (vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0)))
+        for (int i = 0; i < 3; ++i)
+            add(camera.up[i]);
+    return text;
 }
 
 } // namespace cotan

@@ -4,13 +4,9 @@
 #include <array>
 #include <cstring>
 #include <string_view>
-#include <system_error>
-#include <vector>
-
-#include <dlfcn.h>
-#include <fmt/format.h>
 
 #include "cotan/files/extension.hpp"
+#include "cotan/files/module.hpp"
 #include "cotan/not_built.hpp"
 
 namespace cotan {
@@ -20,46 +16,24 @@ namespace fs = std::filesystem;
 namespace {
 
 #ifdef COTAN_MODULE_NAME
-// Beside an installed program, where it was installed, where it was built.
-std::vector<fs::path> modulePlaces()
-{
-    std::vector<fs::path> places;
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (!error)
-        places.push_back(program.parent_path().parent_path() / COTAN_MODULE_SUBFOLDER);
-    places.emplace_back(COTAN_MODULE_INSTALLED);
-    places.emplace_back(COTAN_MODULE_BUILT);
-    return places;
-}
-
 constexpr bool kBuilt = true;
 
-Result<const ImageFormats*> loadModule()
+Result<const ImageFormats*> loadFormats()
 {
-    std::string problem = "not found";
-    for (const fs::path& folder : modulePlaces()) {
-        const fs::path file = folder / COTAN_MODULE_NAME;
-        std::error_code error;
-        if (!fs::exists(file, error))
-            continue;
-        void* module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // kept until the end
-        if (!module) {
-            problem = ::dlerror();
-            continue;
-        }
-        const auto entry = reinterpret_cast<const ImageFormats* (*)()>(::dlsym(module, "cotanImageFormats"));
-        const ImageFormats* formats = entry ? entry() : nullptr;
-        if (formats && std::strcmp(formats->version, COTAN_MODULE_VERSION) == 0)
-            return formats;
-        problem = fmt::format("{} is not of this version", file.string());
-    }
-    return unavailableError(fmt::format("this image format needs the module {}: {}", COTAN_MODULE_NAME, problem));
+    const auto offered = loadModule(
+        {COTAN_MODULE_NAME, COTAN_MODULE_SUBFOLDER, COTAN_MODULE_INSTALLED, COTAN_MODULE_BUILT}, "cotanImageFormats",
+        [](const void* formats) {
+            return std::strcmp(static_cast<const ImageFormats*>(formats)->version, COTAN_MODULE_VERSION) == 0;
+        },
+        "this image format");
+    if (!offered)
+        return offered.error();
+    return static_cast<const ImageFormats*>(*offered);
 }
 #else
 constexpr bool kBuilt = false;
 
-Result<const ImageFormats*> loadModule()
+Result<const ImageFormats*> loadFormats()
 {
     return notBuiltWith("OpenImageIO, which reads and writes this image format",
                         "libopenimageio-dev and openimageio-tools");
@@ -72,7 +46,7 @@ bool readsOtherFormats() { return kBuilt; }
 
 Result<const ImageFormats*> imageFormats()
 {
-    static const Result<const ImageFormats*> formats = loadModule();
+    static const Result<const ImageFormats*> formats = loadFormats();
     return formats;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "cotan/angle.hpp"
+#include "cotan/lint/triangle_uv.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
@@ -50,6 +51,31 @@ double shearOf(const Gradients& g)
 }
 
 } // namespace
+} // namespace cotan::lint
+
+namespace cotan {
+
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
+{
+    const lint::Gradients g = lint::gradientsOf(surface, triangle);
+    TriangleUv t;
+    t.usable = g.usable;
+    if (!g.usable)
+        return t;
+    t.stretch = lint::stretchOf(g);
+    t.degenerate = !(t.stretch > 0);
+    t.gradient = std::max(glm::length(g.u), glm::length(g.v));
+    t.density = std::sqrt(glm::length(glm::cross(g.u, g.v)));
+    if (t.degenerate)
+        return t;
+    t.shear = lint::shearOf(g);
+    t.orientation = orientationOf(surface, triangle);
+    return t;
+}
+
+} // namespace cotan
+
+namespace cotan::lint {
 
 UvQuality uvQuality(const MappedSurface& s)
 {
@@ -62,21 +88,19 @@ UvQuality uvQuality(const MappedSurface& s)
             continue;
         for (std::size_t k = 0; k < 3; ++k)
             q.largestUv = std::max({q.largestUv, std::abs(s.uv[3 * i + k].x), std::abs(s.uv[3 * i + k].y)});
-        const Gradients g = gradientsOf(s, i);
-        if (!g.usable)
+        const TriangleUv t = triangleUv(s, i);
+        if (!t.usable)
             continue;
-        const double ratio = stretchOf(g);
-        if (!(ratio > 0)) {
+        if (t.degenerate) {
             q.degenerate += area;
             continue;
         }
-        const double degrees = shearOf(g);
-        q.mirrored += orientationOf(s, i) < 0 ? area : 0;
-        q.stretched += ratio > kStretched ? area : 0;
-        q.sheared += degrees > kSheared ? area : 0;
-        stretch.emplace_back(ratio, area);
-        shear.emplace_back(degrees, area);
-        gradient.emplace_back(std::max(glm::length(g.u), glm::length(g.v)), area);
+        q.mirrored += t.orientation < 0 ? area : 0;
+        q.stretched += t.stretch > kStretched ? area : 0;
+        q.sheared += t.shear > kSheared ? area : 0;
+        stretch.emplace_back(t.stretch, area);
+        shear.emplace_back(t.shear, area);
+        gradient.emplace_back(t.gradient, area);
     }
     const double whole = q.area > 0 ? q.area : std::numeric_limits<double>::quiet_NaN();
     q.degenerate /= whole;

@@ -109,4 +109,34 @@ Scene builtinScene()
     return scene;
 }
 
+Scene shapeScene(const std::string& shape)
+{
+    Scene scene;
+    scene.name = shape;
+    Mesh mesh;
+    if (shape == "sphere") {
+        mesh = makeSphere(1, 128);
+        scaleTexcoords(mesh, 2, 1); // texels about as wide as they are high
+    } else if (shape == "torus") {
+        mesh = makeTorus(0.8f, 0.35f, 128, 6, 2.5f);
+    } else if (shape == "teapot") {
+        mesh = makeTeapot(12);
+    } else {
+        mesh = makePatch(1, 0, /*mirrored*/ false, 1);
+    }
+    Material material;
+    material.name = "white plastic";
+    material.baseColor = {0.6f, 0.6f, 0.6f, 1};
+    material.metallic = 0;
+    material.roughness = 0.4f;
+    material.doubleSided = true; // a sheet has a back, a spout is open
+    scene.materials.push_back(std::move(material));
+    glm::mat4 toWorld(1);
+    if (shape == "teapot" || (shape != "sphere" && shape != "torus"))
+        toWorld = glm::scale(toWorld, glm::vec3(2));
+    scene.instances.push_back({shape, 0, toWorld});
+    scene.meshes.push_back(std::move(mesh));
+    return scene;
+}
+
 } // namespace cotan

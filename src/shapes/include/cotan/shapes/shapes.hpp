@@ -32,6 +32,10 @@ HeightSample relief(Relief kind, double u, double v);
 // +v (glTF). side: pixels, each texel sampled at its centre.
 Image makeReliefMap(Relief kind, int side);
 
+// One shape of white plastic alone, to look at maps on: "plane" (upright), "sphere", "torus" or "teapot"; the plane for
+// all other names. It is about 2 units high; the torus repeats its texture six times around, the sphere twice.
+Scene shapeScene(const std::string& shape);
+
 // The built-in scene of `cotan render` without a model: a normal-mapped floor, the teapot and a
 // few shapes; no tangent stored anywhere.
 Scene builtinScene();

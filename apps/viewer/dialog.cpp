@@ -1,0 +1,97 @@
+#include "dialog.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace cotan::viewer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The program of that name in PATH; empty without.
+std::string findProgram(const std::string& name)
+{
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (const std::string file = folder + "/" + name; ::access(file.c_str(), X_OK) == 0)
+            return file;
+    return {};
+}
+
+} // namespace
+
+Dialog::~Dialog()
+{
+    if (child_ > 0) {
+        ::kill(child_, SIGTERM);
+        ::waitpid(child_, nullptr, 0);
+    }
+    if (pipe_ >= 0)
+        ::close(pipe_);
+}
+
+Status Dialog::ask(const std::string& beside)
+{
+    if (open())
+        return Done{};
+    std::error_code error;
+    const fs::path folder = fs::absolute(fs::path(beside.empty() ? "." : beside), error).parent_path() / "";
+    std::vector<std::string> words;
+    if (const std::string zenity = findProgram("zenity"); !zenity.empty())
+        words = {zenity, "--file-selection", "--title=cotan view", "--filename=" + folder.string()};
+    else if (const std::string kdialog = findProgram("kdialog"); !kdialog.empty())
+        words = {kdialog, "--getopenfilename", folder.string()};
+    else
+        return unavailableError("open: no dialog to choose a file: install zenity; or drop a file, or paste its path");
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        return unavailableError("open: no dialog to choose a file: no pipe");
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    child_ = ::fork();
+    if (child_ == 0) {
+        ::dup2(ends[1], 1);
+        ::execv(arguments[0], arguments.data());
+        ::_exit(127);
+    }
+    ::close(ends[1]);
+    if (child_ < 0) {
+        ::close(ends[0]);
+        child_ = 0;
+        return unavailableError("open: no dialog to choose a file: no process");
+    }
+    pipe_ = ends[0];
+    ::fcntl(pipe_, F_SETFL, O_NONBLOCK);
+    said_.clear();
+    return Done{};
+}
+
+std::string Dialog::take()
+{
+    if (!open())
+        return {};
+    char bytes[4096];
+    for (ssize_t count; (count = ::read(pipe_, bytes, sizeof bytes)) > 0;)
+        said_.append(bytes, std::size_t(count));
+    if (::waitpid(child_, nullptr, WNOHANG) == 0)
+        return {};
+    for (ssize_t count; (count = ::read(pipe_, bytes, sizeof bytes)) > 0;)
+        said_.append(bytes, std::size_t(count));
+    ::close(pipe_);
+    pipe_ = -1;
+    child_ = 0;
+    return said_.substr(0, said_.find('\n'));
+}
+
+} // namespace cotan::viewer

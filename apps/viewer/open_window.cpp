@@ -1,0 +1,29 @@
+#include <cstring>
+
+#include "cotan/files/module.hpp"
+#include "cotan/not_built.hpp"
+#include "window.hpp"
+
+namespace cotan::viewer {
+
+#ifdef COTAN_MODULE_NAME
+Result<std::unique_ptr<Window>> openWindow(const WindowOptions& options)
+{
+    const auto module = loadModule(
+        {COTAN_MODULE_NAME, COTAN_MODULE_SUBFOLDER, COTAN_MODULE_INSTALLED, COTAN_MODULE_BUILT}, "cotanWindowModule",
+        [](const void* offered) {
+            return std::strcmp(static_cast<const WindowModule*>(offered)->version, COTAN_MODULE_VERSION) == 0;
+        },
+        "view");
+    if (!module)
+        return module.error();
+    return static_cast<const WindowModule*>(*module)->open(options);
+}
+#else
+Result<std::unique_ptr<Window>> openWindow(const WindowOptions&)
+{
+    return notBuiltWith("GLFW and Dear ImGui", "libglfw3-dev and libimgui-dev");
+}
+#endif
+
+} // namespace cotan::viewer

@@ -1,0 +1,184 @@
+#include "state.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "camera.hpp"
+#include "cotan/draw/camera_words.hpp"
+#include "cotan/scene/bounds.hpp"
+#include "settings.hpp"
+
+namespace cotan::viewer {
+
+namespace {
+
+// A word as a shell reads it.
+std::string quoted(const std::string& word)
+{
+    const bool safe = !word.empty()
+        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,") == std::string::npos;
+    if (safe)
+        return word;
+    std::string text = "'";
+    for (const char c : word)
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+std::string compareName(Compare compare)
+{
+    return compare == Compare::divider ? "divider"
+        : compare == Compare::flip     ? "flip"
+        : compare == Compare::angle    ? "angle"
+                                       : "off";
+}
+
+std::string textOf(const glm::vec3& v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f); }
+
+} // namespace
+
+app::PictureOptions optionsOf(const State& state, bool second)
+{
+    app::PictureOptions o = state.picture;
+    o.size = fmt::format("{}x{}", std::max(1, state.size.x), std::max(1, state.size.y));
+    if (state.cameraMoved)
+        o.camera = cameraWords(state.camera);
+    o.use = state.show == "shaded" ? app::PictureUse::shown : app::PictureUse::data;
+    if (state.compare == Compare::angle)
+        o.use = app::PictureUse::data;
+    const Side& side = sideOf(state, second);
+    o.tangents = side.tangents;
+    o.maps.normal = side.normalMap;
+    o.maps.convention = side.convention.empty() ? app::OwnMaps().convention : side.convention;
+    return o;
+}
+
+void resetCamera(State& state)
+{
+    state.cameraMoved = false;
+    if (!state.model)
+        return;
+    app::PictureOptions o = optionsOf(state, false);
+    const auto view = viewOf(o, state.model->scene);
+    if (!view)
+        return;
+    state.camera = view->camera;
+    state.camera.name.clear();
+    // A camera of a file may look at a point that is not in the model: the pivot goes to the model's depth.
+    const glm::vec3 forward = glm::normalize(state.camera.target - state.camera.eye);
+    if (!state.model->box.empty()) {
+        const float depth = glm::dot(state.model->box.centre() - state.camera.eye, forward);
+        if (!o.camera.empty() && o.camera != "front" && o.camera != "fit" && depth > 0)
+            state.camera.target = state.camera.eye + forward * depth;
+    }
+}
+
+std::string commandLine(const State& state, const std::string& file, glm::ivec2 size)
+{
+    const bool second = state.compare == Compare::flip && state.second;
+    const app::PictureOptions o = optionsOf(state, second), usual;
+    const Side& side = sideOf(state, second);
+    std::string text = state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
+    const bool compares = text == "cotan compare";
+    const auto add = [&](const std::string& name, const std::string& value) { text += " --" + name + " " + quoted(value); };
+    if (!o.model.empty())
+        text += " " + quoted(o.model);
+    text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
+    if (compares)
+        add("frames", state.a.frame + "," + state.b.frame);
+    else if (side.frame != "cotangent")
+        add("frame", side.frame);
+    if (!compares && state.show != "shaded")
+        add("view", state.show);
+    if (!o.camera.empty())
+        add("camera", o.camera);
+    if (!side.normalMap.empty())
+        add("normal-map", side.normalMap);
+    if (!side.convention.empty())
+        add("convention", side.convention);
+    if (o.tangents != usual.tangents)
+        add("tangents", o.tangents);
+    for (const auto& [name, field] : {std::pair("base-color", &app::OwnMaps::baseColor),
+                                      {"metallic-roughness", &app::OwnMaps::metallicRoughness},
+                                      {"occlusion", &app::OwnMaps::occlusion}})
+        if (!(o.maps.*field).empty())
+            add(name, o.maps.*field);
+    if (o.maps.material != usual.maps.material)
+        add("material", fmt::format("{}", o.maps.material));
+    for (const Setting& setting : settings()) {
+        std::string value = valueOf(setting, o);
+        if (setting.field.index() == 4) { // a flag
+            if (value == "on")
+                text += std::string(" --") + setting.name;
+            continue;
+        }
+        if (std::string("exposure") == setting.name && value == "auto" && state.metered > 0
+            && o.use == app::PictureUse::shown && !app::keepsFloats(file))
+            value = fmt::format("{}", state.metered);
+        if (value != valueOf(setting, usual))
+            add(setting.name, value);
+    }
+    for (const auto& [name, value, other] :
+         {std::tuple("device", o.device, usual.device), {"lighting", o.lighting, usual.lighting}, {"rows", o.rows, usual.rows},
+          {"normal-mapping", o.normalMapping, usual.normalMapping}})
+        if (value != other)
+            add(name, value);
+    return text;
+}
+
+std::string reportOf(const State& state)
+{
+    std::string text;
+    const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
+    add("model", !state.picture.model.empty() ? std::filesystem::path(state.picture.model).filename().string()
+                                              : !state.picture.shape.empty() ? state.picture.shape : "built-in");
+    add("triangles", state.model ? fmt::format("{}", trianglesDrawn(state.model->scene)) : "none");
+    add("size", fmt::format("{}x{}", state.size.x, state.size.y));
+    add("view", state.show);
+    for (const bool second : {false, true}) {
+        const Side& side = sideOf(state, second);
+        add(second ? "second" : "first",
+            fmt::format("{} {} {} {}", side.frame, side.tangents,
+                        side.normalMap.empty() ? "-" : std::filesystem::path(side.normalMap).filename().string(),
+                        side.convention.empty() ? "-" : side.convention));
+    }
+    add("compare", compareName(state.compare) + (state.second ? " second" : ""));
+    add("divider", fmt::format("{:.3f}", state.divider));
+    add("camera moved", state.cameraMoved ? "yes" : "no");
+    add("eye", textOf(state.camera.eye));
+    add("pivot", textOf(state.camera.target));
+    add("lens", state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
+                                          : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
+    for (const Setting& setting : settings())
+        add(setting.name, valueOf(setting, state.picture));
+    add("metered", fmt::format("{:.4f}", state.metered));
+    add("light pinned", state.lightPinned ? "yes" : "no");
+    add("interface", state.interfaceShown ? "shown" : "hidden");
+    add("cheat sheet", state.cheatSheet ? "shown" : "hidden");
+    add("look", state.dark ? "dark" : "light");
+    add("degrees", state.statisticsOf.empty() ? "none" : state.statisticsOf + ": " + toText(state.statistics));
+    if (const auto& hit = state.probe.hit) {
+        const Probed& p = state.probe.surface;
+        add("under the pointer", fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
+        add("uv", fmt::format("{:.4f} {:.4f} texel {} {}", p.uv.x, p.uv.y, p.texel.x, p.texel.y));
+        add("t", textOf(p.t));
+        add("b", textOf(p.b));
+        add("n", textOf(p.normal));
+        add("w", fmt::format("{:+d}", p.w));
+        add("stored tangent", p.storedTangent == glm::vec3(0) ? "none" : textOf(p.storedTangent));
+        add("degrees there", state.probe.degrees < 0 ? "none" : fmt::format("{:.2f}", state.probe.degrees));
+    }
+    if (state.hotSpots) {
+        add("hot spots", fmt::format("{}", state.hotSpots->size()));
+        for (const HotSpot& spot : *state.hotSpots)
+            add("hot spot", spot.text);
+    }
+    add("loads", fmt::format("{} failed {}", state.loads, state.failedLoads));
+    add("problem", state.problem.empty() ? "none" : state.problem);
+    return text;
+}
+
+} // namespace cotan::viewer

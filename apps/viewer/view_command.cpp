@@ -1,0 +1,112 @@
+#include "view_command.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "files.hpp"
+#include "parse.hpp"
+#include "picture.hpp"
+#include "session.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct ViewCommandOptions : CommonOptions {
+    PictureOptions picture;
+    std::string frame = "cotangent";
+    std::string second;
+    std::vector<std::string> commands;
+    std::string play, record;
+    bool forget = false, validate = false;
+};
+
+Result<std::vector<viewer::Event>> readEvents(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream)
+        return inputError(file + ": cannot be read");
+    return viewer::eventsOf(text.str(), file);
+}
+
+Status run(const ViewCommandOptions& o)
+{
+    viewer::State state;
+    state.picture = o.picture;
+    const auto size = parseSize(o.picture.size);
+    if (!size)
+        return size.error();
+    state.size = {size->first, size->second};
+    state.a = {o.frame, o.picture.tangents, o.picture.maps.normal,
+               o.picture.maps.convention == OwnMaps().convention ? "" : o.picture.maps.convention};
+    state.b = state.a;
+    state.b.frame = o.second.empty() ? "mikktspace" : o.second;
+    state.show = o.picture.show;
+    for (const auto& frame : {state.a.frame, state.b.frame})
+        if (const auto known = parseFrame(frame); !known)
+            return known.error();
+    viewer::SessionOptions session;
+    session.common = o;
+    session.validation = o.validate;
+    if (!o.play.empty()) {
+        auto events = readEvents(o.play);
+        if (!events)
+            return events.error();
+        session.played = std::move(*events);
+        session.plays = true;
+    } else if (!o.forget) {
+        session.memory = viewer::memoryFile();
+        std::ostringstream text;
+        text << std::ifstream(session.memory, std::ios::binary).rdbuf();
+        viewer::remember(text.str(), state);
+    }
+    if (viewer::isPicture(state.picture.model)) { // a map alone, or a light
+        const std::string file = std::exchange(state.picture.model, {});
+        if (state.picture.shape.empty())
+            state.picture.shape = "plane";
+        if (Status done = viewer::perform(state, "drop " + file); !done)
+            return done;
+        state.b.normalMap = state.a.normalMap;
+    }
+    if (!o.second.empty())
+        state.compare = viewer::Compare::divider;
+    for (const std::string& command : o.commands)
+        if (Status done = viewer::perform(state, command); !done)
+            return done;
+    session.record = o.record;
+    return viewer::runSession(std::move(state), session);
+}
+
+void declare(Arguments& a, ViewCommandOptions& o)
+{
+    addPictureOptions(a, o.picture);
+    a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
+    a.option("--second", o.second, "another frame, beside the first").in("NAME");
+    addShowOption(a, o.picture.show);
+    a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
+        .in("TEXT");
+    a.option("--record", o.record, "write what happens in the window to a file").in("FILE");
+    a.option("--play", o.play, "do what such a file says, as fast as it can be done, and end").in("FILE");
+    a.flag("--forget", o.forget, "neither read nor keep the window's state of the last time");
+    a.flag("--validate", o.validate, "end with an error where Vulkan's validation layer has something to say");
+}
+
+} // namespace
+
+void addViewCommand(Arguments& tool)
+{
+    addCommand<ViewCommandOptions>(
+        tool,
+        {"view",
+         "look at a model or a map in a window",
+         "",
+         {"cotan view model.glb", "cotan view statue_low.obj --normal-map rocks.png --second mikktspace"}},
+        declare, run);
+}
+
+} // namespace cotan::app

@@ -1,0 +1,21 @@
+# What the window needs: GLFW, Dear ImGui with its backends as Debian builds it (a static library), the Vulkan loader.
+# All three as one target, Cotan::Window.
+find_package(glfw3 QUIET)
+find_package(Vulkan QUIET)
+find_path(CotanWindow_IMGUI_INCLUDE_DIR backends/imgui_impl_vulkan.h PATH_SUFFIXES imgui)
+find_library(CotanWindow_IMGUI_LIBRARY imgui)
+find_library(CotanWindow_STB_LIBRARY stb)
+mark_as_advanced(CotanWindow_IMGUI_INCLUDE_DIR CotanWindow_IMGUI_LIBRARY CotanWindow_STB_LIBRARY)
+set(CotanWindow_PARTS FALSE)
+if(TARGET glfw AND TARGET Vulkan::Vulkan)
+  set(CotanWindow_PARTS TRUE)
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CotanWindow
+  REQUIRED_VARS CotanWindow_IMGUI_LIBRARY CotanWindow_IMGUI_INCLUDE_DIR CotanWindow_STB_LIBRARY CotanWindow_PARTS)
+if(CotanWindow_FOUND AND NOT TARGET Cotan::Window)
+  add_library(Cotan::Window INTERFACE IMPORTED)
+  set_target_properties(Cotan::Window PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${CotanWindow_IMGUI_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES "${CotanWindow_IMGUI_LIBRARY};${CotanWindow_STB_LIBRARY};glfw;Vulkan::Vulkan")
+endif()

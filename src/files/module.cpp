@@ -1,0 +1,54 @@
+#include "cotan/files/module.hpp"
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> foldersOf(const ModulePlaces& places)
+{
+    std::vector<fs::path> folders;
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!error)
+        folders.push_back(program.parent_path().parent_path() / places.subfolder);
+    folders.emplace_back(places.installed);
+    folders.emplace_back(places.built);
+    return folders;
+}
+
+} // namespace
+
+Result<const void*> loadModule(const ModulePlaces& places, const char* entry,
+                               const std::function<bool(const void*)>& fits, const char* what)
+{
+    std::string problem = "not found";
+    for (const fs::path& folder : foldersOf(places)) {
+        const fs::path file = folder / places.name;
+        std::error_code error;
+        if (!fs::exists(file, error))
+            continue;
+        void* module = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+        if (!module) {
+            problem = ::dlerror();
+            continue;
+        }
+        const auto enter = reinterpret_cast<const void* (*)()>(::dlsym(module, entry));
+        const void* offered = enter ? enter() : nullptr;
+        if (offered && fits(offered))
+            return offered;
+        problem = fmt::format("{} is not of this version", file.string());
+    }
+    return unavailableError(fmt::format("{} needs the module {}: {}", what, places.name, problem));
+}
+
+} // namespace cotan

@@ -1,0 +1,195 @@
+#include "cotan/inspect/edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/scene/texture_uv.hpp"
+
+namespace cotan {
+
+namespace {
+
+using glm::dvec3;
+
+struct Key {
+    std::array<float, 6> p; // both ends, the smaller first
+    friend bool operator==(const Key& a, const Key& b) { return std::memcmp(a.p.data(), b.p.data(), sizeof a.p) == 0; }
+};
+
+struct KeyHash {
+    std::size_t operator()(const Key& key) const
+    {
+        std::uint64_t h = 1469598103934665603u; // FNV-1a by words
+        for (const float value : key.p) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &value, sizeof bits);
+            h = (h ^ bits) * 1099511628211u;
+        }
+        return std::size_t(h ^ (h >> 29));
+    }
+};
+
+struct Half {
+    glm::vec2 uvA{0}, uvB{0};
+    bool positive = true; // the triangle's area in uv
+    std::size_t edge = 0;
+    int triangles = 0;
+};
+
+bool before(const glm::vec3& a, const glm::vec3& b)
+{
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::vector<SurfaceEdge>& edges)
+{
+    const std::vector<glm::vec2> uv = textureUv(map, mesh);
+    std::unordered_map<Key, Half, KeyHash> known;
+    known.reserve(mesh.indices.size() / 2);
+    const auto placed = [&](std::size_t v) { return glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)); };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* v = &mesh.indices[i];
+        const auto uvOf = [&](std::size_t k) { return uv.empty() ? glm::vec2(0) : uv[v[k]]; };
+        const glm::vec2 e1 = uvOf(1) - uvOf(0), e2 = uvOf(2) - uvOf(0);
+        const bool positive = e1.x * e2.y - e1.y * e2.x >= 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::size_t a = k, b = (k + 1) % 3;
+            if (before(mesh.positions[v[b]], mesh.positions[v[a]]))
+                std::swap(a, b);
+            const glm::vec3 p = mesh.positions[v[a]] + 0.0f, q = mesh.positions[v[b]] + 0.0f; // no negative zeros
+            if (p == q)
+                continue;
+            const auto [found, fresh] = known.try_emplace(Key{{p.x, p.y, p.z, q.x, q.y, q.z}});
+            Half& half = found->second;
+            if (fresh) {
+                half = {uvOf(a), uvOf(b), positive, edges.size(), 0};
+                edges.push_back({placed(v[a]), placed(v[b]), EdgeKind::border});
+            } else if (half.triangles == 1) {
+                const bool goesOn = half.uvA == uvOf(a) && half.uvB == uvOf(b) && half.positive == positive;
+                edges[half.edge].kind = goesOn ? EdgeKind::inner
+                    : half.positive != positive ? EdgeKind::mirroredSeam
+                                                : EdgeKind::seam;
+            }
+            ++half.triangles;
+        }
+    }
+}
+
+struct Eye {
+    dvec3 at, right, up, forward;
+    double scale; // pixels per unit, at depth 1 or orthographic
+    bool orthographic;
+    double width, height;
+};
+
+Eye eyeOf(const Camera& camera, int width, int height)
+{
+    Eye e;
+    e.at = camera.eye;
+    e.forward = glm::normalize(dvec3(camera.target) - e.at);
+    e.right = glm::normalize(glm::cross(e.forward, dvec3(camera.up)));
+    e.up = glm::cross(e.right, e.forward);
+    e.orthographic = camera.orthographic;
+    e.scale = height
+        / (camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2));
+    e.width = width;
+    e.height = height;
+    return e;
+}
+
+// In pixels; z: 1 over the depth, or the depth of an orthographic camera: what is even along a line of the picture.
+dvec3 seenBy(const Eye& e, const dvec3& v)
+{
+    const double scale = e.orthographic ? e.scale : e.scale / v.z;
+    return {e.width / 2 + v.x * scale, e.height / 2 - v.y * scale, e.orthographic ? v.z : 1 / v.z};
+}
+
+void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdge& edge, const std::array<int, 3>& color,
+              double strength)
+{
+    constexpr double kNear = 1e-6, kSlack = 1.003;
+    const auto inEye = [&](const glm::vec3& p) {
+        const dvec3 d = dvec3(p) - e.at;
+        return dvec3(glm::dot(d, e.right), glm::dot(d, e.up), glm::dot(d, e.forward));
+    };
+    dvec3 a = inEye(edge.a), b = inEye(edge.b);
+    if (!e.orthographic) {
+        if (a.z < kNear && b.z < kNear)
+            return;
+        if (a.z < kNear)
+            a += (b - a) * ((kNear - a.z) / (b.z - a.z));
+        if (b.z < kNear)
+            b += (a - b) * ((kNear - b.z) / (a.z - b.z));
+    }
+    const dvec3 from = seenBy(e, a), to = seenBy(e, b);
+    // Only the part in the picture is walked along.
+    double start = 0, end = 1;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double size = axis == 0 ? e.width : e.height, d = to[axis] - from[axis];
+        const double t0 = (0 - from[axis]) / d, t1 = (size - from[axis]) / d;
+        if (d == 0 && (from[axis] < 0 || from[axis] >= size))
+            return;
+        if (d != 0) {
+            start = std::max(start, std::min(t0, t1));
+            end = std::min(end, std::max(t0, t1));
+        }
+    }
+    if (!(start <= end))
+        return;
+    const double length = std::max(std::abs(to.x - from.x), std::abs(to.y - from.y)) * (end - start);
+    const int steps = int(std::min(length, 4.0 * (e.width + e.height))) + 1;
+    for (int i = 0; i <= steps; ++i) {
+        const dvec3 at = from + (to - from) * (start + (end - start) * i / steps);
+        const int x = int(std::floor(at.x)), y = int(std::floor(at.y));
+        if (x < 0 || y < 0 || x >= picture.width || y >= picture.height)
+            continue;
+        double behind = 0; // the farthest of the neighbours: an edge is where depths break
+        for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+            const int nx = std::clamp(x + dx, 0, picture.width - 1), ny = std::clamp(y + dy, 0, picture.height - 1);
+            const float* d = depth.floats() + 4 * (std::size_t(ny) * std::size_t(depth.width) + std::size_t(nx));
+            behind = std::max(behind, d[3] > 0 ? double(d[0]) : 1e30);
+        }
+        const double z = e.orthographic ? at.z : 1 / at.z;
+        if (z > behind * kSlack)
+            continue;
+        std::uint8_t* p = picture.bytes8() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+        for (std::size_t c = 0; c < 3; ++c)
+            p[c] = std::uint8_t(std::lround(p[c] + (color[c] - p[c]) * strength));
+        p[3] = 255;
+    }
+}
+
+} // namespace
+
+std::vector<SurfaceEdge> surfaceEdges(const Scene& scene)
+{
+    std::vector<SurfaceEdge> edges;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        addEdgesOf(mesh, scene.materials[std::size_t(mesh.material)].normalMap, instance.toWorld, edges);
+    }
+    return edges;
+}
+
+void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::span<const SurfaceEdge> edges,
+               EdgesShown shown)
+{
+    if (picture.width != depth.width || picture.height != depth.height || !hasPixels(picture) || !hasPixels(depth))
+        return;
+    const Eye eye = eyeOf(camera, picture.width, picture.height);
+    if (shown.triangles)
+        for (const SurfaceEdge& edge : edges)
+            drawEdge(picture, depth, eye, edge, {20, 20, 24}, 0.6);
+    constexpr std::array<std::array<int, 3>, 4> kColors = {{{0, 0, 0}, {255, 215, 40}, {255, 60, 220}, {60, 220, 255}}};
+    if (shown.seams)
+        for (const SurfaceEdge& edge : edges)
+            if (edge.kind != EdgeKind::inner)
+                drawEdge(picture, depth, eye, edge, kColors[std::size_t(edge.kind)], 1);
+}
+
+} // namespace cotan

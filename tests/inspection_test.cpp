@@ -1,0 +1,261 @@
+// A model in telling colours, and what is at one of its points.
+#include <gtest/gtest.h>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "cotan/draw/draw.hpp"
+#include "cotan/inspect/edges.hpp"
+#include "cotan/inspect/hot_spots.hpp"
+#include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect/probe.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+// A unit square facing +z, as wide as high on the picture, and the camera that fills the picture with it.
+Scene square(float stretch, float shear, bool mirrored)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(makePatch(stretch, shear, mirrored, 1));
+    scene.instances.push_back({"square", 0, glm::mat4(1)});
+    return scene;
+}
+
+View straightOn()
+{
+    View view;
+    view.width = view.height = 16;
+    view.camera.eye = {0, 0, 5};
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 0.9f;
+    return view;
+}
+
+glm::ivec3 middleOf(const Scene& scene, Inspection inspection, View view = straightOn())
+{
+    const auto image = drawView(inspected(scene, inspection), inspectionView(view), "reference");
+    if (!image) {
+        ADD_FAILURE() << image.error().message;
+        return {};
+    }
+    const std::uint8_t* p = image->bytes8() + 4 * (8 * 16 + 7);
+    EXPECT_EQ(p[3], 255);
+    return {p[0], p[1], p[2]};
+}
+
+// Within the rounding of one code from sRGB to linear and back.
+void expectColor(glm::ivec3 found, glm::ivec3 expected)
+{
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(found[i], expected[i], 1) << i << " of " << found.x << ' ' << found.y << ' ' << found.z;
+}
+
+TEST(Inspection, everyNameIsKnownAndNoOther)
+{
+    for (std::size_t i = 0; i < inspectionNames().size(); ++i)
+        EXPECT_EQ(inspectionFromName(inspectionNames()[i]), Inspection(i));
+    EXPECT_EQ(inspectionNames().back(), "emissive");
+    EXPECT_FALSE(inspectionFromName("shaded"));
+}
+
+// The colours of the scale: green stands for a stretch of 1.4 and for 2 degrees, white for the end.
+TEST(Inspection, stretchAndShearHaveTheColoursOfTheirScale)
+{
+    expectColor(middleOf(square(1, 0, false), Inspection::stretch), {0, 0, 0});
+    expectColor(middleOf(square(1.4f, 0, false), Inspection::stretch), {30, 180, 80});
+    expectColor(middleOf(square(20, 0, false), Inspection::stretch), {255, 255, 255});
+    expectColor(middleOf(square(1, 0, false), Inspection::shear), {0, 0, 0});
+    expectColor(middleOf(square(1, 1, false), Inspection::shear), {255, 255, 255}); // 45 degrees
+}
+
+TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
+{
+    const glm::ivec3 plain = middleOf(square(1, 0, false), Inspection::mirrored),
+                     mirrored = middleOf(square(1, 0, true), Inspection::mirrored);
+    EXPECT_GT(plain.z, plain.x); // blue
+    EXPECT_GT(mirrored.x, mirrored.z); // orange
+    Scene scene = square(1, 0, false);
+    const glm::ivec3 none = middleOf(scene, Inspection::w);
+    EXPECT_EQ(none.x, none.z);
+    scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, -1});
+    EXPECT_EQ(middleOf(scene, Inspection::w), mirrored);
+}
+
+TEST(Inspection, theInsideOfASurfaceIsSeenInAnotherColour)
+{
+    const Scene scene = square(1, 0, false);
+    const glm::ivec3 front = middleOf(scene, Inspection::facing);
+    View behind = straightOn();
+    behind.camera.eye = {0, 0, -5};
+    const glm::ivec3 back = middleOf(scene, Inspection::facing, behind);
+    EXPECT_GT(front.z, front.x);
+    EXPECT_GT(back.x, back.z);
+}
+
+TEST(Inspection, aMapIsShownWithItsCodesAsTheyAre)
+{
+    Scene scene = square(1, 0, false);
+    Image image = makeImage(1, 1, PixelType::unorm8);
+    const std::uint8_t codes[] = {40, 90, 200, 120};
+    std::copy_n(codes, 4, image.bytes8());
+    scene.images.push_back(image);
+    scene.materials[0].normalMap.image = 0;
+    scene.materials[0].metallicRoughnessMap.image = 0;
+    scene.materials[0].roughness = 1;
+    expectColor(middleOf(scene, Inspection::normalMap), {40, 90, 200});
+    expectColor(middleOf(scene, Inspection::normalMapGreen), {90, 90, 90});
+    expectColor(middleOf(scene, Inspection::roughness), {90, 90, 90});
+    expectColor(middleOf(scene, Inspection::metallic), {200, 200, 200});
+    expectColor(middleOf(scene, Inspection::baseColor), {255, 255, 255});
+    scene.materials[0].normalMap.image = -1;
+    expectColor(middleOf(scene, Inspection::normalMap), {128, 128, 255});
+}
+
+TEST(Inspection, densityIsToldAgainstTheMedian)
+{
+    Scene scene = square(1, 0, false);
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes.push_back(scene.meshes[0]);
+    for (glm::vec2& uv : scene.meshes[0].texcoords[0])
+        uv *= 4.0f; // of three alike, with 4, 1 and 1 times the texels
+    for (int i = 1; i < 3; ++i)
+        scene.instances.push_back({"away", i, glm::translate(glm::mat4(1), glm::vec3(5 * i, 0, 0))});
+    expectColor(middleOf(scene, Inspection::density), {220, 30, 20});
+}
+
+TEST(Probe, theFrameAtAPointIsThatOfTheGradients)
+{
+    const Scene scene = square(2, 0, false); // u runs half as fast as v
+    const auto hit = pick(scene, straightOn().camera, {16, 16}, {8, 8});
+    ASSERT_TRUE(hit);
+    Prober prober;
+    const Probed p = prober.at(scene, 1, *hit, Frame::orthonormal, TangentOrigin::stored);
+    EXPECT_LT(glm::length(p.normal - glm::vec3(0, 0, 1)), 1e-6f);
+    EXPECT_LT(glm::length(glm::normalize(p.t) - glm::vec3(1, 0, 0)), 1e-6f);
+    EXPECT_LT(glm::length(glm::normalize(p.b) - glm::vec3(0, -1, 0)), 1e-6f); // v runs down
+    EXPECT_EQ(p.w, 1);
+    EXPECT_EQ(p.storedTangent, glm::vec3(0));
+    EXPECT_TRUE(p.hasUv);
+    EXPECT_EQ(p.texel, glm::ivec2(-1)); // there is no map
+    const Scene mirrored = square(2, 0, true);
+    EXPECT_EQ(prober.at(mirrored, 2, *hit, Frame::orthonormal, TangentOrigin::stored).w, -1);
+}
+
+TEST(Probe, theTexelIsInsideTheMapWhereverUvAre)
+{
+    Scene scene = square(1, 0, false);
+    scene.images.push_back(makeImage(8, 4, PixelType::unorm8));
+    scene.materials[0].normalMap.image = 0;
+    for (glm::vec2& uv : scene.meshes[0].texcoords[0])
+        uv = uv + glm::vec2(-3, 5);
+    const auto hit = pick(scene, straightOn().camera, {16, 16}, {8.5f, 4.5f}); // right of the middle, a quarter down
+    ASSERT_TRUE(hit);
+    const Probed p = Prober().at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
+    EXPECT_EQ(p.texel, glm::ivec2(4, 1));
+}
+
+TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
+{
+    Scene scene = square(1, 0, false);
+    scene.meshes.push_back(makePatch(3, 0, false, 1));
+    scene.instances.push_back({"stretched", 1, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
+    const std::vector<HotSpot> spots = hotSpots(scene);
+    ASSERT_EQ(spots.size(), 1u);
+    EXPECT_NE(spots[0].text.find("stretch 3 : 1, 100 %"), std::string::npos) << spots[0].text;
+    EXPECT_NEAR(spots[0].camera.target.x, 10, 0.5f);
+    EXPECT_GT(spots[0].camera.eye.z, 0.1f);
+    const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->mesh, 1);
+}
+
+TEST(HotSpots, aStoredTangentOnTheWrongSideIsFound)
+{
+    Scene scene = square(1, 0, false);
+    scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, 1});
+    EXPECT_TRUE(hotSpots(scene).empty());
+    for (glm::vec4& tangent : scene.meshes[0].tangents)
+        tangent.w = -1;
+    ASSERT_EQ(hotSpots(scene).size(), 1u);
+    EXPECT_NE(hotSpots(scene)[0].text.find("wrong side"), std::string::npos);
+}
+
+} // namespace
+} // namespace cotan
+
+namespace cotan {
+namespace {
+
+// Two triangles that share an edge, with corners of their own; uv of the second are moved, or mirrored at the edge.
+Scene twoTriangles(float moved, bool mirrored)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+    mesh.normals.assign(6, {0, 0, 1});
+    for (const glm::vec3& p : mesh.positions)
+        mesh.texcoords[0].push_back({p.x, 1 - p.y});
+    for (std::size_t i = 3; i < 6; ++i)
+        mesh.texcoords[0][i].x += moved;
+    if (mirrored)
+        mesh.texcoords[0][5] = {0, 1};
+    mesh.indices = {0, 1, 2, 3, 4, 5};
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({"two", 0, glm::mat4(1)});
+    return scene;
+}
+
+EdgeKind sharedEdgeOf(const Scene& scene)
+{
+    const std::vector<SurfaceEdge> edges = surfaceEdges(scene);
+    EXPECT_EQ(edges.size(), 5u);
+    int borders = 0;
+    EdgeKind found = EdgeKind::border;
+    for (const SurfaceEdge& edge : edges) {
+        borders += edge.kind == EdgeKind::border;
+        if (edge.kind != EdgeKind::border)
+            found = edge.kind;
+    }
+    EXPECT_EQ(borders, 4);
+    return found;
+}
+
+TEST(Edges, tellWhereUvGoOnBreakAndAreMirrored)
+{
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0, false)), EdgeKind::inner);
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0.25f, false)), EdgeKind::seam);
+    EXPECT_EQ(sharedEdgeOf(twoTriangles(0, true)), EdgeKind::mirroredSeam);
+}
+
+TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
+{
+    Scene scene = twoTriangles(0, false);
+    View view;
+    view.width = view.height = 64;
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 1.28f; // 50 pixels are a unit
+    view.camera.eye = {0.5f, 0.5f, 5};
+    view.camera.target = {0.5f, 0.5f, 0};
+    const auto seen = [&] {
+        View depths = view;
+        depths.output = Output::depth;
+        const auto depth = drawView(scene, depths, "reference");
+        Image picture = makeImage(64, 64, PixelType::unorm8);
+        drawEdges(picture, *depth, view.camera, surfaceEdges(twoTriangles(0, false)), {false, true});
+        int cyan = 0;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+            cyan += picture.bytes8()[4 * i + 2] == 255;
+        return cyan;
+    };
+    EXPECT_NEAR(seen(), 200, 8); // four sides of 50 pixels
+    scene.meshes.push_back(scene.meshes[0]); // the same, before it and larger
+    scene.instances.push_back({"before", 1, glm::scale(glm::translate(glm::mat4(1), {-1, -1, 1}), {8, 8, 1})});
+    EXPECT_LE(seen(), 4);
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,379 @@
+// Events, commands, settings and files of the viewer, without a window.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "camera.hpp"
+#include "commands.hpp"
+#include "cotan/scene/bounds.hpp"
+#include "event.hpp"
+#include "files.hpp"
+#include "input.hpp"
+#include "run_tool.hpp"
+#include "session.hpp"
+#include "settings.hpp"
+
+namespace cotan::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+State withModel()
+{
+    State state;
+    auto model = std::make_shared<Model>();
+    auto scene = app::openModel(state.picture, {});
+    model->scene = std::move(*scene);
+    model->box = bounds(model->scene);
+    model->number = 1;
+    state.model = std::move(model);
+    resetCamera(state);
+    return state;
+}
+
+void send(State& state, const std::string& text)
+{
+    const auto events = eventsOf(text, "text");
+    ASSERT_TRUE(events) << events.error().message;
+    for (const Event& event : *events)
+        apply(state, event);
+}
+
+// All that a switch can change.
+std::string keyLike(const State& s)
+{
+    return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown);
+}
+
+// ---- events ----------------------------------------------------------------------------------
+
+TEST(ViewerEvents, everyKindComesBackFromItsText)
+{
+    const std::vector<Event> all = {{0, EventKind::move, 1.5f, -2, ""},
+                                    {0.25, EventKind::press, 0, 0, "shift+left"},
+                                    {0.25, EventKind::release, 0, 0, "left"},
+                                    {1, EventKind::scroll, 0, -1, ""},
+                                    {1, EventKind::key, 0, 0, "ctrl+shift+c"},
+                                    {1, EventKind::keyUp, 0, 0, "c"},
+                                    {1, EventKind::text, 0, 0, "\xc3\xa4 b"},
+                                    {2, EventKind::drop, 0, 0, "/a folder/b.glb"},
+                                    {2, EventKind::resize, 640, 480, ""},
+                                    {2, EventKind::command, 0, 0, "set exposure 2"},
+                                    {2, EventKind::wait, 0, 0, ""},
+                                    {3, EventKind::close, 0, 0, ""}};
+    std::string text = "# a comment\n\n";
+    for (const Event& event : all)
+        text += toText(event) + "\n";
+    const auto back = eventsOf(text, "file");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(*back, all);
+}
+
+TEST(ViewerEvents, aWrongLineIsNamedWithItsNumber)
+{
+    for (const char* line : {"0 mvoe 1 2", "0 move 1", "0 move 1 x", "0 press", "-1 wait", "nan wait", "0 wait 3",
+                             "0 move 1 2 3"}) {
+        const auto events = eventsOf(std::string("0 wait\n") + line + "\n", "session.txt");
+        ASSERT_FALSE(events) << line;
+        EXPECT_EQ(events.error().kind, ErrorKind::input);
+        EXPECT_NE(events.error().message.find("session.txt: line 2: "), std::string::npos) << events.error().message;
+    }
+}
+
+TEST(ViewerEvents, aLineWithoutATimeHappensAtThatBefore)
+{
+    const auto events = eventsOf("0.5 wait\nkey h\n", "x");
+    ASSERT_TRUE(events);
+    EXPECT_EQ((*events)[1].seconds, 0.5);
+}
+
+TEST(ViewerEvents, whatIsHeldIsTold)
+{
+    const Event event{0, EventKind::key, 0, 0, "ctrl+shift++"};
+    EXPECT_TRUE(holds(event, "ctrl"));
+    EXPECT_TRUE(holds(event, "shift"));
+    EXPECT_FALSE(holds(event, "alt"));
+    EXPECT_EQ(bareWord(event), "+");
+    EXPECT_EQ(bareWord({0, EventKind::key, 0, 0, "+"}), "+");
+    EXPECT_EQ(bareWord({0, EventKind::key, 0, 0, "f12"}), "f12");
+}
+
+// ---- pointer and keys --------------------------------------------------------------------------
+
+TEST(ViewerInput, draggingTurnsAndReleasingEndsIt)
+{
+    State state = withModel();
+    const Camera before = state.camera;
+    send(state, "0 move 100 100\npress left\nmove 150 100\n");
+    EXPECT_TRUE(state.moving);
+    EXPECT_TRUE(state.cameraMoved);
+    EXPECT_NE(state.camera.eye, before.eye);
+    EXPECT_EQ(state.camera.target, before.target);
+    send(state, "0 release left\nmove 300 300\n");
+    EXPECT_FALSE(state.moving);
+    const Camera after = state.camera;
+    send(state, "0 move 10 10\n");
+    EXPECT_EQ(state.camera.eye, after.eye);
+}
+
+TEST(ViewerInput, aClickSetsThePivotAndASmallTremorIsAClick)
+{
+    State state = withModel();
+    const glm::vec3 eye = state.camera.eye, pivot = state.camera.target;
+    send(state, "0 move 640 500\npress left\nmove 642 500\nrelease left\n");
+    EXPECT_EQ(state.camera.eye, eye);
+    EXPECT_NE(state.camera.target, pivot);
+    const glm::vec3 seen = onPicture(state.camera, state.camera.target, state.size);
+    EXPECT_NEAR(seen.x, 640, 1);
+}
+
+TEST(ViewerInput, theDividerIsDraggedFromWhereItIsAndNowhereElse)
+{
+    State state = withModel();
+    send(state, "0 do compare divider\nmove 643 200\npress left\nmove 900 200\nrelease left\n");
+    EXPECT_NEAR(state.divider, 900.0f / 1280, 1e-6f);
+    EXPECT_FALSE(state.cameraMoved);
+    send(state, "0 move 100 200\npress left\nmove 200 200\nrelease left\n");
+    EXPECT_NEAR(state.divider, 900.0f / 1280, 1e-6f);
+    EXPECT_TRUE(state.cameraMoved);
+    send(state, "0 move 900 200\npress left\nmove 5000 200\nrelease left\n");
+    EXPECT_EQ(state.divider, 1.0f);
+}
+
+TEST(ViewerInput, shiftAndDragTurnTheLightOnly)
+{
+    State state = withModel();
+    const Camera before = state.camera;
+    send(state, "0 move 100 100\npress shift+left\nmove 200 100\nrelease left\n");
+    EXPECT_NEAR(state.picture.environmentRotation, 35, 1e-3);
+    EXPECT_EQ(state.camera.eye, before.eye);
+}
+
+TEST(ViewerInput, aPinnedLightTurnsWithTheCamera)
+{
+    State state = withModel();
+    send(state, "0 do toggle pin-light\ndo orbit 30 0\n");
+    EXPECT_NEAR(state.picture.environmentRotation, 30, 1e-3);
+    send(state, "0 do toggle pin-light\ndo orbit 30 0\n");
+    EXPECT_NEAR(state.picture.environmentRotation, 30, 1e-3);
+}
+
+TEST(ViewerInput, flyingGoesOnWhileAKeyIsDown)
+{
+    State state = withModel();
+    const glm::vec3 eye = state.camera.eye, to = glm::normalize(state.camera.target - eye);
+    send(state, "0 move 10 10\npress right\nkey w\n");
+    goOn(state, 0.5);
+    const glm::vec3 went = state.camera.eye - eye;
+    EXPECT_GT(glm::dot(went, to), 0.99f * glm::length(went));
+    EXPECT_GT(glm::length(went), 0.0f);
+    send(state, "0 keyup w\n");
+    const glm::vec3 stands = state.camera.eye;
+    goOn(state, 0.5);
+    EXPECT_EQ(state.camera.eye, stands);
+}
+
+TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
+{
+    State state = withModel();
+    const std::string before = reportOf(state);
+    for (const char* line : {"frame none", "show heat", "set exposure -1", "set nothing 1", "compare all", "see behind",
+                             "camera 7", "toggle x", "size 0 0", "copy", "zoom", "orbit 1", "second x y", "nonsense",
+                             "set environment-rotation 1000", "picture a.png 0 0", "turn-light nan", "next", "play",
+                             "hot-spot 3", "convention green", "window", ""}) {
+        state.problem.clear();
+        send(state, std::string("0 do ") + (*line ? line : " ") + "\n");
+        if (*line) {
+            EXPECT_FALSE(state.problem.empty()) << line;
+        }
+        state.problem.clear();
+        state.said.clear();
+        EXPECT_EQ(reportOf(state), before) << line;
+        EXPECT_TRUE(state.wishes.empty()) << line;
+    }
+}
+
+// ---- menus and keys ----------------------------------------------------------------------------
+
+TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
+{
+    std::map<std::string, std::string> keys;
+    for (const Entry& entry : entriesOf(withModel())) {
+        if (entry.command.empty())
+            continue;
+        EXPECT_FALSE(entry.label.empty());
+        if (!entry.key.empty()) {
+            EXPECT_TRUE(keys.emplace(entry.key, entry.label).second)
+                << entry.key << ": " << keys[entry.key] << " and " << entry.label;
+        }
+        State state = withModel();
+        state.picture.animation = "0";
+        if (entry.usable) {
+            const Status done = perform(state, entry.command);
+            EXPECT_TRUE(done) << entry.command << ": " << done.error().message;
+        }
+    }
+    for (const char* key : {"1", "9", "h", "f12", "tab", "ctrl+c", "f5", "r", "o", "d", "f", "g"})
+        EXPECT_TRUE(keys.contains(key)) << key;
+}
+
+TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
+{
+    State state = withModel();
+    const auto lineOf = [&](const char* key) {
+        for (const auto& [name, what] : interfaceOf(state).sheet)
+            if (name == key)
+                return what;
+        return std::string();
+    };
+    const std::string before = lineOf("d");
+    EXPECT_EQ(before.find("on"), std::string::npos);
+    send(state, "0 key d\n");
+    EXPECT_NE(lineOf("d").find("on"), std::string::npos);
+    for (const Entry& entry : entriesOf(state)) {
+        const bool digit = !entry.key.empty() && entry.key.back() >= '1' && entry.key.back() <= '9'
+            && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f' && entry.key.find("+f") == std::string::npos;
+        if (!entry.key.empty() && !digit) {
+            EXPECT_FALSE(lineOf(entry.key.c_str()).empty()) << entry.key;
+        }
+    }
+    send(state, "0 key 4\n0 key shift+5\n");
+    EXPECT_EQ(lineOf("1 ... 9"), "Frame: smooth");
+    EXPECT_EQ(lineOf("shift+1 ... 9"), "Second: exact");
+}
+
+TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
+{
+    State state = withModel();
+    for (const char* key : {"d", "g", "o", "n", "tab", "h", "s", "i", "p", "a"}) {
+        State other = state;
+        send(other, std::string("0 key ") + key + "\n");
+        EXPECT_NE(keyLike(other), keyLike(state)) << key;
+        send(other, std::string("0 key ") + key + "\n");
+        other.cameraMoved = false; // the other projection and back is a motion
+        EXPECT_EQ(keyLike(other), keyLike(state)) << key;
+    }
+}
+
+// ---- the command line ---------------------------------------------------------------------------
+
+TEST(ViewerCommandLine, saysWhatDiffersFromTheUsualAndQuotesIt)
+{
+    State state = withModel();
+    EXPECT_EQ(commandLine(state, "a.png", {640, 360}), "cotan render -o a.png --size 640x360");
+    state.picture.model = "my model's.glb";
+    state.a.frame = "smooth";
+    state.show = "normal";
+    state.picture.environment = "evening";
+    state.picture.noShadows = true;
+    EXPECT_EQ(commandLine(state, "a b.png", {64, 36}),
+              "cotan render 'my model'\\''s.glb' -o 'a b.png' --size 64x36 --frame smooth --view normal "
+              "--environment evening --no-shadows");
+    state.compare = Compare::angle;
+    EXPECT_NE(commandLine(state, "d", {64, 36}).find("cotan compare"), std::string::npos);
+}
+
+// ---- settings -----------------------------------------------------------------------------------
+
+TEST(ViewerSettings, everyOneTakesItsOwnValueAndRefusesNonsense)
+{
+    app::PictureOptions options;
+    for (const Setting& setting : settings()) {
+        EXPECT_TRUE(setValue(setting, valueOf(setting, options), options)) << setting.name;
+        const bool anything = std::holds_alternative<std::string app::PictureOptions::*>(setting.field)
+            && setting.words.empty() && setting.high == 0;
+        if (!anything) {
+            EXPECT_FALSE(setValue(setting, "nonsense", options)) << setting.name;
+        }
+    }
+    EXPECT_TRUE(setValue(*findSetting("exposure"), "2.5", options));
+    EXPECT_EQ(options.exposure, "2.5");
+    EXPECT_FALSE(setValue(*findSetting("exposure"), "0", options));
+    EXPECT_TRUE(setValue(*findSetting("no-shadows"), "toggle", options));
+    EXPECT_TRUE(options.noShadows);
+}
+
+TEST(ViewerMemory, whatIsKeptComesBackUnlessTheCommandLineSaysOtherwise)
+{
+    State kept;
+    kept.dark = false;
+    kept.scale = 1.5f;
+    kept.size = {900, 500};
+    kept.picture.environment = "evening";
+    kept.picture.toneMapping = "agx";
+    kept.recent = {"/a/b c.glb", "/d.obj"};
+    State back;
+    back.picture.toneMapping = "aces"; // said on the command line
+    remember(memoryOf(kept), back);
+    EXPECT_FALSE(back.dark);
+    EXPECT_EQ(back.scale, 1.5f);
+    EXPECT_EQ(back.size, kept.size);
+    EXPECT_EQ(back.picture.environment, "evening");
+    EXPECT_EQ(back.picture.toneMapping, "aces");
+    EXPECT_EQ(back.recent, kept.recent);
+}
+
+TEST(ViewerMemory, aBrokenFileDoesNoHarm)
+{
+    const State before;
+    State state;
+    remember("size\nsize -1 9\nset\nset exposure 9\nset ground maybe\nscale x\nrecent\n\xff\xfe\ndark", state);
+    EXPECT_EQ(state.size, before.size);
+    EXPECT_EQ(state.picture.exposure, "auto");
+    EXPECT_EQ(state.picture.ground, "on");
+    EXPECT_TRUE(state.recent.empty());
+}
+
+// ---- files --------------------------------------------------------------------------------------
+
+TEST(ViewerFiles, pathsArePastedInEveryForm)
+{
+    EXPECT_EQ(pathOf("  /a/b.glb \n"), "/a/b.glb");
+    EXPECT_EQ(pathOf("'/a/b c.glb'"), "/a/b c.glb");
+    EXPECT_EQ(pathOf("file:///a/b%20c%C3%A4.glb\r\nfile:///other"), "/a/b c\xc3\xa4.glb");
+    EXPECT_EQ(pathOf("file://machine/a%2"), "/a%2");
+    EXPECT_EQ(pathOf("file:"), "file:");
+    EXPECT_EQ(pathOf(""), "");
+}
+
+TEST(ViewerFiles, neighboursAreTheModelsOfTheFolderInTheirOrder)
+{
+    test::TemporaryFolder folder;
+    for (const char* name : {"b.glb", "a.obj", "c.PLY", "map.png", "notes.txt"})
+        std::ofstream(folder / name) << "x";
+    const auto at = [&](const char* name) { return (folder / name).string(); };
+    EXPECT_EQ(neighbourOf(at("a.obj"), 1), at("b.glb"));
+    EXPECT_EQ(neighbourOf(at("c.PLY"), 1), at("a.obj"));
+    EXPECT_EQ(neighbourOf(at("a.obj"), -1), at("c.PLY"));
+    EXPECT_EQ(neighbourOf(at("gone.glb"), 1), at("a.obj"));
+    EXPECT_EQ(neighbourOf("", 1), "");
+    EXPECT_EQ(neighbourOf("/nowhere/a.glb", 1), "");
+}
+
+TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
+{
+    test::TemporaryFolder folder;
+    const fs::path file = folder / "a.glb";
+    std::ofstream(file) << "one";
+    Watch watch;
+    watch.on(file);
+    EXPECT_FALSE(watch.changed(0));
+    EXPECT_FALSE(watch.changed(1));
+    std::ofstream(file) << "longer";
+    EXPECT_FALSE(watch.changed(2)); // seen, and perhaps still being written
+    EXPECT_TRUE(watch.changed(3));
+    EXPECT_FALSE(watch.changed(4));
+    fs::remove(file);
+    EXPECT_FALSE(watch.changed(5));
+    EXPECT_FALSE(watch.changed(6));
+    std::ofstream(file) << "back again";
+    EXPECT_FALSE(watch.changed(7));
+    EXPECT_TRUE(watch.changed(8));
+}
+
+} // namespace
+} // namespace cotan::viewer
