@@ -5,11 +5,11 @@
 
 #include "common.hpp"
 #include "cotan/draw/camera_words.hpp"
+#include "cotan/picture/light.hpp"
 #include "cotan/report/words.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
-#include "picture_light.hpp"
 
 namespace cotan::app {
 namespace {

@@ -7,7 +7,7 @@
 #include "cotan/terminal/command_words.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
-#include "own_maps.hpp"
+#include "picture.hpp"
 
 namespace cotan::app {
 

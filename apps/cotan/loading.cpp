@@ -1,6 +1,5 @@
 #include "loading.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <string_view>
 
@@ -22,16 +21,6 @@ void addTangentsOption(Arguments& command, std::string& tangents, const std::str
 void addDeviceOption(Arguments& command, std::string& device, const std::string& use)
 {
     command.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
-}
-
-LoadLimits limitsFor(int memory, Pixels pixels)
-{
-    LoadLimits limits;
-    limits.imageBytes = std::size_t(memory) << 20;
-    limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
-    limits.imageSide = 1 << 20; // the memory limit decides
-    limits.pixels = pixels;
-    return limits;
 }
 
 Error inWords(const Error& error)

@@ -7,12 +7,10 @@
 #include "common.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/draw/painter.hpp"
-#include "cotan/files/limits.hpp"
+#include "cotan/picture/options.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan::app {
-
-inline constexpr int kDefaultMemory = 640; // MiB, of one picture
 
 // Adds --memory MIB.
 void addMemoryOption(Arguments& command, int& memory);
@@ -22,10 +20,6 @@ void addTangentsOption(Arguments& command, std::string& tangents, const std::str
 
 // Adds --device. use: what its help begins with.
 void addDeviceOption(Arguments& command, std::string& device, const std::string& use = "device that draws: ");
-
-// The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
-// than is usual.
-LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
 
 // An error of a part in words of the command line: "options.maxDistance: ..." is "--max-distance: ...", and --memory is
 // named where a limit of memory was met.

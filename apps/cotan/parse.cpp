@@ -3,20 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/parse_number.hpp"
-
 namespace cotan::app {
-
-Result<std::pair<int, int>> parseSize(const std::string& text)
-{
-    const std::size_t x = text.find('x');
-    int width = 0, height = 0;
-    if (x == std::string::npos || !parseNumber(std::string_view(text).substr(0, x), width)
-        || !parseNumber(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
-        || height > 16384)
-        return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
-    return std::pair(width, height);
-}
 
 Result<Frame> parseFrame(const std::string& text)
 {

@@ -12,9 +12,6 @@
 
 namespace cotan::app {
 
-// "WxH", each 1..16384.
-Result<std::pair<int, int>> parseSize(const std::string& text);
-
 // A frame's name; the error lists all of them.
 Result<Frame> parseFrame(const std::string& text);
 

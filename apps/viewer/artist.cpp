@@ -10,11 +10,11 @@
 
 #include "cotan/draw/exposure.hpp"
 #include "cotan/inspect/inspection.hpp"
+#include "cotan/picture/light.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/verify/frames.hpp"
 #include "parse.hpp"
-#include "picture_light.hpp"
 
 namespace cotan::viewer {
 
@@ -39,22 +39,22 @@ struct Stage {
 };
 
 // What of the options and the side the scene depends on.
-std::string sceneKey(const Model& model, const app::PictureOptions& o, Frame frame, const std::string& inspection)
+std::string sceneKey(const Model& model, const PictureOptions& o, Frame frame, const std::string& inspection)
 {
     const std::string vertices = readsVertices(frame) ? std::string(name(frame)) + "/" + o.tangents : "";
-    const app::OwnMaps& m = o.maps;
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor, m.metallicRoughness,
-                       m.occlusion, m.convention, m.material);
+    const OwnMaps& m = o.maps;
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor,
+                       m.metallicRoughness, m.occlusion, m.convention, m.material);
 }
 
-bool plain(const app::PictureOptions& o, Frame frame)
+bool plain(const PictureOptions& o, Frame frame)
 {
-    const app::OwnMaps none, &m = o.maps;
+    const OwnMaps none, &m = o.maps;
     return !readsVertices(frame) && m.normal.empty() && m.baseColor.empty() && m.metallicRoughness.empty()
         && m.occlusion.empty() && m.convention == none.convention;
 }
 
-std::string lightKey(const app::PictureOptions& o)
+std::string lightKey(const PictureOptions& o)
 {
     return fmt::format("{}|{}|{}", o.environment, o.environmentRotation, o.environmentIntensity);
 }
@@ -74,7 +74,7 @@ public:
     explicit Studio(app::CommonOptions common) : common_(std::move(common)) {}
 
     // What can be had before there is a model. What fails fails again, and is said, when it is needed.
-    void open(const app::PictureOptions& o)
+    void open(const PictureOptions& o)
     {
         if (auto painter = app::openDevice(deviceOf(o), common_))
             stages_[0].painter = std::move(*painter);
@@ -147,7 +147,7 @@ private:
             drawn.picture = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
             return Done{};
         }
-        auto image = app::drawShow(*(*first)->painter, *(*first)->scene, *view, order.show, floats);
+        auto image = drawShow(*(*first)->painter, *(*first)->scene, *view, order.show, floats);
         if (!image)
             return image.error();
         if (Status laid = layEdgesOn(order, **first, *view, order.first, *image); !laid)
@@ -163,7 +163,7 @@ private:
             return otherView.error();
         if (drawn.draft)
             *otherView = smaller(*otherView);
-        image = app::drawShow(*(*other)->painter, *(*other)->scene, *otherView, order.show, floats);
+        image = drawShow(*(*other)->painter, *(*other)->scene, *otherView, order.show, floats);
         if (!image)
             return image.error();
         if (Status laid = layEdgesOn(order, **other, *otherView, order.second, *image); !laid)
@@ -172,7 +172,7 @@ private:
         return Done{};
     }
 
-    Status layEdgesOn(const Order& order, Stage& s, const View& view, const app::PictureOptions& o, Image& picture)
+    Status layEdgesOn(const Order& order, Stage& s, const View& view, const PictureOptions& o, Image& picture)
     {
         if (o.edges == "none")
             return Done{};
@@ -184,7 +184,7 @@ private:
 
     // Between the normals of the first picture and those of the second, or those of the frame `exact`.
     Result<std::vector<float>> degreesOf(const Order& order, Stage& first, const View& view,
-                                         const app::PictureOptions& second, bool two)
+                                         const PictureOptions& second, bool two)
     {
         View normals = view;
         normals.output = Output::normal;
@@ -214,7 +214,7 @@ private:
     // normals: not in the colours that are shown, but as a surface.
     Result<Stage*> stage(std::size_t index, const Order& order, bool second, bool normals = false)
     {
-        const app::PictureOptions& o = second ? order.second : order.first;
+        const PictureOptions& o = second ? order.second : order.first;
         const Side& side = second ? order.b : order.a;
         const auto frame = app::parseFrame(side.frame);
         if (!frame)
@@ -252,14 +252,14 @@ private:
     // As `cotan render` makes it. exposure: for "auto"; 0: found by metering.
     Result<View> viewFor(const Order& order, Stage& s, bool second, float exposure)
     {
-        const app::PictureOptions& o = second ? order.second : order.first;
+        const PictureOptions& o = second ? order.second : order.first;
         auto view = viewOf(o, *s.scene);
         if (!view)
             return view;
         view->frame = *app::parseFrame((second ? order.b : order.a).frame);
-        view->output = app::outputOf(order.show);
+        view->output = outputOf(order.show);
         view->lights = lightsOf(o, *s.scene);
-        const bool dark = o.use == app::PictureUse::data; // nothing is lit then
+        const bool dark = o.use == PictureUse::data; // nothing is lit then
         if (!dark && (surroundings_.key != lightKey(o) || !surroundings_.value)) {
             auto opened = openSurroundings(o);
             if (!opened)
@@ -267,8 +267,8 @@ private:
             surroundings_ = {lightKey(o), *opened};
         }
         view->environmentMap = dark ? nullptr : *surroundings_.value;
-        const std::string under = fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows,
-                                              o.shadowSoftness);
+        const std::string under =
+            fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness);
         if (under != ground_.key || !ground_.value)
             ground_ = {under, groundOf(o, *s.scene, *view)};
         view->ground = *ground_.value;
@@ -294,12 +294,12 @@ private:
 } // namespace
 
 struct Artist::Work {
-    Work(app::CommonOptions common, app::PictureOptions first, std::function<void()> tell)
+    Work(app::CommonOptions common, PictureOptions first, std::function<void()> tell)
         : studio(std::move(common)), done(std::move(tell)), thread([this, first = std::move(first)] { run(first); })
     {
     }
 
-    void run(const app::PictureOptions& first)
+    void run(const PictureOptions& first)
     {
         guarded(
             [&] {
@@ -380,7 +380,7 @@ struct Artist::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Artist::Artist(app::CommonOptions common, app::PictureOptions first, std::function<void()> done)
+Artist::Artist(app::CommonOptions common, PictureOptions first, std::function<void()> done)
     : work_(std::make_unique<Work>(std::move(common), std::move(first), std::move(done)))
 {
 }

@@ -12,7 +12,7 @@ namespace cotan::viewer {
 // What is to be drawn: copied from the state.
 struct Order {
     std::uint64_t number = 0; // ascending
-    app::PictureOptions first, second;
+    PictureOptions first, second;
     Side a, b;
     std::string show = "shaded";
     Compare compare = Compare::off;
@@ -27,8 +27,8 @@ struct Drawn {
     std::uint64_t number = 0;
     std::shared_ptr<const Image> picture, other; // 8 bits; other: of a divider
     View view;                                   // that the first was drawn with
-    float exposure = 0; // that was found for "auto"; 0: it was not asked for
-    std::string device, problem; // a problem comes without a picture
+    float exposure = 0;                          // that was found for "auto"; 0: it was not asked for
+    std::string device, problem;                 // a problem comes without a picture
     double seconds = 0;
     bool draft = false;
     // Figures, which come later than the picture; degrees has an entry a pixel, or is empty.
@@ -45,7 +45,7 @@ class Artist {
 public:
     // first: what will be asked for; its device and surroundings are opened while the model is still being read.
     // done: called on the artist's thread where something new can be taken.
-    Artist(app::CommonOptions common, app::PictureOptions first, std::function<void()> done);
+    Artist(app::CommonOptions common, PictureOptions first, std::function<void()> done);
     ~Artist();
 
     // Draws this next; an order that waits is dropped.

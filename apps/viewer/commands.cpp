@@ -151,10 +151,14 @@ Status setCamera(State& state, const std::string& words)
 
 Status toggle(State& state, const std::string& name)
 {
-    const std::map<std::string, bool State::*> switches = {
-        {"interface", &State::interfaceShown}, {"help", &State::cheatSheet},  {"settings", &State::settingsShown},
-        {"hot-spots", &State::hotSpotsShown},  {"card", &State::cardShown},   {"statistics", &State::statisticsShown},
-        {"look", &State::dark},                {"pin-light", &State::lightPinned}};
+    const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
+                                                           {"help", &State::cheatSheet},
+                                                           {"settings", &State::settingsShown},
+                                                           {"hot-spots", &State::hotSpotsShown},
+                                                           {"card", &State::cardShown},
+                                                           {"statistics", &State::statisticsShown},
+                                                           {"look", &State::dark},
+                                                           {"pin-light", &State::lightPinned}};
     const auto known = switches.find(name);
     if (known != switches.end()) {
         state.*known->second = !(state.*known->second);
@@ -231,9 +235,15 @@ struct Motion {
 constexpr Motion kMotions[] = {
     {"orbit", 2, [](State& s, const Numbers& n) { orbit(s.camera, n[0] * kRadians, n[1] * kRadians); }},
     {"look", 2, [](State& s, const Numbers& n) { look(s.camera, n[0] * kRadians, n[1] * kRadians); }},
-    {"pan", 2, [](State& s, const Numbers& n) { pan(s.camera, {n[0], n[1]}, s.size); }},
+    {"pan", 2,
+     [](State& s, const Numbers& n) {
+         pan(s.camera, {n[0], n[1]}, s.size);
+     }},
     {"zoom", 1, [](State& s, const Numbers& n) { zoomTo(s.camera, n[0], glm::vec2(s.size) * 0.5f, s.size); }},
-    {"fly", 3, [](State& s, const Numbers& n) { fly(s.camera, {n[0], n[1], n[2]}); }},
+    {"fly", 3,
+     [](State& s, const Numbers& n) {
+         fly(s.camera, {n[0], n[1], n[2]});
+     }},
 };
 
 Status performSwitch(State& state, const std::string& command, Words& words)
@@ -323,8 +333,8 @@ Status perform(State& state, const std::string& line)
         return setSide(state.b, what, words.rest);
     }
     if (command == "show") {
-        if (std::ranges::find(app::showNames(), words.rest) == app::showNames().end())
-            return expected("show", fmt::format("one of {}", fmt::join(app::showNames(), ", ")), words.rest);
+        if (std::ranges::find(showNames(), words.rest) == showNames().end())
+            return expected("show", fmt::format("one of {}", fmt::join(showNames(), ", ")), words.rest);
         state.show = words.rest;
         return Done{};
     }

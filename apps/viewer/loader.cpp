@@ -11,11 +11,11 @@ namespace cotan::viewer {
 namespace {
 
 struct Task {
-    app::PictureOptions options;
+    PictureOptions options;
     std::shared_ptr<const Model> look; // for hot spots; null: read the options' model
 };
 
-Loaded readModel(const app::PictureOptions& options, const app::CommonOptions& common, std::uint64_t number)
+Loaded readModel(const PictureOptions& options, const app::CommonOptions& common, std::uint64_t number)
 {
     Loaded loaded;
     loaded.options = options;
@@ -106,7 +106,7 @@ Loader::~Loader()
     work_->thread.join();
 }
 
-void Loader::read(const app::PictureOptions& options)
+void Loader::read(const PictureOptions& options)
 {
     {
         const std::lock_guard lock(work_->mutex);

@@ -10,7 +10,7 @@
 namespace cotan::viewer {
 
 struct Loaded {
-    app::PictureOptions options;        // that it was read with
+    PictureOptions options;             // that it was read with
     std::shared_ptr<const Model> model; // null: problem says why
     std::optional<std::vector<HotSpot>> hotSpots;
     std::string problem;
@@ -24,7 +24,7 @@ public:
     ~Loader();
 
     // Reads this next; what waits is dropped, what is being read goes on and is forgotten.
-    void read(const app::PictureOptions& options);
+    void read(const PictureOptions& options);
     // Looks for hot spots of a model.
     void findHotSpots(std::shared_ptr<const Model> model);
     std::optional<Loaded> take();

@@ -43,7 +43,7 @@ std::string memoryOf(const State& state)
 
 void remember(const std::string& text, State& state)
 {
-    const app::PictureOptions usual;
+    const PictureOptions usual;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
@@ -76,8 +76,8 @@ std::filesystem::path memoryFile()
     const char* place = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
     std::filesystem::path folder = place && *place == '/' ? std::filesystem::path(place)
-        : home && *home                                  ? std::filesystem::path(home) / ".local" / "state"
-                                                         : std::filesystem::path();
+        : home && *home                                   ? std::filesystem::path(home) / ".local" / "state"
+                                                          : std::filesystem::path();
     return folder.empty() ? folder : folder / "cotan" / "view.txt";
 }
 

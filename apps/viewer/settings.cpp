@@ -12,7 +12,7 @@ namespace cotan::viewer {
 
 namespace {
 
-using Options = app::PictureOptions;
+using Options = PictureOptions;
 
 template<class T> std::string numberText(T value) { return fmt::format("{}", value); }
 
@@ -61,7 +61,7 @@ const Setting* findSetting(const std::string& name)
     return nullptr;
 }
 
-std::string valueOf(const Setting& setting, const app::PictureOptions& options)
+std::string valueOf(const Setting& setting, const PictureOptions& options)
 {
     return std::visit(
         [&](auto field) -> std::string {
@@ -76,7 +76,7 @@ std::string valueOf(const Setting& setting, const app::PictureOptions& options)
         setting.field);
 }
 
-Status setValue(const Setting& s, const std::string& value, app::PictureOptions& options)
+Status setValue(const Setting& s, const std::string& value, PictureOptions& options)
 {
     const bool known = std::ranges::find(s.words, value) != s.words.end();
     if (!s.words.empty() && !known && !(numeric(s) && s.words.size() == 1))

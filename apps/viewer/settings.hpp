@@ -11,21 +11,21 @@
 namespace cotan::viewer {
 
 struct Setting {
-    using Options = app::PictureOptions;
+    using Options = PictureOptions;
     const char* name; // of the option, without --
     std::variant<std::string Options::*, double Options::*, float Options::*, int Options::*, bool Options::*> field;
     std::vector<std::string> words{}; // that it may have; empty: any
-    double low = 0, high = 0;       // of numbers
-    bool meters = false;            // the exposure is found again
-    bool loads = false;             // the model is read again
+    double low = 0, high = 0;         // of numbers
+    bool meters = false;              // the exposure is found again
+    bool loads = false;               // the model is read again
 };
 
 std::span<const Setting> settings();
 const Setting* findSetting(const std::string& name);
 
-std::string valueOf(const Setting& setting, const app::PictureOptions& options);
+std::string valueOf(const Setting& setting, const PictureOptions& options);
 
 // Errors: ErrorKind::usage, with what was expected and found; the options stay as they are.
-Status setValue(const Setting& setting, const std::string& value, app::PictureOptions& options);
+Status setValue(const Setting& setting, const std::string& value, PictureOptions& options);
 
 } // namespace cotan::viewer

@@ -19,7 +19,8 @@ namespace {
 std::string quoted(const std::string& word)
 {
     const bool safe = !word.empty()
-        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,") == std::string::npos;
+        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,")
+            == std::string::npos;
     if (safe)
         return word;
     std::string text = "'";
@@ -36,23 +37,26 @@ std::string compareName(Compare compare)
                                        : "off";
 }
 
-std::string textOf(const glm::vec3& v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f); }
+std::string textOf(const glm::vec3& v)
+{
+    return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
+}
 
 } // namespace
 
-app::PictureOptions optionsOf(const State& state, bool second)
+PictureOptions optionsOf(const State& state, bool second)
 {
-    app::PictureOptions o = state.picture;
+    PictureOptions o = state.picture;
     o.size = fmt::format("{}x{}", std::max(1, state.size.x), std::max(1, state.size.y));
     if (state.cameraMoved)
         o.camera = cameraWords(state.camera);
-    o.use = state.show == "shaded" ? app::PictureUse::shown : app::PictureUse::data;
+    o.use = state.show == "shaded" ? PictureUse::shown : PictureUse::data;
     if (state.compare == Compare::angle)
-        o.use = app::PictureUse::data;
+        o.use = PictureUse::data;
     const Side& side = sideOf(state, second);
     o.tangents = side.tangents;
     o.maps.normal = side.normalMap;
-    o.maps.convention = side.convention.empty() ? app::OwnMaps().convention : side.convention;
+    o.maps.convention = side.convention.empty() ? OwnMaps().convention : side.convention;
     return o;
 }
 
@@ -61,7 +65,7 @@ void resetCamera(State& state)
     state.cameraMoved = false;
     if (!state.model)
         return;
-    app::PictureOptions o = optionsOf(state, false);
+    PictureOptions o = optionsOf(state, false);
     const auto view = viewOf(o, state.model->scene);
     if (!view)
         return;
@@ -79,11 +83,14 @@ void resetCamera(State& state)
 std::string commandLine(const State& state, const std::string& file, glm::ivec2 size)
 {
     const bool second = state.compare == Compare::flip && state.second;
-    const app::PictureOptions o = optionsOf(state, second), usual;
+    const PictureOptions o = optionsOf(state, second), usual;
     const Side& side = sideOf(state, second);
-    std::string text = state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
+    std::string text =
+        state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
     const bool compares = text == "cotan compare";
-    const auto add = [&](const std::string& name, const std::string& value) { text += " --" + name + " " + quoted(value); };
+    const auto add = [&](const std::string& name, const std::string& value) {
+        text += " --" + name + " " + quoted(value);
+    };
     if (!o.model.empty())
         text += " " + quoted(o.model);
     text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
@@ -101,9 +108,9 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         add("convention", side.convention);
     if (o.tangents != usual.tangents)
         add("tangents", o.tangents);
-    for (const auto& [name, field] : {std::pair("base-color", &app::OwnMaps::baseColor),
-                                      {"metallic-roughness", &app::OwnMaps::metallicRoughness},
-                                      {"occlusion", &app::OwnMaps::occlusion}})
+    for (const auto& [name, field] : {std::pair("base-color", &OwnMaps::baseColor),
+                                      {"metallic-roughness", &OwnMaps::metallicRoughness},
+                                      {"occlusion", &OwnMaps::occlusion}})
         if (!(o.maps.*field).empty())
             add(name, o.maps.*field);
     if (o.maps.material != usual.maps.material)
@@ -116,14 +123,15 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
             continue;
         }
         if (std::string("exposure") == setting.name && value == "auto" && state.metered > 0
-            && o.use == app::PictureUse::shown && !app::keepsFloats(file))
+            && o.use == PictureUse::shown && !keepsFloats(file))
             value = fmt::format("{}", state.metered);
         if (value != valueOf(setting, usual))
             add(setting.name, value);
     }
-    for (const auto& [name, value, other] :
-         {std::tuple("device", o.device, usual.device), {"lighting", o.lighting, usual.lighting}, {"rows", o.rows, usual.rows},
-          {"normal-mapping", o.normalMapping, usual.normalMapping}})
+    for (const auto& [name, value, other] : {std::tuple("device", o.device, usual.device),
+                                             {"lighting", o.lighting, usual.lighting},
+                                             {"rows", o.rows, usual.rows},
+                                             {"normal-mapping", o.normalMapping, usual.normalMapping}})
         if (value != other)
             add(name, value);
     return text;
@@ -133,8 +141,10 @@ std::string reportOf(const State& state)
 {
     std::string text;
     const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
-    add("model", !state.picture.model.empty() ? std::filesystem::path(state.picture.model).filename().string()
-                                              : !state.picture.shape.empty() ? state.picture.shape : "built-in");
+    add("model",
+        !state.picture.model.empty()       ? std::filesystem::path(state.picture.model).filename().string()
+            : !state.picture.shape.empty() ? state.picture.shape
+                                           : "built-in");
     add("triangles", state.model ? fmt::format("{}", trianglesDrawn(state.model->scene)) : "none");
     add("size", fmt::format("{}x{}", state.size.x, state.size.y));
     add("view", state.show);
@@ -150,8 +160,9 @@ std::string reportOf(const State& state)
     add("camera moved", state.cameraMoved ? "yes" : "no");
     add("eye", textOf(state.camera.eye));
     add("pivot", textOf(state.camera.target));
-    add("lens", state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
-                                          : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
+    add("lens",
+        state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
+                                  : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
     for (const Setting& setting : settings())
         add(setting.name, valueOf(setting, state.picture));
     add("metered", fmt::format("{:.4f}", state.metered));
@@ -162,7 +173,8 @@ std::string reportOf(const State& state)
     add("degrees", state.statisticsOf.empty() ? "none" : state.statisticsOf + ": " + toText(state.statistics));
     if (const auto& hit = state.probe.hit) {
         const Probed& p = state.probe.surface;
-        add("under the pointer", fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
+        add("under the pointer",
+            fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
         add("uv", fmt::format("{:.4f} {:.4f} texel {} {}", p.uv.x, p.uv.y, p.texel.x, p.texel.y));
         add("t", textOf(p.t));
         add("b", textOf(p.b));

@@ -1,5 +1,5 @@
-// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the artist draws it (artist.hpp); the
-// window shows it.
+// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the artist draws it (artist.hpp);
+// the window shows it.
 #pragma once
 
 #include <filesystem>
@@ -70,7 +70,7 @@ struct Probe {
 };
 
 struct State {
-    app::PictureOptions picture; // of the first picture; its camera: the words that a reset goes back to
+    PictureOptions picture; // of the first picture; its camera: the words that a reset goes back to
     std::string show = "shaded";
     Side a, b;
     Compare compare = Compare::off;
@@ -87,9 +87,9 @@ struct State {
     float rate = 1, speed = 0.5; // of the animation; of flying, model sizes a second
     bool playing = false;
 
-    std::shared_ptr<const Model> model; // null until the first one is read
+    std::shared_ptr<const Model> model;           // null until the first one is read
     std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
-    std::vector<std::string> recent;   // files, the latest first
+    std::vector<std::string> recent;              // files, the latest first
 
     bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, hotSpotsShown = false;
     bool cardShown = true, statisticsShown = true;
@@ -97,9 +97,9 @@ struct State {
 
     // Input.
     glm::vec2 pointer{-1, -1}, pressedAt{0, 0};
-    std::string held;         // the button that is down, with what was held: "shift+left"; empty: none
+    std::string held; // the button that is down, with what was held: "shift+left"; empty: none
     bool holdsDivider = false;
-    bool dragged = false;     // since the button went down
+    bool dragged = false;              // since the button went down
     std::vector<std::string> keysDown; // of flying
 
     // What came back.
@@ -117,7 +117,7 @@ struct State {
 };
 
 // What draws the first picture, or the second.
-app::PictureOptions optionsOf(const State& state, bool second);
+PictureOptions optionsOf(const State& state, bool second);
 inline const Side& sideOf(const State& state, bool second) { return second ? state.b : state.a; }
 
 // The camera that a reset gives: by picture.camera, or the default of `cotan render`. Does nothing without a model.

@@ -1,16 +1,16 @@
-#include "own_maps.hpp"
+#include "cotan/picture/picture.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "cotan/convention_words.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/put_picture.hpp"
-#include "loading.hpp"
-#include "map_options.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -32,13 +32,15 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     if (!anyMeshShows(scene, slot, maps.material))
         return inputError(
             fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
-    return readImageWithin(memory, file);
+    return readImage(file, limitsFor(memory));
 }
 
 Result<Convention> conventionOf(const OwnMaps& maps)
 {
-    auto convention = parseConvention(maps.convention, "--convention");
-    if (convention && convention->kind != MapKind::tangentSpace)
+    auto convention = conventionFromWords(maps.convention);
+    if (!convention)
+        return usageError("--convention: " + convention.error().message);
+    if (convention->kind != MapKind::tangentSpace)
         return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
     return convention;
 }
@@ -78,26 +80,6 @@ Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
 
 } // namespace
 
-void addOwnNormalMap(Arguments& a, OwnMaps& maps)
-{
-    a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
-        .in("FILE");
-    a.option("--convention", maps.convention, "how that image is stored, or without one how the model's own normal maps are to be read: " + conventionWords()).in("WORDS");
-    a.option("--material", maps.material, "number of the material that gets this image; -1: all")
-        .within(-1, 100000)
-        .in("N");
-}
-
-void addOwnMaps(Arguments& a, OwnMaps& maps)
-{
-    addOwnNormalMap(a, maps);
-    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB").in("FILE");
-    a.option("--metallic-roughness", maps.metallicRoughness,
-             "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
-        .in("FILE");
-    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's").in("FILE");
-}
-
 Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
 {
     const bool any =
@@ -133,4 +115,4 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
     return put(maps.occlusion, &Material::occlusionMap, [](Material& m) { m.occlusionStrength = 1; });
 }
 
-} // namespace cotan::app
+} // namespace cotan

@@ -1,4 +1,4 @@
-#include "picture_light.hpp"
+#include "cotan/picture/light.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -9,11 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "cotan/ground/ground.hpp"
+#include "cotan/image/file.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/surroundings/surroundings.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -54,7 +55,7 @@ Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
     if (std::filesystem::path(o.environment).extension().empty())
         return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
                                       fmt::join(environmentNames(), ", "), o.environment));
-    const auto picture = readImageWithin(o.memory, o.environment);
+    const auto picture = readImage(o.environment, limitsFor(o.memory));
     if (!picture)
         return picture.error();
     return environmentOfPicture(*picture, made);
@@ -87,47 +88,6 @@ std::vector<Light> lampsOf(const PictureOptions& o)
 }
 
 } // namespace
-
-void addLightOptions(Arguments& a, PictureOptions& o)
-{
-    a.option("--exposure", o.exposure,
-             "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
-        .above0Or("auto")
-        .in("X|auto");
-    a.option("--tone-mapping", o.toneMapping,
-             "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
-             "curve) or agx; files that keep floats stay linear")
-        .from({"none", "neutral", "aces", "agx"})
-        .in("NAME");
-    a.option(
-         "--environment", o.environment,
-         "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
-         "overcast, or "
-         "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
-        .in("NAME|FILE");
-    a.option("--environment-rotation", o.environmentRotation,
-             "turn the surroundings counter-clockwise, seen from above")
-        .within(-360.0, 360.0)
-        .in("DEGREES");
-    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the surroundings")
-        .above0()
-        .in("X");
-    a.option("--background", o.background,
-             "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
-             "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
-        .from({"paper", "blur", "environment", "gradient", "none"})
-        .in("NAME");
-    a.option("--ground", o.ground, "on: the model stands on level ground, which only shows its shadow; off: it floats")
-        .from({"on", "off"})
-        .in("NAME");
-    a.option("--shadow-softness", o.shadowSoftness,
-             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
-             "(default: 10, in the evening 3)")
-        .within(0.0, 60.0)
-        .in("DEGREES")
-        .withoutDefault();
-    a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
-}
 
 std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
 {
@@ -183,4 +143,4 @@ Status lightPicture(const PictureOptions& options, View& view)
     return Done{};
 }
 
-} // namespace cotan::app
+} // namespace cotan

@@ -1,0 +1,71 @@
+// What a picture of a model is to show, in words: those of `cotan render` and of its window.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "cotan/files/limits.hpp"
+#include "cotan/result.hpp"
+
+namespace cotan {
+
+inline constexpr int kDefaultMemory = 640; // MiB, of one picture
+
+// The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
+// than is usual.
+LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
+
+// "WxH", each 1..16384.
+Result<std::pair<int, int>> parseSize(const std::string& text);
+
+// Pictures of one's own on a model: --normal-map, and for models that come without --base-color, --metallic-roughness
+// and --occlusion.
+struct OwnMaps { // files; empty: what the model has
+    std::string normal, baseColor, metallicRoughness, occlusion;
+    std::string convention = "gltf"; // of the normal map
+    int material = -1;               // number of the only material that gets them; -1: all
+};
+
+// What becomes of a picture.
+enum class PictureUse {
+    shown,    // light, for people to look at
+    radiance, // light, as it is
+    data,     // no light
+};
+
+struct PictureOptions {
+    PictureUse use = PictureUse::shown; // for the command to say
+    std::string show = "shaded";        // of showNames; for the command to declare
+    std::string model;                  // empty: the built-in scene, or the shape
+    std::string shape;                  // plane, sphere, torus or teapot
+    OwnMaps maps;
+    std::string variant;
+    std::string animation;
+    double time = 0;
+    std::string size = "1280x720";
+    std::string camera; // empty: the built-in scene's own, front for a model
+    std::string device = "auto";
+    std::string edges = "none"; // or triangles, seams, all
+    std::string shading = "pbr";
+    std::string lighting = "world";
+    std::string normalMapping = "shading";
+    std::string tangents = "stored";
+    std::string environment = "studio"; // or none
+    double environmentRotation = 0;     // degrees
+    float environmentIntensity = 1;
+    std::string background; // empty: by the environment
+    std::string toneMapping = "neutral";
+    std::string exposure = "auto"; // or a factor
+    std::string ground = "on";
+    double shadowSoftness = -1; // degrees that the light covers; negative: those of the lamp of the surroundings
+    std::string rows = "down";
+    std::string derivatives = "fine";
+    int memory = kDefaultMemory;
+    int samples = 4;
+    bool noShadows = false;
+    bool noNormalMaps = false;
+    bool pointSampled = false;
+    bool specularAntialiasing = false;
+};
+
+} // namespace cotan

@@ -1,0 +1,200 @@
+#include "cotan/picture/picture.hpp"
+
+#include <algorithm>
+#include <future>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/draw/camera_words.hpp"
+#include "cotan/draw/exposure.hpp"
+#include "cotan/inspect/inspection.hpp"
+#include "cotan/model/load.hpp"
+#include "cotan/parse_number.hpp"
+#include "cotan/picture/light.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/shapes/shapes.hpp"
+#include "cotan/surface/vertex_frames.hpp"
+
+namespace cotan {
+
+LoadLimits limitsFor(int memory, Pixels pixels)
+{
+    LoadLimits limits;
+    limits.imageBytes = std::size_t(memory) << 20;
+    limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
+    limits.imageSide = 1 << 20; // the memory limit decides
+    limits.pixels = pixels;
+    return limits;
+}
+
+Result<std::pair<int, int>> parseSize(const std::string& text)
+{
+    const std::size_t x = text.find('x');
+    int width = 0, height = 0;
+    if (x == std::string::npos || !parseNumber(std::string_view(text).substr(0, x), width)
+        || !parseNumber(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
+        || height > 16384)
+        return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
+    return std::pair(width, height);
+}
+
+namespace {
+
+const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", NormalMapping::shading},
+                                                              {"rays", NormalMapping::rays},
+                                                              {"shadowed", NormalMapping::shadowed},
+                                                              {"facets", NormalMapping::facets},
+                                                              {"mirror-facet", NormalMapping::mirrorFacet}};
+
+} // namespace
+
+Result<View> viewOf(const PictureOptions& options, const Scene& scene)
+{
+    View view;
+    const auto size = parseSize(options.size);
+    if (!size)
+        return size.error();
+    view.width = size->first;
+    view.height = size->second;
+    const bool ownCamera =
+        options.camera.empty() && options.model.empty() && options.shape.empty() && !scene.cameras.empty();
+    const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
+    auto parsed = cameraFromWords(camera, scene, view.width, view.height);
+    if (!parsed)
+        return usageError("--camera: " + parsed.error().message);
+    view.camera = *parsed;
+    if (Status lit = lightPicture(options, view); !lit)
+        return lit.error();
+    view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
+    view.lighting = options.lighting == "world" ? Lighting::world
+        : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
+                                                : Lighting::tangentPixel;
+    view.normalMapping = kNormalMappings.at(options.normalMapping);
+    view.rowsUpward = options.rows == "up";
+    view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
+    view.samples = options.samples;
+    view.normalMaps = !options.noNormalMaps;
+    view.pointSampled = options.pointSampled;
+    view.specularAntialiasing = options.specularAntialiasing;
+    return view;
+}
+
+bool keepsFloats(const std::filesystem::path& file)
+{
+    const std::string extension = file.extension().string();
+    return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
+}
+
+bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
+
+Result<Scene> openModel(const PictureOptions& options)
+{
+    const bool none = options.model.empty();
+    if (!none && !options.shape.empty())
+        return usageError("--shape: expected no model with it; found " + options.model);
+    if (!options.variant.empty() && none)
+        return usageError("--variant: expected a model; found the built-in scene");
+    if (options.animation.empty() ? options.time > 0 : none)
+        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
+                                                    : "--animation: expected a model; found the built-in scene");
+    if (none)
+        return options.shape.empty() ? builtinScene() : shapeScene(options.shape);
+    LoadLimits limits = limitsFor(options.memory);
+    limits.pose = {options.animation, options.time};
+    limits.variant = options.variant;
+    auto scene = loadScene(options.model, limits);
+    if (scene)
+        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
+            return ok.error();
+    return scene;
+}
+
+Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,
+                    Scene& scene)
+{
+    if (Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
+        return applied;
+    if (const auto inspection = inspectionFromName(show)) {
+        scene = inspected(std::move(scene), *inspection);
+        return Done{};
+    }
+    for (Frame frame : frames)
+        deriveVertexFrames(scene, frame,
+                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+    return Done{};
+}
+
+Result<Picture> openPicture(const PictureOptions& options, std::initializer_list<Frame> frames, const View* like)
+{
+    if (const auto size = parseSize(options.size); !size) // before a large model is loaded
+        return size.error();
+    Picture picture;
+    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings; // made while the model is read
+    if (!like)
+        surroundings = std::async(std::launch::async, openSurroundings, options);
+    auto scene = openModel(options);
+    if (!scene)
+        return scene.error();
+    picture.scene = std::move(*scene);
+    if (options.edges != "none")
+        picture.edges = surfaceEdges(picture.scene);
+    if (Status prepared = prepareScene(options, options.show, frames, picture.scene); !prepared)
+        return prepared.error();
+    auto view = like ? Result<View>(*like) : viewOf(options, picture.scene);
+    if (!view)
+        return view.error();
+    picture.view = std::move(*view);
+    if (!like) {
+        auto opened = surroundings.get();
+        if (!opened)
+            return opened.error();
+        picture.view.environmentMap = std::move(*opened);
+    }
+    picture.meter = !like && meters(options);
+    picture.view.lights = lightsOf(options, picture.scene);
+    return picture;
+}
+
+std::string deviceOf(const PictureOptions& options)
+{
+    const bool reference =
+        options.device == "auto" && (options.lighting != "world" || options.normalMapping != "shading");
+    return reference ? "reference" : options.device;
+}
+
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, int threads, Picture& picture)
+{
+    auto ground =
+        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto painter = openPainter(deviceOf(options), threads);
+    if (!painter)
+        return painter;
+    if (Status loaded = (*painter)->load(picture.scene); !loaded)
+        return loaded.error();
+    std::optional<Result<float>> exposure;
+    if (picture.meter)
+        exposure = meterExposure(**painter, picture.view);
+    picture.view.ground = ground.get(); // not needed before, and read by nobody else now
+    if (exposure && !*exposure)
+        return exposure->error();
+    picture.view.exposure = exposure ? **exposure : picture.view.exposure;
+    return painter;
+}
+
+Status checkLighting(const PictureOptions& options, Frame frame)
+{
+    if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
+        return usageError(
+            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                        "mikktspace; found '{}'",
+                        name(frame)));
+    if (options.normalMapping != "shading" && (options.shading != "pbr" || options.lighting != "world"))
+        return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
+                                      "{} and {}",
+                                      options.normalMapping, options.shading, options.lighting));
+    return Done{};
+}
+
+} // namespace cotan

@@ -1,0 +1,74 @@
+// What of a model a picture shows: light, a vector, an inspection, an error.
+#include "cotan/inspect/inspection.hpp"
+#include "cotan/picture/picture.hpp"
+#include "cotan/report/angles.hpp"
+#include "cotan/report/words.hpp"
+#include "cotan/verify/frames.hpp"
+
+namespace cotan {
+
+namespace {
+
+const std::vector<std::pair<std::string, Output>> kShows = {
+    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
+    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
+    {"error", Output::normal},
+};
+
+} // namespace
+
+const std::vector<std::string>& showNames()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const auto& [name, output] : kShows)
+            all.push_back(name);
+        all.insert(all.end(), inspectionNames().begin(), inspectionNames().end());
+        return all;
+    }();
+    return names;
+}
+
+Output outputOf(const std::string& show)
+{
+    for (const auto& [name, output] : kShows)
+        if (name == show)
+            return output;
+    return Output::shaded;
+}
+
+Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const std::string& show, bool floats,
+                       const std::function<void(const AngleStatistics&)>& error)
+{
+    view.output = outputOf(show);
+    if (inspectionFromName(show))
+        return painter.draw(inspectionView(view));
+    if (show == "error") {
+        auto found = errorAgainstExact(painter, scene, view);
+        if (!found)
+            return found.error();
+        if (error)
+            error(found->degrees);
+        return std::move(found->difference);
+    }
+    view.linearOutput = show == "shaded" && floats;
+    auto image = painter.draw(view);
+    if (image && show != "shaded" && !floats)
+        return asColor(view.output, *image);
+    return image;
+}
+
+Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
+                Image& picture)
+{
+    if (options.edges == "none" || picture.type != PixelType::unorm8)
+        return Done{};
+    view.output = Output::depth;
+    const auto depth = painter.draw(view);
+    if (!depth)
+        return depth.error();
+    drawEdges(picture, *depth, view.camera, edges, {options.edges != "seams", options.edges != "triangles"});
+    return Done{};
+}
+
+} // namespace cotan
