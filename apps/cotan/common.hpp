@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "arguments.hpp"
+#include "cotan/terminal/arguments.hpp"
 #include "cotan/files/plan.hpp"
 #include "cotan/report/json.hpp"
 #include "cotan/result.hpp"

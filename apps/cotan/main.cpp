@@ -37,7 +37,7 @@ int finish(const cotan::Status& status)
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
-    Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
+    cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
     for (const auto add :
          {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,

@@ -47,4 +47,17 @@ template<class Value> Result<Value> oneOf(const std::string& option, const std::
     return valueOf(option, word, words, notOneOf);
 }
 
+// The same into `value`, which stays as it is where no word was given.
+template<class Value>
+Status choose(Value& value, const std::string& option, const std::string& word, const Words<Value>& words)
+{
+    if (word.empty())
+        return Done{};
+    const auto found = oneOf(option, word, words);
+    if (!found)
+        return found.error();
+    value = *found;
+    return Done{};
+}
+
 } // namespace cotan::app

@@ -25,54 +25,60 @@ struct ShaderCommandOptions : CommonOptions {
 
 Result<Convention> conventionOf(const ShaderCommandOptions& o)
 {
-    Words<Convention> presets{{"", Convention{}}};
+    Convention c;
+    Words<Convention> presets;
     for (const ConventionPreset& p : conventionPresets())
         presets.push_back({p.name, p.convention});
-    if (!o.preset.empty())
-        presets.erase(presets.begin());
-    Result<Convention> c = oneOf("--preset", o.preset, presets);
-    if (!c)
-        return c;
-    if (!o.channels.empty()) {
-        const Result<Channels> channels = oneOf<Channels>("--channels", o.channels,
-                                                          {{"3", Channels::xyz},
-                                                           {"2", Channels::orthographic},
-                                                           {"stereographic", Channels::stereographic},
-                                                           {"slope", Channels::slope}});
-        if (!channels)
-            return channels.error();
-        c->channels = *channels;
-    }
-    if (!o.expansion.empty()) {
-        const Result<Expansion> expansion = oneOf<Expansion>("--unsigned", o.expansion,
-                                                             {{"exact", Expansion::exact},
-                                                              {"exact16", Expansion::exact16},
-                                                              {"biased", Expansion::biased},
-                                                              {"signed", Expansion::signedValues}});
-        if (!expansion)
-            return expansion.error();
-        c->expansion = *expansion;
-    }
-    if (!o.green.empty()) {
-        const Result<bool> along = oneOf<bool>("--green", o.green, {{"along-v", true}, {"against-v", false}});
-        if (!along)
-            return along.error();
-        c->v = VDirection::up;
-        c->greenUp = *along;
-    }
+    if (Status ok = choose(c, "--preset", o.preset, presets); !ok)
+        return ok.error();
+    if (Status ok = choose(c.channels, "--channels", o.channels,
+                           {{"3", Channels::xyz},
+                            {"2", Channels::orthographic},
+                            {"stereographic", Channels::stereographic},
+                            {"slope", Channels::slope}});
+        !ok)
+        return ok.error();
+    if (Status ok = choose(c.expansion, "--unsigned", o.expansion,
+                           {{"exact", Expansion::exact},
+                            {"exact16", Expansion::exact16},
+                            {"biased", Expansion::biased},
+                            {"signed", Expansion::signedValues}});
+        !ok)
+        return ok.error();
+    if (Status ok = choose(c.greenUp, "--green", o.green, {{"along-v", true}, {"against-v", false}}); !ok)
+        return ok.error();
+    if (!o.green.empty())
+        c.v = VDirection::up;
     return c;
+}
+
+Status chooseText(const ShaderCommandOptions& o, Choice& choice)
+{
+    using shader_text::Stage;
+    Words<shader_text::Language> languages;
+    for (shader_text::Language l : shader_text::kLanguages)
+        languages.push_back({name(l), l});
+    if (Status ok = choose(choice.language, "--lang", o.language, languages); !ok)
+        return ok;
+    if (Status ok = choose(choice.form, "--form", o.form,
+                           {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
+        !ok)
+        return ok;
+    if (Status ok = choose(choice.stage, "--stage", o.stage,
+                           {{"fragment", Stage::fragment},
+                            {"vertex", Stage::vertex},
+                            {"mesh", Stage::mesh},
+                            {"compute", Stage::compute}});
+        !ok)
+        return ok;
+    return choose(choice.callerDifferences, "--differences", o.differences, {{"shader", false}, {"caller", true}});
 }
 
 Result<Choice> choiceOf(const ShaderCommandOptions& o)
 {
     Choice choice;
-    Words<shader_text::Language> languages;
-    for (shader_text::Language l : shader_text::kLanguages)
-        languages.push_back({name(l), l});
-    const auto language = oneOf("--lang", o.language, languages);
-    if (!language)
-        return language.error();
-    choice.language = *language;
+    if (Status ok = chooseText(o, choice); !ok)
+        return ok.error();
     const Result<Frame> frame = parseFrame(o.frame);
     if (!frame)
         return usageError(frame.error().message);
@@ -81,28 +87,6 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     if (!convention)
         return convention.error();
     choice.convention = *convention;
-    if (!o.form.empty()) {
-        const Result<Form> form =
-            oneOf<Form>("--form", o.form, {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
-        if (!form)
-            return form.error();
-        choice.form = *form;
-    }
-    if (!o.stage.empty()) {
-        using shader_text::Stage;
-        const Result<Stage> stage = oneOf<Stage>("--stage", o.stage,
-                                                 {{"fragment", Stage::fragment},
-                                                  {"vertex", Stage::vertex},
-                                                  {"mesh", Stage::mesh},
-                                                  {"compute", Stage::compute}});
-        if (!stage)
-            return stage.error();
-        choice.stage = *stage;
-    }
-    const Result<bool> caller = oneOf<bool>("--differences", o.differences, {{"shader", false}, {"caller", true}});
-    if (!caller)
-        return caller.error();
-    choice.callerDifferences = *caller;
     choice.uvSets = o.uvSets;
     Words<std::vector<shader_text::Set>> sets{{"frame", {}}};
     for (const shader_text::Set set : shader_text::kSets)

@@ -16,7 +16,7 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace cotan::app {
+namespace cotan {
 
 // One option, flag or positional argument. Its default is what its variable holds when it is declared; the help shows
 // it unless it is an empty text.
@@ -81,4 +81,4 @@ private:
     CLI::App* app_;
 };
 
-} // namespace cotan::app
+} // namespace cotan

@@ -1,4 +1,4 @@
-#include "arguments.hpp"
+#include "cotan/terminal/arguments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "cotan/terminal/command_words.hpp"
 
-namespace cotan::app {
+namespace cotan {
 
 namespace {
 
@@ -202,4 +202,4 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
     return usageError("expected a command; found none");
 }
 
-} // namespace cotan::app
+} // namespace cotan
