@@ -251,7 +251,7 @@ TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
     EXPECT_EQ(readPicture(folder / "w.png").width, 300);
 }
 
-// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED make it longer, or another.
+// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED make it longer, or another; COTAN_VIEW_KEEP is a folder that gets it.
 TEST(ViewWindow, randomEventsAreLivedThrough)
 {
     COTAN_NEEDS_DISPLAY();
@@ -301,6 +301,11 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
         }
         session += '\n';
     }
+    if (const char* kept = std::getenv("COTAN_VIEW_KEEP")) // a folder, to look at a finding
+        std::filesystem::copy(folder.path(), kept,
+                              std::filesystem::copy_options::overwrite_existing
+                                  | std::filesystem::copy_options::recursive),
+            std::ofstream(std::filesystem::path(kept) / "session.txt") << session;
     const ToolRun run = play(folder, session + "9999 wait\n9999 do report r.txt\n", {"quad.gltf", "--size", "160x120"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_NE(lineOf(readWhole(folder / "r.txt"), "model"), "no such line");

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostRecent = 10;
-constexpr double kPatience = 300; // seconds that a played session waits for one picture
+constexpr double kPatience = 120; // seconds that a played session waits for one picture
 
 double secondsNow()
 {
@@ -145,8 +145,8 @@ private:
             for (const Event& event : window_->interact(interface(), events)) {
                 const std::string before = state_.problem;
                 apply(state_, event);
-                if (options_.plays && event.kind == EventKind::command && firstProblem_.empty()
-                    && state_.problem != before)
+                const bool written = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
+                if (options_.plays && written && firstProblem_.empty() && state_.problem != before)
                     firstProblem_ = state_.problem;
             }
             goOn(state_, passed);
@@ -176,7 +176,7 @@ private:
 
     bool idle() const
     {
-        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && key_ == keyOf(state_) && !dialog_.open()
+        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_)) && !dialog_.open()
             && !probing_.valid();
     }
 
@@ -355,8 +355,12 @@ private:
         }
         if (auto drawn = artist_->take()) {
             state_.device = drawn->device.empty() ? state_.device : drawn->device;
-            if (!drawn->problem.empty())
+            if (!drawn->problem.empty()) {
                 state_.problem = drawn->problem;
+                goBack();
+            } else if (drawn->picture) {
+                good_ = {state_.picture.environment, state_.a, state_.b};
+            }
             if (drawn->picture && drawn->picture != drawn_.picture) {
                 ++serial_;
                 firstPicture_ = firstPicture_ > 0 ? firstPicture_ : drawn->seconds;
@@ -377,6 +381,14 @@ private:
             if (drawn->picture)
                 drawn_ = std::move(*drawn);
         }
+    }
+
+    // What could not be drawn is left: a light or a map that cannot be read, a convention that does not fit.
+    void goBack()
+    {
+        state_.picture.environment = good_.environment;
+        state_.a = good_.a;
+        state_.b = good_.b;
     }
 
     void takeModel(Loaded& loaded)
@@ -527,6 +539,10 @@ private:
     Watch watch_;
     std::ofstream recording_;
     Drawn drawn_;
+    struct {
+        std::string environment = "studio";
+        Side a, b;
+    } good_; // of the last picture that could be drawn
     struct {
         glm::ivec2 size{0};
         std::vector<float> degrees;
