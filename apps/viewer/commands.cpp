@@ -296,9 +296,18 @@ Status performSet(State& state, Words& words)
     return Done{};
 }
 
-} // namespace
+// Options that are refused without surroundings go with them.
+void settle(app::PictureOptions& o)
+{
+    if (o.environment != "none")
+        return;
+    o.environmentRotation = 0;
+    o.environmentIntensity = 1;
+    if (o.background == "environment" || o.background == "blur")
+        o.background.clear();
+}
 
-Status perform(State& state, const std::string& line)
+Status performOne(State& state, const std::string& line)
 {
     Words words{line};
     const std::string command = words.next();
@@ -382,6 +391,15 @@ Status perform(State& state, const std::string& line)
         return Done{};
     }
     return performSwitch(state, command, words);
+}
+
+} // namespace
+
+Status perform(State& state, const std::string& line)
+{
+    Status done = performOne(state, line);
+    settle(state.picture);
+    return done;
 }
 
 } // namespace cotan::viewer

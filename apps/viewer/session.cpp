@@ -145,8 +145,8 @@ private:
             for (const Event& event : window_->interact(interface(), events)) {
                 const std::string before = state_.problem;
                 apply(state_, event);
-                const bool written = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
-                if (options_.plays && written && firstProblem_.empty() && state_.problem != before)
+                written_ = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
+                if (options_.plays && written_ && firstProblem_.empty() && state_.problem != before)
                     firstProblem_ = state_.problem;
             }
             goOn(state_, passed);
@@ -265,7 +265,7 @@ private:
             const Status done = fulfilOne(w);
             if (!done) {
                 state_.problem = done.error().message;
-                if (options_.plays && firstProblem_.empty())
+                if (options_.plays && written_ && firstProblem_.empty())
                     firstProblem_ = state_.problem;
             }
         }
@@ -359,8 +359,9 @@ private:
                 state_.problem = drawn->problem;
                 goBack();
             } else if (drawn->picture) {
-                good_ = {state_.picture.environment, state_.a, state_.b};
+                good_ = {true, state_.picture, state_.a, state_.b};
             }
+            failed_ = !drawn->problem.empty();
             if (drawn->picture && drawn->picture != drawn_.picture) {
                 ++serial_;
                 firstPicture_ = firstPicture_ > 0 ? firstPicture_ : drawn->seconds;
@@ -386,7 +387,15 @@ private:
     // What could not be drawn is left: a light or a map that cannot be read, a convention that does not fit.
     void goBack()
     {
-        state_.picture.environment = good_.environment;
+        if (!good_.any)
+            return;
+        const app::PictureOptions now = std::exchange(state_.picture, good_.picture);
+        state_.picture.model = now.model;
+        state_.picture.shape = now.shape;
+        state_.picture.variant = now.variant;
+        state_.picture.animation = now.animation;
+        state_.picture.time = now.time;
+        state_.picture.camera = now.camera;
         state_.a = good_.a;
         state_.b = good_.b;
     }
@@ -449,7 +458,7 @@ private:
             return;
         const std::string key = keyOf(state_);
         const bool meter = state_.metered == 0 && state_.show == "shaded" && meters(optionsOf(state_, false))
-            && !artist_->busy();
+            && !artist_->busy() && !failed_; // what failed would fail again
         if (key == key_ && !meter)
             return;
         key_ = key;
@@ -540,7 +549,8 @@ private:
     std::ofstream recording_;
     Drawn drawn_;
     struct {
-        std::string environment = "studio";
+        bool any = false;
+        app::PictureOptions picture;
         Side a, b;
     } good_; // of the last picture that could be drawn
     struct {
@@ -555,7 +565,8 @@ private:
     std::size_t next_ = 0; // of the played events
     double start_ = 0, last_ = 0, playedTo_ = 0, waitsSince_ = 0;
     double begun_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstPicture_ = 0, firstShown_ = 0; // of a report
-    bool waits_ = false, quits_ = false;
+    bool waits_ = false, quits_ = false, failed_ = false;
+    bool written_ = false; // what happens now was written as a command
 };
 
 } // namespace
