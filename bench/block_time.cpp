@@ -1,4 +1,5 @@
-// BC5 of normal maps beside libnvtt and libsquish: the mean and the largest error in degrees, and the time on one core.
+// BC5 of normal maps beside libnvtt and libsquish, then BC7 beside libsquish's BC1 and BC3: the mean and the largest
+// error in degrees, and the time on one core.
 //   block_time FILE...
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include <nvtt/nvtt.h>
 #include <squish.h>
 
+#include "cotan/image/dds.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/maps/block.hpp"
 #include "cotan/parallel/loops.hpp"
@@ -111,6 +114,25 @@ Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
     return bytes;
 }
 
+// Blocks of three channels, decoded by OpenImageIO.
+Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int height, const cotan::DdsCode& code,
+                     const Bytes& blocks)
+{
+    Bytes dds = cotan::ddsHeader(code, width, height, 1);
+    dds.insert(dds.end(), blocks.begin(), blocks.end());
+    const auto image = cotan::decodeImage(dds, "blocks.dds");
+    Figures f;
+    for (std::size_t i = 0; image && i < normals.size(); ++i) {
+        const std::uint8_t* const texel = image->bytes8() + 4 * i;
+        const glm::dvec3 n = glm::normalize((glm::dvec3(texel[0], texel[1], texel[2]) - 128.0) / 127.0);
+        const double degrees =
+            glm::degrees(std::atan2(glm::length(glm::cross(n, normals[i])), glm::dot(n, normals[i])));
+        f.mean += degrees / double(normals.size());
+        f.most = std::max(f.most, degrees);
+    }
+    return f;
+}
+
 Bytes byCotan(const Image& map)
 {
     Bytes blocks;
@@ -157,13 +179,36 @@ int main(int count, char** files)
             [&] { return byNvtt(rgba, width, height, nvtt::Quality_Production); },
             [&] { return bySquish(rgba, width, height); },
         };
+        const auto print = [&](const char* by, const Figures& error, double seconds) {
+            fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, by, error.mean, error.most,
+                       seconds);
+        };
         for (int e = 0; e < 6; ++e) {
             const std::clock_t start = std::clock(); // of all threads
             const Bytes blocks = encoders[e]();
             const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-            const Figures error = errorOf(normals, width, height, blocks);
-            fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, names[e], error.mean,
-                       error.most, seconds);
+            print(names[e], errorOf(normals, width, height, blocks), seconds);
+        }
+        const auto squish = [&](int format) {
+            Bytes bytes(std::size_t(squish::GetStorageRequirements(width, height, format)));
+            squish::CompressImage(rgba.data(), width, height, bytes.data(),
+                                  format | squish::kColourIterativeClusterFit);
+            return bytes;
+        };
+        const auto bc7 = [&] {
+            Bytes blocks;
+            cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc7(target, {}); });
+            return blocks;
+        };
+        const std::tuple<const char*, cotan::DdsCode, std::function<Bytes()>> wide[] = {
+            {"cotan, BC7", {"DX10", 98, 16}, bc7},
+            {"squish, BC1", {"DXT1", 0, 8}, [&] { return squish(squish::kDxt1); }},
+            {"squish, BC3", {"DXT5", 0, 16}, [&] { return squish(squish::kDxt5); }}};
+        for (const auto& [by, code, encode] : wide) {
+            const std::clock_t start = std::clock();
+            const Bytes blocks = encode();
+            const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+            print(by, errorOfThree(normals, width, height, code, blocks), seconds);
         }
     }
     return 0;

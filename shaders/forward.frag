@@ -64,23 +64,52 @@ vec4 baseColor()
     return color;
 }
 
-// The perturbed normal, outwards on the front side. spread: what the texel's length says is added to it.
-vec3 perturbed(cotan_frame frame, vec3 n, inout float spread)
+bool mapped()
 {
-    bool mapped = NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse)
-        && hasTexcoords(material.normalMapUse);
-    if (!mapped)
-        return n;
+    return NORMAL_MAPS && present(COTAN_MAP_NORMAL, material.normalMapUse) && hasTexcoords(material.normalMapUse);
+}
+
+// The normal that a texel of the normal map says, outwards on the front side.
+vec3 normalOfTexel(vec4 texel, cotan_frame frame, vec3 n)
+{
     cotan_normal_format format = cotan_normal_format(material.normalMap.x, material.normalMap.y,
         float(material.normalMap.z), material.factors.w);
-    vec4 texel = sampled(normalMap, material.normalMapUse);
-    if (SPECULAR_ANTIALIASING)
-        spread += cotan_spread_of_length(texel.w);
     return cotan_normalize_or(cotan_apply(frame, cotan_decode(texel.xyz, format)), n);
 }
 
-// spread: of the normals in the pixel.
-cotan_surface surfaceOf(vec3 base, vec3 n, float spread)
+// The perturbed normal, outwards on the front side. spread: what the texel's length says is added to it.
+vec3 perturbed(cotan_frame frame, vec3 n, inout float spread)
+{
+    if (!mapped())
+        return n;
+    vec4 texel = sampled(normalMap, material.normalMapUse);
+    if (SPECULAR_ANTIALIASING)
+        spread += cotan_spread_of_length(texel.w);
+    return normalOfTexel(texel, frame, n);
+}
+
+// Normals at even places in the pixel, each with what its part of the map says of lost length. s: of the whole pixel,
+// as rough as the material. turn: of the smooth normals.
+void fillTaps(cotan_frame frame, vec3 smoothNormal, float side, float turn, vec2 uv, Differences d, cotan_surface s)
+{
+    taps[0] = Tap(s.n, cotan_roughness_of_spread(s.roughness, turn));
+    tapCount = 1;
+    if (!mapped())
+        return;
+    const float step = 1.0 / float(COTAN_TAPS_A_SIDE);
+    vec2 dx = finiteUv(d.duvdx * step);
+    vec2 dy = finiteUv(d.duvdy * step);
+    tapCount = COTAN_TAPS_A_SIDE * COTAN_TAPS_A_SIDE;
+    for (int i = 0; i < tapCount; ++i) {
+        vec2 place =
+            vec2(float(i % COTAN_TAPS_A_SIDE), float(i / COTAN_TAPS_A_SIDE)) - 0.5 * float(COTAN_TAPS_A_SIDE - 1);
+        vec4 texel = textureGrad(normalMap, finiteUv(uv + dx * place.x + dy * place.y), dx, dy);
+        taps[i] = Tap(normalOfTexel(texel, frame, smoothNormal) * side,
+            cotan_roughness_of_spread(s.roughness, turn + cotan_spread_of_length(texel.w)));
+    }
+}
+
+cotan_surface surfaceOf(vec3 base, vec3 n)
 {
     cotan_surface s;
     s.base_color = base;
@@ -93,8 +122,6 @@ cotan_surface surfaceOf(vec3 base, vec3 n, float spread)
         s.metallic *= texel.b;
         occlusion = (MAPS & COTAN_MAP_OCCLUSION_SHARED) != 0u ? texel.r : 1.0;
     }
-    if (SPECULAR_ANTIALIASING)
-        s.roughness = cotan_roughness_of_spread(s.roughness, spread);
     if (present(COTAN_MAP_OCCLUSION, material.occlusionMap))
         occlusion = sampled(occlusionMap, material.occlusionMap).r;
     s.occlusion = 1.0 + material.factors.z * (occlusion - 1.0);
@@ -182,7 +209,11 @@ void main()
     if (OUTPUT == OUTPUT_SHADED) {
         vec3 color = base.rgb;
         if (material.normalMap.w == 0) {
-            cotan_surface s = surfaceOf(base.rgb, n, spread);
+            cotan_surface s = surfaceOf(base.rgb, n);
+            if (SPECULAR_ANTIALIASING) {
+                fillTaps(frame, smoothNormal, side, turn, uv, d, s);
+                s.roughness = cotan_roughness_of_spread(s.roughness, spread);
+            }
             Layers over;
             over.glossy = over.sheened = over.coated = false;
 #ifdef COTAN_EXTENDED

@@ -79,12 +79,39 @@ struct Reflected {
     vec3 coat;
 };
 
-vec3 reflected(cotan_surface s, Layers over, vec3 l)
+// Normals of places in the pixel, lit one by one where highlights are antialiased: one without a normal map. For main
+// to fill.
+#define COTAN_TAPS_A_SIDE 4
+struct Tap {
+    vec3 n;
+    float roughness;
+};
+Tap taps[COTAN_TAPS_A_SIDE * COTAN_TAPS_A_SIDE];
+int tapCount = 0;
+
+cotan_surface atTap(cotan_surface s, int tap)
+{
+    s.n = taps[tap].n;
+    s.roughness = taps[tap].roughness;
+    return s;
+}
+
+vec3 reflectedOf(cotan_surface s, Layers over, vec3 l)
 {
     if (SHADING == SHADING_BLINN_PHONG)
         return cotan_reflect_blinn_phong(s, l);
     vec3 light = over.glossy ? cotan_reflect_glossy(s, over.gloss, l) : cotan_reflect_pbr(s, l);
     return over.sheened ? cotan_reflect_sheen(over.sheen, s.n, s.v, l, light) : light;
+}
+
+vec3 reflected(cotan_surface s, Layers over, vec3 l)
+{
+    if (!SPECULAR_ANTIALIASING)
+        return reflectedOf(s, over, l);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < tapCount; ++i)
+        sum += reflectedOf(atTap(s, i), over, l);
+    return sum / float(tapCount);
 }
 
 // What one light adds. p: camera-relative; n: unit geometric normal on the seen side.
@@ -106,7 +133,7 @@ void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers ove
         sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));
 }
 
-vec3 surroundings(cotan_surface s, Layers over)
+vec3 surroundingsOf(cotan_surface s, Layers over)
 {
     vec3 light;
     if (ENVIRONMENT_MAP)
@@ -118,6 +145,16 @@ vec3 surroundings(cotan_surface s, Layers over)
         light = cotan_reflect_sheen_around(over.sheen, s.n, s.v, irradiance * s.occlusion, light);
     }
     return light;
+}
+
+vec3 surroundings(cotan_surface s, Layers over)
+{
+    if (!SPECULAR_ANTIALIASING)
+        return surroundingsOf(s, over);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < tapCount; ++i)
+        sum += surroundingsOf(atTap(s, i), over);
+    return sum / float(tapCount);
 }
 
 vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)

@@ -57,6 +57,9 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0-3"},
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..1000000"},
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..3", "--time", "1"},
+        {"render", "-o", "a.webp"}, // of --frames
+        {"render", "a.glb", "-o", "a.gif", "--animation", "0", "--frames", "0..3", "--rate", "60"},
+        {"render", "-o", "a.png", "--environment", "none", "--background", "blur"},
         {"render", "-o", "a.png", "--threads", "-1"},
         {"render", "-o", "a.png", "--exposure", "nan"},
         {"render", "-o", "a.xyz"},
@@ -227,6 +230,26 @@ TEST(CommandLine, compareOfAFrameWithItselfIsZeroDegrees)
     EXPECT_GT(report["normals"]["pixels"], 1000);
     for (const char* file : {"d/cotangent.png", "d/difference.png"})
         EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+}
+
+TEST(Tool, pictures_of_an_animation_go_into_one_file)
+{
+    const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
+    if (!std::filesystem::exists(model))
+        GTEST_SKIP() << model << " is missing";
+    TemporaryFolder folder;
+    const ToolRun run = runTool({"render", model, "-o", "fox.webp", "--animation", "Walk", "--frames", "3..5", "--size",
+                                 "48x32", "--device", "reference", "--environment", "none"},
+                                folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::string bytes = readWhole(folder / "fox.webp");
+    EXPECT_EQ(bytes.substr(8, 4), "WEBP");
+    int pictures = 0;
+    for (std::size_t at = 0; (at = bytes.find("ANMF", at)) != std::string::npos; ++at)
+        ++pictures;
+    EXPECT_EQ(pictures, 3);
+    const auto files = std::filesystem::directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 } // namespace

@@ -19,8 +19,8 @@ namespace {
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",  "tutorial", "normal-matrices",
-                              "mirrored", "targets", "decode", "faceting", "furnace"};
+const char* const kNames[] = {"2.6.3",   "2.6.4",  "2.6.5",    "tutorial", "normal-matrices", "mirrored",
+                              "targets", "decode", "faceting", "furnace",  "sparkle"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -267,6 +267,15 @@ TEST(Figures, facetsLoseNoLightOfAFurnaceAndTurnedNormalsATenth)
     EXPECT_NEAR(lost("mirror-facet"), 0, 1);
     EXPECT_GT(lost("rays"), 10);
     EXPECT_GT(lost("shadowed"), lost("rays"));
+}
+
+TEST(Figures, antialiasedHighlightsHaveHalfOfTheErrorOfSparkles)
+{
+    const nlohmann::json numbers = report("sparkle", "200x150")["figures"][0]["numbers"];
+    for (const std::string map : {"grain", "domes"}) {
+        EXPECT_LT(numbers[map + ", error with"].get<double>(), 0.6 * numbers[map + ", error without"].get<double>());
+        EXPECT_GT(numbers[map + ", error without"].get<double>(), 0.03) << "there is nothing to see";
+    }
 }
 
 TEST(Page, escapesTextAndEncodesBytes)

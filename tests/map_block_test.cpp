@@ -176,6 +176,129 @@ TEST(Block, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
     EXPECT_EQ(one, bytes);
 }
 
+// ---- BC7 ----
+
+using Texel = std::array<int, 4>;
+
+// Microsoft's definition of mode 6.
+std::array<Texel, 16> decodedMode6(const std::byte* block)
+{
+    std::size_t bit = 0;
+    const auto take = [&](int count) {
+        int value = 0;
+        for (int i = 0; i < count; ++i, ++bit)
+            value |= (std::to_integer<int>(block[bit / 8]) >> bit % 8 & 1) << i;
+        return value;
+    };
+    EXPECT_EQ(take(7), 0x40) << "another mode";
+    std::array<Texel, 2> ends{};
+    for (std::size_t c = 0; c < 4; ++c)
+        for (Texel& end : ends)
+            end[c] = take(7) * 2;
+    for (Texel& end : ends) {
+        const int low = take(1);
+        for (int& c : end)
+            c |= low;
+    }
+    constexpr int kWeights[] = {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
+    std::array<Texel, 16> texels{};
+    for (std::size_t i = 0; i < 16; ++i) {
+        const int weight = kWeights[take(i == 0 ? 3 : 4)];
+        for (std::size_t c = 0; c < 4; ++c)
+            texels[i][c] = ((64 - weight) * ends[0][c] + weight * ends[1][c] + 32) >> 6;
+    }
+    EXPECT_EQ(bit, 128u);
+    return texels;
+}
+
+double degreesOff(const Texel& codes, const glm::dvec3& normal)
+{
+    const glm::dvec3 n = glm::normalize((glm::dvec3(codes[0], codes[1], codes[2]) - 128.0) / 127.0);
+    return glm::degrees(std::atan2(glm::length(glm::cross(n, normal)), glm::dot(n, normal)));
+}
+
+Image opaqueBlockOf(const std::vector<glm::dvec3>& normals, int width)
+{
+    Image image = blockOf(normals, width);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        image.floats()[4 * i + 3] = 1;
+    return image;
+}
+
+TEST(Bc7, codesOnALineAreKeptWithinHalfASixteenthOfItAndAlphaOfOneStays)
+{
+    for (const bool falls : {false, true}) { // the first place has a bit less
+        Image ramp = makeImage(4, 4, PixelType::float32);
+        for (int i = 0; i < 16; ++i) {
+            const float t = float(falls ? 15 - i : i);
+            const float codes[] = {100 + 2 * t, 200 - 3 * t, 150 + t, 40 + 5 * t};
+            for (int c = 0; c < 4; ++c)
+                ramp.floats()[4 * i + c] = c < 3 ? ((codes[c] - 128) / 127 + 1) / 2 : codes[c] / 255;
+        }
+        const auto back = decodedMode6(encodeBc7(ramp, {}, true).data());
+        for (int i = 0; i < 16; ++i) {
+            const int t = falls ? 15 - i : i;
+            // Ends are 1 off at most where their lowest bits are not those of all channels.
+            EXPECT_NEAR(back[std::size_t(i)][0], 100 + 2 * t, 2) << i;
+            EXPECT_NEAR(back[std::size_t(i)][1], 200 - 3 * t, 2) << i;
+            EXPECT_NEAR(back[std::size_t(i)][3], 40 + 5 * t, 2) << i;
+        }
+    }
+    std::mt19937 random(5);
+    for (int block = 0; block < 50; ++block)
+        for (const Texel& texel : decodedMode6(encodeBc7(opaqueBlockOf(tilted(40, 0.5, random), 4), {}).data()))
+            EXPECT_EQ(texel[3], 255);
+}
+
+TEST(Bc7, flatNormalsStayFlat)
+{
+    const auto back =
+        decodedMode6(encodeBc7(opaqueBlockOf(std::vector<glm::dvec3>(16, glm::dvec3(0, 0, 1)), 4), {}).data());
+    for (const Texel& texel : back) {
+        // With alpha of 255 the lowest bit of all ends is set: 128 is between 127 and 129.
+        EXPECT_EQ(texel[0], 128);
+        EXPECT_EQ(texel[1], 128);
+    }
+}
+
+// The length of what is decoded does not matter: among vectors a little longer and shorter are some whose codes are the
+// better directions, where the block itself is nearly even.
+TEST(Bc7, anglesAreSmallerThanThoseOfTheClosestVectors)
+{
+    std::mt19937 random(9);
+    double ours = 0, closest = 0;
+    for (int block = 0; block < 40; ++block) {
+        const auto normals = tilted(30, 0.02, random);
+        const Image map = opaqueBlockOf(normals, 4);
+        const auto angles = decodedMode6(encodeBc7(map, {}).data()),
+                   vectors = decodedMode6(encodeBc7(map, {}, true).data());
+        for (std::size_t i = 0; i < 16; ++i) {
+            ours += std::pow(degreesOff(angles[i], normals[i]), 2);
+            closest += std::pow(degreesOff(vectors[i], normals[i]), 2);
+        }
+    }
+    EXPECT_LT(ours, 0.85 * closest) << ours << ", " << closest;
+}
+
+TEST(Bc7, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
+{
+    std::mt19937 random(3);
+    std::vector<glm::dvec3> normals;
+    for (int i = 0; i < 4; ++i)
+        for (const glm::dvec3& n : tilted(30, 0.4, random))
+            normals.push_back(n);
+    normals.resize(7 * 9, {0, 0, 1});
+    const Image odd = opaqueBlockOf(normals, 7);
+    const auto bytes = encodeBc7(odd, {});
+    EXPECT_EQ(bytes.size(), 2u * 3 * 16);
+    std::vector<std::byte> one;
+    withThreads(1, [&] { one = encodeBc7(odd, {}); });
+    EXPECT_EQ(one, bytes);
+    const auto corner = decodedMode6(bytes.data() + 16 * 5); // texels 4..6 of row 8, then copies
+    for (std::size_t i = 3; i < 16; ++i)
+        EXPECT_EQ(corner[i], corner[i == 3 ? 2 : i % 4]);
+}
+
 TEST(Block, oneChannelIsKeptWithinHalfASeventhOfItsRange)
 {
     Image ramp = makeImage(4, 4, PixelType::float32);

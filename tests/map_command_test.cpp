@@ -327,6 +327,17 @@ TEST(MapCommand, textures_hold_the_same_normals_plain_and_in_blocks)
             runTool({"map", "diff", "map.png", blocks, "--to", "directx,orthographic", "--json", "-"}, folder.path()));
         EXPECT_LT(diff["angles"]["mean_degrees"].get<double>(), 1.5) << diff; // steps of a seventh, waves of 25 texels
         EXPECT_EQ(fs::file_size(folder / blocks), 13u * 13 * 16 + (extension == ".dds" ? 148 : 80 + 24 + 60 + 44));
+        const std::string three = "three" + extension;
+        const ToolRun packed7 = runTool(
+            {"map", "convert", "map.png", "--from", "gltf", "--to", "directx", "--compress", "bc7", "-o", three},
+            folder.path());
+        EXPECT_NE(packed7.out.find("bc7: tangent space, xyz"), std::string::npos) << packed7.out;
+        const auto diff7 =
+            reportOf(runTool({"map", "diff", "map.png", three, "--to", "directx", "--json", "-"}, folder.path()));
+        EXPECT_LT(diff7["angles"]["mean_degrees"].get<double>(), 4) << diff7; // one line a block
+        const auto image = readImage(folder / three);
+        ASSERT_TRUE(image);
+        EXPECT_EQ(image->bytes8()[3], 255);
     }
 }
 
@@ -350,13 +361,31 @@ TEST(MapCommand, mips_in_blocks_have_their_roughness_in_a_second_file)
     EXPECT_EQ(fs::file_size(folder / "chain_roughness.dds"), 148u + 87 * 8);
 }
 
+TEST(MapCommand, mips_in_blocks_of_four_channels_are_one_file)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
+    ASSERT_EQ(runTool({"map", "mips", "map.png", "-o", "level.png"}, folder.path()).code, 0);
+    for (const std::string extension : {".dds", ".ktx2"}) {
+        ASSERT_EQ(
+            runTool({"map", "mips", "map.png", "--compress", "bc7", "-o", "chain" + extension}, folder.path()).code, 0);
+        EXPECT_FALSE(fs::exists(folder / ("chain_roughness" + extension)));
+        const auto both = readImage(folder / ("chain" + extension)),
+                   rough = readImage(folder / "level_roughness_0.png");
+        ASSERT_TRUE(both && rough);
+        for (std::size_t i = 0; i < 4 * both->pixelCount(); i += 4)
+            EXPECT_NEAR(both->bytes8()[i + 3], rough->bytes8()[i], 3);
+    }
+    EXPECT_EQ(fs::file_size(folder / "chain.dds"), 148u + 87 * 16);
+}
+
 TEST(MapCommand, what_textures_cannot_hold_is_refused_in_one_line)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"--compress", "bc7", "-o", "x.dds"}, "--compress: bc7 is read and not written"},
-        {{"--compress", "bc1", "-o", "x.dds"}, "--compress: expected none or bc5; found 'bc1'"},
+        {{"--compress", "bc1", "-o", "x.dds"}, "--compress: expected none, bc5 or bc7; found 'bc1'"},
+        {{"--to", "gltf,orthographic", "--compress", "bc7", "-o", "x.ktx2"}, "--to: bc7 holds x, y and z"},
         {{"--compress", "bc5", "-o", "x.png"}, "--compress: blocks are for .dds and .ktx2 files"},
         {{"--bits", "16", "-o", "x.ktx2"}, "--bits: .ktx2 files are written with 8 bits"},
         {{"--to", "gltf,slope", "--compress", "bc5", "-o", "x.ktx2"}, "--to: bc5 holds x and y"},

@@ -9,6 +9,7 @@
 #include "cotan/shapes/shapes.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "picture_light.hpp"
 
 namespace cotan::app {
 namespace {
@@ -88,6 +89,19 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
 
     options.environment = "overcast";
     EXPECT_EQ(openPicture(options, quiet(), {Frame::cotangent})->view.backdrop, Backdrop::blurred);
+
+    // A sky in clouds casts no shadow; a low sun casts a long one, with edges.
+    Scene ball;
+    EXPECT_TRUE(lightsOf(options, ball).empty());
+    options.environment = "evening";
+    const auto sun = lightsOf(options, ball);
+    ASSERT_EQ(sun.size(), 1u);
+    EXPECT_GT(-sun[0].direction.y, 0.174f); // 10 degrees: lower lamps throw none on the ground
+    EXPECT_LT(-sun[0].direction.y, 0.5f);
+    PictureOptions turned = options;
+    turned.environmentRotation = 90; // counter-clockwise from above: z becomes x
+    EXPECT_NEAR(lightsOf(turned, ball)[0].direction.x, sun[0].direction.z, 1e-6f);
+    EXPECT_NEAR(openPicture(options, quiet(), {Frame::cotangent})->view.shadowSoftness, 0.0262f, 1e-4f); // 1.5 degrees
 
     options.environment = "none";
     options.exposure = "1.5";

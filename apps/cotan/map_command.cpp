@@ -12,7 +12,10 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
 
 void addCompress(Arguments& command, std::string& compress)
 {
-    command.option("--compress", compress, "for .dds and .ktx2: none, or bc5: x and y in blocks, a byte a texel");
+    command.option(
+        "--compress", compress,
+        "for .dds and .ktx2: none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
+        "bc7, x, y, z and alpha");
 }
 
 void addDither(Arguments& command, bool& dither)

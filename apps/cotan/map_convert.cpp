@@ -55,7 +55,7 @@ Status run(const MapConvertCommandOptions& o)
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
     Convention stored = to;
-    if (blocks && to.channels == Channels::xyz)
+    if (o.compress == "bc5" && to.channels == Channels::xyz)
         stored.channels = Channels::orthographic;
     const std::string bits = blocks ? o.compress : bitsName(done->bits);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(stored));

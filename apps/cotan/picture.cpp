@@ -132,7 +132,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
-           "make highlights rougher where normals turn within a pixel or a filtered normal map has lost length");
+           "light sixteen normals of a pixel, each rougher by what is smaller than its part of it");
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 

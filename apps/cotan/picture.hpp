@@ -48,7 +48,7 @@ struct PictureOptions {
     std::string toneMapping = "neutral";
     std::string exposure = "auto"; // or a factor
     std::string ground = "on";
-    double shadowSoftness = 10; // degrees that the light covers
+    double shadowSoftness = -1; // degrees that the light covers; negative: those of the lamp of the surroundings
     std::string rows = "down";
     std::string derivatives = "fine";
     int memory = kDefaultMemory;

@@ -60,17 +60,30 @@ Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
     return environmentOfPicture(*picture, made);
 }
 
-// The lamp of the studio, in front of the large box on the left, turned with it.
-std::vector<Light> studioLights(const PictureOptions& o)
+// What lights models in a built-in environment beside the environment itself, turned with it: in the studio a lamp in
+// front of the large box on the left, in the evening the sun. An overcast sky casts no shadow, nor is anything known of
+// the lamps in a file.
+std::vector<Light> lampsOf(const PictureOptions& o)
 {
-    Light key;
-    key.intensity = 3.2f * o.environmentIntensity;
-    key.color = {1, 0.985f, 0.96f};
-    const glm::vec3 d = glm::normalize(glm::vec3(0.62f, -0.9f, -0.7f));
+    struct Lamp {
+        float intensity;
+        glm::vec3 color, direction;
+    };
+    static const std::map<std::string, Lamp> kLamps = {
+        {"studio", {3.2f, {1, 0.985f, 0.96f}, {0.62f, -0.9f, -0.7f}}},
+        {"evening", {4.5f, {1, 0.58f, 0.24f}, {-0.8f, -0.28f, -0.6f}}},
+    };
+    const auto lamp = kLamps.find(o.environment);
+    if (lamp == kLamps.end())
+        return {};
+    Light light;
+    light.intensity = lamp->second.intensity * o.environmentIntensity;
+    light.color = lamp->second.color;
+    const glm::vec3 d = glm::normalize(lamp->second.direction);
     const float c = float(std::cos(o.environmentRotation * kRadians)),
                 s = float(std::sin(o.environmentRotation * kRadians));
-    key.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
-    return {key};
+    light.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+    return {light};
 }
 
 } // namespace
@@ -88,7 +101,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
         .in("NAME");
     a.option(
          "--environment", o.environment,
-         "surroundings that light the model: studio (with a lamp, for models without lights), overcast, evening, or "
+         "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
+         "overcast, or "
          "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
         .in("NAME|FILE");
     a.option("--environment-rotation", o.environmentRotation,
@@ -107,9 +121,11 @@ void addLightOptions(Arguments& a, PictureOptions& o)
         .from({"on", "off"})
         .in("NAME");
     a.option("--shadow-softness", o.shadowSoftness,
-             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun")
+             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
+             "(default: 10, in the evening 3)")
         .within(0.0, 60.0)
-        .in("DEGREES");
+        .in("DEGREES")
+        .withoutDefault();
     a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
 }
 
@@ -119,7 +135,7 @@ std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
         return scene.lights;
     if (!surrounded(o))
         return defaultLights();
-    return o.environment == "studio" ? studioLights(o) : std::vector<Light>{};
+    return lampsOf(o);
 }
 
 std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
@@ -151,13 +167,16 @@ Status lightPicture(const PictureOptions& options, View& view)
     const std::string background = backgroundOf(options);
     const bool seen = background == "environment" || background == "blur";
     if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
-        return usageError(fmt::format("--{}: expected --environment with it; found none",
+        return usageError(fmt::format("--{}: expected an --environment other than none with it; found none",
                                       seen                                   ? "background " + background
                                           : options.environmentRotation != 0 ? "environment-rotation"
                                                                              : "environment-intensity"));
     view.toneMapping = kToneMappings.at(options.toneMapping);
     view.shadows = !options.noShadows;
-    view.shadowSoftness = float(std::tan(options.shadowSoftness * kRadians / 2));
+    const double softness = options.shadowSoftness >= 0 ? options.shadowSoftness
+        : options.environment == "evening"              ? 3
+                                                        : 10;
+    view.shadowSoftness = float(std::tan(softness * kRadians / 2));
     view.background = background != "none";
     if (view.background)
         view.backdrop = kBackdrops.at(background);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/image/animation.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
@@ -35,10 +36,17 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     return image;
 }
 
-// Draws one picture into o.output. The pictures of a sequence share the view that is made for the first: its camera,
-// and surroundings that take a second to make.
-Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>& shared)
+// What the pictures of a sequence share: the view that is made for the first, with its camera and surroundings that
+// take a second to make; and the file of all, where there is one.
+struct Sequence {
+    std::optional<View> view;
+    std::unique_ptr<AnimationWriter> animation;
+};
+
+// Draws one picture into o.output, or as the next one of the sequence's file.
+Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
 {
+    std::optional<View>& shared = sequence.view;
     Stopwatch total;
     auto picture = openPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
     if (!picture)
@@ -60,7 +68,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, std::optional<View>
     if (!image)
         return image.error();
     const double drawSeconds = watch.lap();
-    if (Status written = writeImage(o.output, *image); !written)
+    if (Status written = sequence.animation ? sequence.animation->add(*image) : writeImage(o.output, *image); !written)
         return written;
     const double writeSeconds = watch.lap();
 
@@ -107,6 +115,22 @@ std::filesystem::path numbered(std::filesystem::path file, int number)
     return file.replace_filename(name);
 }
 
+// One file for all pictures.
+Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Sequence& sequence)
+{
+    const auto size = parseSize(o.picture.size);
+    if (!size)
+        return size.error();
+    auto animation = createAnimation(o.output, {size->first, size->second, pictures, o.rate});
+    if (!animation)
+        return animation.error();
+    sequence.animation = std::move(*animation);
+    if (const double rate = animationRate(o.output, o.rate); rate != o.rate)
+        warn(o, "{}: GIF counts in hundredths of a second: {:.4g} pictures a second, not {:g}", o.output.string(), rate,
+             o.rate);
+    return Done{};
+}
+
 Status run(const RenderCommandOptions& o)
 {
     if (o.output.empty())
@@ -119,30 +143,39 @@ Status run(const RenderCommandOptions& o)
     const auto numbers = parseFrames(o);
     if (!numbers)
         return numbers.error();
+    const bool animated = isAnimation(o.output);
+    if (animated && numbers->empty())
+        return usageError(fmt::format("-o: {} files hold the pictures of --frames; found no --frames",
+                                      o.output.extension().string()));
     std::vector<PlannedOutput> outputs;
     for (const int number : *numbers)
-        outputs.push_back({"-o", numbered(o.output, number)});
+        if (!animated)
+            outputs.push_back({"-o", numbered(o.output, number)});
     if (outputs.empty())
         outputs.push_back({"-o", o.output});
     if (Status planned = planOutputs(o, outputs); !planned)
         return planned;
-    std::optional<View> shared;
+    Sequence sequence;
     RenderCommandOptions one = o;
     one.picture.use = o.picture.show != "shaded" ? PictureUse::data
         : keepsFloats(o.output)          ? PictureUse::radiance
                                          : PictureUse::shown;
     if (numbers->empty())
-        return renderOne(one, *frame, shared);
+        return renderOne(one, *frame, sequence);
+    if (animated)
+        if (Status begun = beginAnimation(o, numbers->size(), sequence); !begun)
+            return begun;
     for (const int number : *numbers) {
-        one.output = numbered(o.output, number);
+        if (!animated)
+            one.output = numbered(o.output, number);
         one.picture.time = number / o.rate;
-        if (Status drawn = renderOne(one, *frame, shared); !drawn)
+        if (Status drawn = renderOne(one, *frame, sequence); !drawn)
             return drawn;
-        if (one.quiet) // the first speaks for itself
+        if (one.quiet && !animated) // the first speaks for itself
             say(o, "{}", one.output.string());
         one.quiet = true; // what is to be warned of was said for the first
     }
-    return Done{};
+    return animated ? sequence.animation->finish() : Status(Done{});
 }
 
 void declare(Arguments& a, RenderCommandOptions& o)
@@ -150,8 +183,10 @@ void declare(Arguments& a, RenderCommandOptions& o)
     addPictureOptions(a, o.picture);
     a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
     addShowOption(a, o.picture.show);
-    a.option("--frames", o.frames,
-             "pictures A to B of --animation, written as NAME-0000.png and so on with the camera of the first")
+    a.option(
+         "--frames", o.frames,
+         "pictures A to B of --animation with the camera of the first, written as NAME-0000.png and so on, or into one "
+         ".webp or .gif")
         .in("A..B");
     a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
 }
@@ -160,13 +195,15 @@ void declare(Arguments& a, RenderCommandOptions& o)
 
 void addRenderCommand(Arguments& tool)
 {
-    addCommand<RenderCommandOptions>(tool,
-                                     {"render",
-                                      "draw a model, or the built-in scene, to a picture",
-                                      "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats",
-                                      {"cotan render model.glb -o picture.png --frame cotangent --view normal",
-                                       "cotan render --size 640x360 -o scene.png"}},
-                                     declare, run);
+    addCommand<RenderCommandOptions>(
+        tool,
+        {"render",
+         "draw a model, or the built-in scene, to a picture",
+         "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats; .webp, .gif: all "
+         "of --frames",
+         {"cotan render model.glb -o picture.png --frame cotangent --view normal",
+          "cotan render --size 640x360 -o scene.png"}},
+        declare, run);
 }
 
 } // namespace cotan::app

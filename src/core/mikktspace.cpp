@@ -306,19 +306,14 @@ constexpr std::size_t kTrianglesPerThread = 8192;
 
 std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
 {
-    if (!tangents::usable(mesh))
-        return {};
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
+    if (!tangents::usable(mesh, used))
+        return {};
     std::vector<glm::vec4> out;
     CornersAt at;
-    LargeArray<std::uint32_t> firstVertex;
-    runTasks(2, used, [&](std::size_t i) { // fresh memory takes more than half as long as the welding
-        if (i == 0) {
-            firstVertex = tangents::weld(mesh, std::max<std::size_t>(used - 1, 1));
-        } else {
-            out = zeros(mesh.indices.size());
-            at = noCorners(mesh);
-        }
+    LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, [&] { // fresh memory takes half as long
+        out = zeros(mesh.indices.size());
+        at = noCorners(mesh);
     });
     Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);
     addCorners(t, used, at);

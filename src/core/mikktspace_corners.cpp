@@ -16,15 +16,20 @@ CornersAt noCorners(const MeshView& mesh)
 void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
 {
     const std::size_t vertices = t.mesh.positions.size();
-    // Each thread reads all corners and writes those of its own vertices, from the last.
+    // Each thread writes the corners of its own vertices, from the last, and reads the blocks that have such.
     runTasks(threads, threads, [&](std::size_t part) {
         const std::size_t begin = partBegin(vertices, part, threads);
         const std::size_t size = partBegin(vertices, part + 1, threads) - begin;
-        for (std::size_t f = t.count; f-- > 0;)
-            if (!t.has(f, kDegenerate))
-                for (std::size_t c = 3 * f + 3; c-- > 3 * f;)
-                    if (const std::size_t v = t.vertices[c]; v - begin < size)
-                        at.next[c] = std::exchange(at.first[v], static_cast<std::uint32_t>(c));
+        for (std::size_t block = t.ranges.size(); block-- > 0;) {
+            const VertexRange range = t.ranges[block];
+            if (range.least >= begin + size || range.most < begin)
+                continue;
+            for (std::size_t f = std::min((block + 1) * kBlock, t.count); f-- > block * kBlock;)
+                if (!t.has(f, kDegenerate))
+                    for (std::size_t c = 3 * f + 3; c-- > 3 * f;)
+                        if (const std::size_t v = t.vertices[c]; v - begin < size)
+                            at.next[c] = std::exchange(at.first[v], static_cast<std::uint32_t>(c));
+        }
     });
 }
 

@@ -7,6 +7,7 @@ namespace cotan::mikktspace {
 namespace {
 
 using tangents::fastArcCosine;
+using tangents::kNone;
 using tangents::projectedAngle;
 using tangents::projectedUnit;
 
@@ -156,6 +157,17 @@ void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles
     }
 }
 
+// Without a branch, so that compilers compare several at once.
+VertexRange rangeOf(std::span<const std::uint32_t> vertices)
+{
+    VertexRange range{vertices[0], vertices[0]};
+    for (const std::uint32_t v : vertices) {
+        range.least = std::min(range.least, v);
+        range.most = std::max(range.most, v);
+    }
+    return range;
+}
+
 } // namespace
 
 Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
@@ -165,20 +177,31 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
     std::uint32_t moved = 0; // without a branch, so that compilers compare several at once
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         moved |= firstVertex[v] ^ v;
-    Triangles t{
-        mesh, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), makeLargeArray<glm::vec3>(count)};
+    const std::size_t blocks = (count + kBlock - 1) / kBlock;
+    Triangles t{mesh,
+                count,
+                mesh.indices.data(),
+                {},
+                makeLargeArray<std::uint8_t>(count),
+                makeLargeArray<glm::vec3>(count),
+                std::vector<VertexRange>(blocks, {0, kNone})};
     if (moved != 0)
         t.vertices = (t.welded = makeLargeArray<std::uint32_t>(3 * count)).get();
-    runParts(count, threads, [&](std::size_t begin, std::size_t end) {
-        if (t.welded)
-            for (std::size_t c = 3 * begin; c < 3 * end; ++c)
-                t.welded[c] = firstVertex[mesh.indices[c]];
+    runParts(blocks, threads, [&](std::size_t firstBlock, std::size_t endBlock) {
         const auto batch = std::make_unique<Batch>();
-        for (std::size_t first = begin; first < end; first += kLanes) {
-            const std::size_t lanes = std::min(kLanes, end - first);
-            gather(t, first, lanes, *batch);
-            derive(*batch);
-            scatter(*batch, first, lanes, t, contributions);
+        for (std::size_t block = firstBlock; block < endBlock; ++block) {
+            const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, count);
+            if (t.welded)
+                for (std::size_t c = 3 * begin; c < 3 * end; ++c)
+                    t.welded[c] = firstVertex[mesh.indices[c]];
+            if (threads > 1) // one thread takes all corners as they come
+                t.ranges[block] = rangeOf({t.vertices + 3 * begin, 3 * (end - begin)});
+            for (std::size_t first = begin; first < end; first += kLanes) {
+                const std::size_t lanes = std::min(kLanes, end - first);
+                gather(t, first, lanes, *batch);
+                derive(*batch);
+                scatter(*batch, first, lanes, t, contributions);
+            }
         }
     });
     return t;

@@ -16,13 +16,20 @@ enum Flag : std::uint8_t {
     kTaken = 8,      // its first corner is in a group; 16: its second, 32: its third
 };
 
+// The vertices of a block of triangles.
+struct VertexRange {
+    std::uint32_t least = 0, most = 0;
+};
+constexpr std::size_t kBlock = 1024; // triangles: their corners stay in the first cache
+
 struct Triangles {
     const MeshView& mesh;
     std::size_t count = 0;
     const std::uint32_t* vertices = nullptr; // three a triangle, welded: the mesh's where none are equal
     LargeArray<std::uint32_t> welded;
-    LargeArray<std::uint8_t> flags; // of Flag, one a triangle
-    LargeArray<glm::vec3> alongV;   // per triangle: unit dP/dv, or zero
+    LargeArray<std::uint8_t> flags;  // of Flag, one a triangle
+    LargeArray<glm::vec3> alongV;    // per triangle: unit dP/dv, or zero
+    std::vector<VertexRange> ranges; // per block
 
     std::size_t corners() const { return 3 * count; }
     bool has(std::size_t triangle, int flag) const { return (flags[triangle] & flag) != 0; }

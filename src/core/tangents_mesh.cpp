@@ -2,19 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace cotan::tangents {
 
-bool usable(const MeshView& mesh)
+bool usable(const MeshView& mesh, std::size_t threads)
 {
     const std::size_t count = mesh.positions.size();
     if (mesh.normals.size() != count || mesh.texcoords.size() != count || mesh.indices.size() % 3 != 0
         || mesh.indices.size() >= kNone || count >= kNone)
         return false;
-    return std::all_of(mesh.indices.begin(), mesh.indices.end(), [count](std::uint32_t i) { return i < count; });
+    std::atomic<bool> inRange{true};
+    runParts(mesh.indices.size(), threads, [&](std::size_t begin, std::size_t end) {
+        const auto part = mesh.indices.subspan(begin, end - begin);
+        if (!std::all_of(part.begin(), part.end(), [count](std::uint32_t i) { return i < count; }))
+            inRange = false;
+    });
+    return inRange;
 }
 
-LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const std::function<void()>& beside)
 {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
@@ -22,7 +29,7 @@ LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads)
         return std::array{bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x),
                           bitsOf(n.y), bitsOf(n.z), bitsOf(t.x), bitsOf(t.y)};
     };
-    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads);
+    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads, beside);
 }
 
 glm::vec3 anyPerpendicular(glm::vec3 n)

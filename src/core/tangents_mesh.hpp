@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -22,7 +23,7 @@ namespace cotan::tangents {
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Whether the arrays fit together and every index is in range.
-bool usable(const MeshView& mesh);
+bool usable(const MeshView& mesh, std::size_t threads = 1);
 
 // The bits of x; -0 and +0 have the same.
 inline std::uint32_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }
@@ -45,33 +46,44 @@ inline void fetch([[maybe_unused]] const void* memory)
 #endif
 }
 
+struct Nothing {
+    void operator()() const {}
+};
+
 // For every i < count the smallest j that has the same key. `key(i)` returns an array of
 // std::uint32_t of even length. Linear: hash tables with open addressing, one a thread; equal keys
 // have equal hashes and so meet in one table.
-template<class KeyOf>
-LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1)
+// beside: something that one thread may do meanwhile; called once.
+template<class KeyOf, class Beside = Nothing>
+LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1,
+                                     const Beside& beside = {})
 {
     const LargeArray<std::uint32_t> hashes = makeLargeArray<std::uint32_t>(count);
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             hashes[i] = hashOf(key(static_cast<std::uint32_t>(i)));
     });
-    const auto partOf = [&](std::uint32_t i) { return std::size_t(std::uint64_t(hashes[i]) * threads >> 32); };
-    std::vector<std::size_t> begins(threads + 1, 0); // of the parts' tables
-    runTasks(threads, threads, [&](std::size_t part) {
-        std::size_t keys = 0;
-        for (std::uint32_t i = 0; i < count; ++i)
+    const std::size_t parts = std::max<std::size_t>(threads - 1, 1); // beside the one that is busy with something else
+    const auto partOf = [&](std::uint32_t i) { return std::size_t(std::uint64_t(hashes[i]) * parts >> 32); };
+    std::vector<std::size_t> begins(parts + 1, 0); // of the parts' tables
+    runTasks(parts, threads, [&](std::size_t part) {
+        std::size_t keys = parts == 1 ? count : 0;
+        for (std::uint32_t i = 0; i < count && parts > 1; ++i)
             keys += partOf(i) == part;
         begins[part + 1] = keys + keys / 2 + 1;
     });
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     const LargeArray<std::uint32_t> tables = makeLargeArray<std::uint32_t>(begins.back());
     LargeArray<std::uint32_t> first = makeLargeArray<std::uint32_t>(count);
-    runTasks(threads, threads, [&](std::size_t part) {
+    runTasks(parts + 1, threads, [&](std::size_t part) {
+        if (part == parts) {
+            beside();
+            return;
+        }
         const std::span<std::uint32_t> table(&tables[begins[part]], begins[part + 1] - begins[part]);
         std::fill(table.begin(), table.end(), kNone);
         const auto home = [&](std::uint32_t i) { // spreads the part's hashes over its table
-            return std::size_t(std::uint64_t(std::uint32_t(hashes[i] * threads)) * table.size() >> 32);
+            return std::size_t(std::uint64_t(std::uint32_t(hashes[i] * parts)) * table.size() >> 32);
         };
         constexpr std::uint32_t kAhead = 16; // most slots are not in a cache
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -91,8 +103,9 @@ LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std:
     return first;
 }
 
-// For every vertex the first vertex that equals it in position, normal and texcoord.
-LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1);
+// For every vertex the first vertex that equals it in position, normal and texcoord. beside: as firstEqual has it.
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1,
+                               const std::function<void()>& beside = Nothing());
 
 // A unit vector perpendicular to n; n may be zero or not finite.
 glm::vec3 anyPerpendicular(glm::vec3 n);

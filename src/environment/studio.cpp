@@ -66,20 +66,19 @@ glm::vec3 overcast(glm::vec3 d)
     return glm::mix(ground, sky, smooth(-0.04f, 0.04f, d.y));
 }
 
-// A low sun in front on the right, its glow along the horizon, a dark blue sky.
+// The glow of a low sun in front on the right, along the horizon and around it, and a dark blue sky. The sun itself is
+// a lamp, which casts shadows.
 glm::vec3 evening(glm::vec3 d)
 {
-    static const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.16f, 0.6f));
+    static const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.28f, 0.6f));
     const float height = std::max(d.y, 0.0f);
     const float toSun = std::max(glm::dot(d, sun), 0.0f);
     const glm::vec3 sky =
         glm::mix(glm::vec3(0.70f, 0.42f, 0.30f), glm::vec3(0.07f, 0.12f, 0.30f), 1 - std::exp(-3.2f * height));
     const glm::vec3 glow = glm::vec3(1.8f, 0.75f, 0.22f) * (std::pow(toSun, 8.0f) * std::exp(-2.5f * height));
     const glm::vec3 halo = glm::vec3(6, 3.2f, 1.2f) * std::pow(toSun, 120.0f);
-    // A disc of three degrees: the light of the real one, softened.
-    const glm::vec3 disc = glm::vec3(330, 190, 80) * smooth(std::cos(0.056f), std::cos(0.048f), toSun);
     const glm::vec3 ground = glm::vec3(0.14f, 0.11f, 0.10f) * (1 + 0.6f * std::max(glm::dot(d, sun), 0.0f));
-    return 1.6f * glm::mix(ground, sky + glow + halo + disc, smooth(-0.03f, 0.03f, d.y));
+    return 1.6f * glm::mix(ground, sky + glow + halo, smooth(-0.03f, 0.03f, d.y));
 }
 
 } // namespace

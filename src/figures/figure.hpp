@@ -52,5 +52,6 @@ Figure makeTargetsFigure(Studio& studio);
 Figure makeDecodeFigure(Studio& studio);
 Figure makeFacetingFigure(Studio& studio);
 Figure makeFurnaceFigure(Studio& studio);
+Figure makeSparkleFigure(Studio& studio);
 
 } // namespace cotan::figures

@@ -34,6 +34,7 @@ constexpr FigureInfo kFigures[] = {
     {"decode", makeDecodeFigure},
     {"faceting", makeFacetingFigure},
     {"furnace", makeFurnaceFigure},
+    {"sparkle", makeSparkleFigure},
 };
 
 // The figures of these names, in the order of the table; all if there are none.

@@ -18,8 +18,8 @@ namespace {
 
 using namespace ground;
 
-constexpr int kColumns = 256;                       // a side
-constexpr int kLightPlaces = 320, kSkyPlaces = 160; // of the map, a side
+constexpr int kColumns = 192;                       // a side
+constexpr int kLightPlaces = 256, kSkyPlaces = 128; // of the map, a side
 constexpr int kLightRays = 16 * 24, kSkyRays = 16 * 32;
 constexpr float kLowest = 0.17f; // sine of the height of a light over the horizon below which its shadow is left out
 constexpr float kGolden = 2.399963f;

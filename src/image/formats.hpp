@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/image/animation.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
@@ -35,6 +36,10 @@ struct ImageFormats {
     // As createRows, for the extension of `name`; `file` is where to write and appears at once.
     Result<std::unique_ptr<RowWriter>> (*createRows)(const std::filesystem::path& file, const RowFormat& format,
                                                      int threads, const std::string& name);
+
+    // As createAnimation, for GIF and pictures of unorm8; `file` is where to write and appears at once.
+    Result<std::unique_ptr<AnimationWriter>> (*createGif)(const std::filesystem::path& file,
+                                                          const AnimationFormat& format, const std::string& name);
 };
 
 // Whether this build has the module.

@@ -14,4 +14,10 @@ Result<Image> readWebp(std::span<const std::byte>, const std::string& name, cons
     return Error{missing.kind, fmt::format("{}: {}", name, missing.message)};
 }
 
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file, const AnimationFormat&)
+{
+    const Error missing = notBuiltWith("libwebp", "libwebp-dev");
+    return Error{missing.kind, fmt::format("{}: {}", file.string(), missing.message)};
+}
+
 } // namespace cotan

@@ -268,7 +268,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
     return Done{};
 }
 
-constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows};
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows, createGif};
 
 } // namespace
 } // namespace cotan

@@ -9,6 +9,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "cotan/image/animation.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
@@ -55,5 +56,9 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
                                             const LoadLimits& limits);
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name);
+
+// ImageFormats::createGif.
+Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format,
+                                                   const std::string& name);
 
 } // namespace cotan::oiio

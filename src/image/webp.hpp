@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cotan/files/limits.hpp"
+#include "cotan/image/animation.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
@@ -17,6 +18,10 @@ bool readsWebp();
 
 // As decodeImage. Animations are refused.
 Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+
+// As createAnimation, for WebP and pictures of unorm8.
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
+                                                             const AnimationFormat& format);
 
 struct WebpSize {
     std::int64_t width = 0, height = 0; // pixels

@@ -56,10 +56,9 @@ Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& set
 }
 
 // A texture of one level.
-Status writeTexture(const std::filesystem::path& out, const Image& map, bool bc5, const Convention& to)
+Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
 {
-    return bc5 ? writeTextureFile(out, TexelCode::bc5, {bc5Level(map, to)})
-               : writeTextureFile(out, TexelCode::rgba8, {rgbaLevel(map)});
+    return writeTextureFile(out, code, {levelOf(map, code, to)});
 }
 
 // Streams a picture through.
@@ -97,15 +96,15 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     if (!reader)
         return reader.error();
     RowReader& in = **reader;
-    const auto bc5 = wantsBc5(o.compress, o.bits, o.to, out);
-    if (!bc5)
-        return bc5.error();
+    const auto code = codeFor(o.compress, o.bits, o.to, out);
+    if (!code)
+        return code.error();
     const auto bits = isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
     const RecodeSettings settings{.from = o.from,
-                                  .to = *bc5 ? bc5Convention(o.to) : o.to,
-                                  .type = *bc5 ? PixelType::float32 : bits->type,
+                                  .to = codeConvention(*code, o.to),
+                                  .type = *code == TexelCode::rgba8 ? bits->type : PixelType::float32,
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
@@ -118,7 +117,7 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     if (!turned)
         return turned.error();
     const Status written =
-        isTextureFile(out) ? writeTexture(out, *turned, *bc5, o.to) : writeMap(out, *turned, done.bits);
+        isTextureFile(out) ? writeTexture(out, *turned, *code, o.to) : writeMap(out, *turned, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();
 }
 

@@ -9,12 +9,15 @@ namespace cotan::maps {
 namespace {
 
 // The normals with their roughness in alpha.
-TextureLevel levelWithRoughness(const MipLevel& level)
+TextureLevel levelWithRoughness(const MipLevel& level, TexelCode code, const MipFileOptions& o)
 {
-    TextureLevel out = rgbaLevel(level.normals);
-    for (std::size_t i = 0; i < level.normals.pixelCount(); ++i)
-        out.texels[4 * i + 3] = std::byte(level.roughness.bytes8()[4 * i]);
-    return out;
+    Image both = level.normals;
+    for (std::size_t i = 0; i < both.pixelCount(); ++i)
+        if (both.type == PixelType::float32)
+            both.floats()[4 * i + 3] = level.roughness.floats()[4 * i];
+        else
+            both.bytes8()[4 * i + 3] = level.roughness.bytes8()[4 * i];
+    return levelOf(both, code, o.to, o.keepLengths);
 }
 
 std::filesystem::path marked(const std::filesystem::path& file, const std::string& mark)
@@ -22,22 +25,22 @@ std::filesystem::path marked(const std::filesystem::path& file, const std::strin
     return file.parent_path() / (file.stem().string() + mark + file.extension().string());
 }
 
-// One file, or with blocks, which have no room for a third channel, two.
-Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, bool bc5,
+// One file, or with bc5, which has no room for a third channel, two.
+Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, TexelCode code,
                      const MipFileOptions& o)
 {
     std::vector<TextureLevel> normals, roughness;
-    if (!bc5) {
+    if (code != TexelCode::bc5) {
         for (const MipLevel& level : chain)
-            normals.push_back(levelWithRoughness(level));
-        return writeTextureFile(out, TexelCode::rgba8, normals);
+            normals.push_back(levelWithRoughness(level, code, o));
+        return writeTextureFile(out, code, normals);
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
         if (Status may = o.mayWrite(second); !may)
             return may;
     for (const MipLevel& level : chain) {
-        normals.push_back(bc5Level(level.normals, o.to));
+        normals.push_back(levelOf(level.normals, code, o.to));
         roughness.push_back(bc4Level(level.roughness));
     }
     if (Status w = writeTextureFile(out, TexelCode::bc5, normals); !w)
@@ -66,10 +69,10 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
     return Done{};
 }
 
-// bc5: floats, of which blocks are made.
-Result<Bits> bitsOfMips(bool bc5, PixelType input, const std::filesystem::path& out, const MipFileOptions& o)
+// Of blocks floats, of which they are made.
+Result<Bits> bitsOfMips(TexelCode code, PixelType input, const std::filesystem::path& out, const MipFileOptions& o)
 {
-    if (bc5)
+    if (code != TexelCode::rgba8)
         return Bits{PixelType::float32, false};
     return isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, input, o.to, out);
 }
@@ -84,15 +87,15 @@ std::filesystem::path firstMipFile(const std::filesystem::path& out)
 Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file, const std::filesystem::path& out,
                                                const MipFileOptions& o, const FileOptions& files)
 {
-    const auto bc5 = wantsBc5(o.compress, o.bits, o.to, out);
-    if (!bc5)
-        return bc5.error();
-    if (*bc5 && o.keepLengths)
+    const auto code = codeFor(o.compress, o.bits, o.to, out);
+    if (!code)
+        return code.error();
+    if (*code == TexelCode::bc5 && o.keepLengths)
         return usageError("options.keepLengths: bc5 has no channel for lengths");
     const auto map = readMap(file, o.from, files.limits);
     if (!map)
         return map.error();
-    const auto bits = bitsOfMips(*bc5, map->type, out, o);
+    const auto bits = bitsOfMips(*code, map->type, out, o);
     if (!bits)
         return bits.error();
     // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
@@ -105,14 +108,14 @@ Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file
         return stoppedError();
     const auto chain = mipChain(*map,
                                 {.from = o.from,
-                                 .to = *bc5 ? bc5Convention(o.to) : o.to,
+                                 .to = codeConvention(*code, o.to),
                                  .keepLengths = o.keepLengths,
                                  .model = o.model,
                                  .roughness = o.roughness,
                                  .type = bits->type});
     if (!steps.step())
         return stoppedError();
-    if (Status written = isTextureFile(out) ? writeTextures(out, chain, *bc5, o) : writeChain(out, chain, *bits, o);
+    if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);
         !written)
         return written.error();
     steps.step();

@@ -29,6 +29,7 @@ CodeFacts factsOf(TexelCode code)
 {
     switch (code) {
     case TexelCode::bc5: return {83, 141, 16, 132, {0, 1}};
+    case TexelCode::bc7: return {98, 145, 16, 134, {0}};
     case TexelCode::bc4: return {80, 139, 8, 131, {0}};
     case TexelCode::rgba8: break;
     }
@@ -141,22 +142,25 @@ Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const
     return writeFileWhole(file, lowerExtension(file) == ".dds" ? ddsBytes(code, levels) : ktx2Bytes(code, levels));
 }
 
-TextureLevel rgbaLevel(const Image& image) { return {image.width, image.height, image.data}; }
-
-TextureLevel bc5Level(const Image& image, const Convention& to)
+TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths)
 {
-    return {image.width, image.height, encodeBc5(image, scaleOf(to.expansion))};
+    TextureLevel level{image.width, image.height, {}};
+    if (code == TexelCode::bc5)
+        level.texels = encodeBc5(image, scaleOf(to.expansion));
+    else if (code == TexelCode::bc7)
+        level.texels = encodeBc7(image, scaleOf(to.expansion), lengths);
+    else
+        level.texels = image.data;
+    return level;
 }
 
 TextureLevel bc4Level(const Image& image) { return {image.width, image.height, encodeBc4(image)}; }
 
-Result<bool> wantsBc5(const std::string& compress, const std::string& bits, const Convention& to,
-                      const std::filesystem::path& file)
+Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
+                          const std::filesystem::path& file)
 {
-    if (compress == "bc7")
-        return usageError("options.compress: bc7 is read and not written; expected none or bc5");
-    if (compress != "none" && compress != "bc5")
-        return usageError(fmt::format("options.compress: expected none or bc5; found '{}'", compress));
+    if (compress != "none" && compress != "bc5" && compress != "bc7")
+        return usageError(fmt::format("options.compress: expected none, bc5 or bc7; found '{}'", compress));
     if (!isTextureFile(file) && compress != "none")
         return usageError(fmt::format("options.compress: blocks are for .dds and .ktx2 files; found '{}'",
                                       file.extension().string()));
@@ -165,17 +169,21 @@ Result<bool> wantsBc5(const std::string& compress, const std::string& bits, cons
             fmt::format("options.bits: {} files are written with 8 bits; found '{}'", lowerExtension(file), bits));
     if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
         return usageError("options.to: bc5 holds x and y of unit vectors; found another form of two channels");
+    if (compress == "bc7" && to.channels != Channels::xyz)
+        return usageError("options.to: bc7 holds x, y and z; found two channels, which bc5 is for");
     if (isTextureFile(file) && to.expansion == Expansion::signedValues)
         return usageError("options.to: signed values need a .exr or .tif of floats");
-    return compress == "bc5";
+    return compress == "bc5" ? TexelCode::bc5 : compress == "bc7" ? TexelCode::bc7 : TexelCode::rgba8;
 }
 
-Convention bc5Convention(const Convention& to)
+Convention codeConvention(TexelCode code, const Convention& to)
 {
-    Convention two = to;
-    two.channels = Channels::orthographic;
-    two.expansion = Expansion::biased;
-    return two;
+    Convention taken = to;
+    if (code == TexelCode::bc5)
+        taken.channels = Channels::orthographic;
+    if (code != TexelCode::rgba8)
+        taken.expansion = Expansion::biased;
+    return taken;
 }
 
 } // namespace cotan::maps

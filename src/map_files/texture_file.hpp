@@ -11,7 +11,7 @@
 
 namespace cotan::maps {
 
-enum class TexelCode { rgba8, bc5, bc4 };
+enum class TexelCode { rgba8, bc5, bc7, bc4 };
 
 struct TextureLevel {
     int width = 0, height = 0;
@@ -24,17 +24,19 @@ bool isTextureFile(const std::filesystem::path& file);
 // levels: each half as large as the one before, the largest first. Errors: as writeFileWhole.
 Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels);
 
-// A level of an image: unorm8 as it is, float32 of two channels (bc5Convention) as BC5, or its red as BC4.
-TextureLevel rgbaLevel(const Image& image);
-TextureLevel bc5Level(const Image& image, const Convention& to);
+// Normals as a level of a texture that is read as `to`. image: unorm8 for rgba8, else float32 as codeConvention has it.
+// lengths: of bc7, are kept.
+TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths = false);
+
+// Red as BC4. image: float32.
 TextureLevel bc4Level(const Image& image);
 
-// "none" or "bc5" for a file of that name: whether blocks are asked for. Errors (ErrorKind::usage): "options.compress:
-// ", "options.to: " and "options.bits: ".
-Result<bool> wantsBc5(const std::string& compress, const std::string& bits, const Convention& to,
-                      const std::filesystem::path& file);
+// "none", "bc5" or "bc7" for a file of that name. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
+// "options.bits: ".
+Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
+                          const std::filesystem::path& file);
 
-// How bc5Level takes the normals that are to be read as `to`: two channels, 2c - 1.
-Convention bc5Convention(const Convention& to);
+// How levelOf takes the normals that are to be read as `to`: for blocks 2c - 1, for bc5 two channels.
+Convention codeConvention(TexelCode code, const Convention& to);
 
 } // namespace cotan::maps

@@ -7,35 +7,11 @@
 #include <cstring>
 #include <utility>
 
-#include "cotan/parallel/loops.hpp"
-
-// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
+#include "block_texels.hpp"
 
 namespace cotan::maps {
 
 namespace {
-
-// Sixteen texels, four at a time: strict sums of floats are not made side by side by compilers. The order of the sums
-// is fixed, so the bytes are the same everywhere.
-using Four = float __attribute__((vector_size(16)));
-using FourInts = std::int32_t __attribute__((vector_size(16)));
-using Values = std::array<Four, 4>;
-
-float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
-
-Four most(Four a, Four b) { return a > b ? a : b; }
-Four least(Four a, Four b) { return a < b ? a : b; }
-float sumOf(Four f) { return (f[0] + f[1]) + (f[2] + f[3]); }
-
-// To the next whole number, of numbers below 2^22: what is added has no room for fractions.
-Four rounded(Four f)
-{
-    constexpr float kNoFractions = 12582912;
-    return f + kNoFractions - kNoFractions;
-}
 
 // One channel of a block: two ends, the first the larger, and at which seventh between them each texel lies, from 0 at
 // the second end.
@@ -43,7 +19,7 @@ struct Ends {
     int high = 1, low = 0;
 };
 
-constexpr Four kNone{}, kAll{7, 7, 7, 7};
+constexpr Four kAll{7, 7, 7, 7};
 
 Four placeOf(Four value, float low, float inverseStep)
 {
@@ -183,7 +159,7 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
     for (std::size_t i = 0; i < 4; ++i) {
         const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
         const Four square = most(1 - nx * nx - ny * ny, kNone + kLeastZ * kLeastZ);
-        const Four z{std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2]), std::sqrt(square[3])};
+        const Four z = rootOf(square);
         t.u[i] = nx / z;
         t.v[i] = ny / z;
         t.weightX[i] = 1 + t.u[i] * t.u[i];
@@ -263,17 +239,6 @@ void encodeNormals(const Texels& t, std::byte* to)
         pairUp(t, x, y, placesX, placesY);
     put(x, placesX, to);
     put(y, placesY, to + 8);
-}
-
-template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)
-{
-    const std::size_t across = std::size_t(map.width + 3) / 4, down = std::size_t(map.height + 3) / 4;
-    std::vector<std::byte> blocks(across * down * bytes);
-    parallelFor(std::size_t(0), down, [&](std::size_t row) {
-        for (std::size_t column = 0; column < across; ++column)
-            encode(int(column) * 4, int(row) * 4, blocks.data() + (row * across + column) * bytes);
-    });
-    return blocks;
 }
 
 } // namespace

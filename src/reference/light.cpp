@@ -61,6 +61,20 @@ glm::vec3 surroundings(const f32::cotan_surface& surface, const Layers& layers, 
     return f32::cotan_reflect_sheen_around(*layers.sheen, surface.n, surface.v, irradiance * surface.occlusion, light);
 }
 
+// The mean over the point's normals of what a surface with each reflects.
+template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const LitPoint& point, const Reflect& reflect)
+{
+    if (point.taps.empty())
+        return reflect(surface);
+    glm::vec3 sum(0);
+    for (const LitTap& tap : point.taps) {
+        surface.n = tap.n;
+        surface.roughness = tap.roughness;
+        sum += reflect(surface);
+    }
+    return sum / float(point.taps.size());
+}
+
 bool goesByRays(const View& view, const TangentSpace* tangent)
 {
     return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
@@ -119,7 +133,9 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
         else
             radiance += arriving
                 * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
-                           : reflected(surface, layers, arrival.toLight, view.shading));
+                           : meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
+                                 return reflected(s, layers, arrival.toLight, view.shading);
+                             }));
         if (layers.coat)
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
@@ -129,7 +145,8 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
             arrivals);
     if (view.environment) {
         if (!rays)
-            radiance += surroundings(surface, layers, view);
+            radiance +=
+                meanOfTaps(surface, point, [&](const f32::cotan_surface& s) { return surroundings(s, layers, view); });
         if (layers.coat)
             fromCoat += surface.occlusion
                 * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)

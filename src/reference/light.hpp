@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -29,10 +30,17 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
 struct TangentSpace;
 
+// One of several normals of a pixel that are lit one by one.
+struct LitTap {
+    glm::vec3 n{0};
+    float roughness = 0;
+};
+
 // A shaded point, beyond what the portable text's surface holds.
 struct LitPoint {
-    glm::vec3 position{0}; // relative to the eye
-    glm::vec3 normal{0};   // unit, not perturbed, on the camera's side: for the shadow
+    glm::vec3 position{0};        // relative to the eye
+    glm::vec3 normal{0};          // unit, not perturbed, on the camera's side: for the shadow
+    std::span<const LitTap> taps; // what is reflected is their mean; none: as the surface says
 };
 
 // What extensions add to a surface, in the world. Blinn-Phong has none of it.

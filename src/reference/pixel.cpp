@@ -1,6 +1,7 @@
 #include "pixel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -130,9 +131,16 @@ Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseC
         return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, quad, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
-    if (all.view.specularAntialiasing)
+    LitPoint point{
+        quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated, {}};
+    std::array<LitTap, kTaps> taps;
+    if (all.view.specularAntialiasing) {
+        for (std::size_t i = 0; i < taps.size(); ++i)
+            taps[i] = {normal.taps[i].n, f32::cotan_roughness_of_spread(surface.roughness, normal.taps[i].spread)};
+        if (normal.mapped)
+            point.taps = taps;
         surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
-    LitPoint point{quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated};
+    }
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
     const Layers layers = layersOf(all, in, quad, lane, normal);

@@ -226,6 +226,18 @@ bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) &&
 
 } // namespace
 
+namespace {
+
+// The part of a pixel around a tap.
+UvDifferences tapOf(const UvDifferences& pixel, int tap)
+{
+    const float step = 1.0f / kTapsASide;
+    const float x = (float(tap % kTapsASide) + 0.5f) * step - 0.5f, y = (float(tap / kTapsASide) + 0.5f) * step - 0.5f;
+    return {pixel.uv + pixel.dx * x + pixel.dy * y, pixel.dx * step, pixel.dy * step};
+}
+
+} // namespace
+
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     const View& view = *in.view;
@@ -252,12 +264,19 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
+        for (int i = 0; view.specularAntialiasing && i < kTaps; ++i) {
+            const glm::vec4 tap = sample(*in.maps->normal, material.normalMap.sampler, tapOf(uv, i), view.pointSampled);
+            const glm::vec3 turned = f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(tap), format));
+            result.taps[std::size_t(i)] = {f32::cotan_normalize_or(turned, n), result.turn + spreadOf(view, tap)};
+        }
     }
     // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
     // is a dent, so it is the finished normal that turns. t and b stay.
     if (!in.triangle->front) {
         result.finished = -result.finished;
         result.texel = -result.texel;
+        for (SurfaceNormal::Tap& tap : result.taps)
+            tap.n = -tap.n;
     }
     return result;
 }

@@ -49,6 +49,9 @@ glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 // cutoff. alphas: of the quad's lanes.
 unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern);
 
+// Places in a pixel whose normals are lit one by one for specular antialiasing: this many a side, even over it.
+constexpr int kTapsASide = 4, kTaps = kTapsASide * kTapsASide;
+
 struct SurfaceNormal {
     glm::vec3 interpolated{0}; // unit, as the mesh has it
     glm::vec3 finished{0};     // unit, perturbed, turned towards the camera's side
@@ -58,8 +61,13 @@ struct SurfaceNormal {
     f32::cotan_frame frame{}; // that `finished` was made with
     float turn = 0;           // spread of `interpolated` in the pixel, where the view asks for it
     float spread = 0;         // the same of `finished`
-    bool mapped = false;      // there is a normal map, and what follows is set
-    glm::vec3 texel{0, 0, 1}; // decoded, unit, in the frame; turned towards the camera's side
+    struct Tap {
+        glm::vec3 n{0}; // as `finished`
+        float spread = 0;
+    };
+    std::array<Tap, kTaps> taps{}; // where there is a map and the view asks for specular antialiasing
+    bool mapped = false;           // there is a normal map, and what follows is set
+    glm::vec3 texel{0, 0, 1};      // decoded, unit, in the frame; turned towards the camera's side
 };
 
 // As the material's normal map has it.

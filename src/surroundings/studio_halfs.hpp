@@ -14,8 +14,7 @@ inline constexpr std::size_t kStudioHalfs =
 
 inline EnvironmentMap makeBuiltin(const std::string& name, const Radiance& radiance, const EnvironmentOptions& options)
 {
-    const int samples = name == "evening" ? 2 : 1; // only its sun is small
-    EnvironmentMap map = makeEnvironment(radiance, samples, options);
+    EnvironmentMap map = makeEnvironment(radiance, 1, options);
     map.name = name;
     return map;
 }

@@ -21,7 +21,7 @@ struct MeshOfMap {
 struct ConvertFileOptions {
     Convention from{}, to{};
     std::string bits = "auto";       // as bitsFor; .dds and .ktx2 have 8
-    std::string compress = "none";   // .dds and .ktx2: "none" or "bc5", x and y of unit vectors
+    std::string compress = "none";   // .dds and .ktx2: "none", "bc5", x and y of unit vectors, or "bc7", x, y and z
     float strength = 1;              // factor on the slopes; negative turns bumps into dents; not 0
     bool normalise = false;          // three channels to three: otherwise lengths are kept
     bool dither = false;             // half a step of noise before rounding

@@ -15,7 +15,7 @@ struct MipFileOptions {
     double roughness = 0.3;        // perceptual roughness of the material, 0 to 1
     bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
     std::string bits = "auto";     // as bitsFor; .dds and .ktx2 have 8
-    std::string compress = "none"; // .dds and .ktx2: "none" or "bc5"
+    std::string compress = "none"; // .dds and .ktx2: "none", "bc5" or "bc7"
     // Asked about each file before the first is written; an error ends the call. May be empty.
     std::function<Status(const std::filesystem::path&)> mayWrite{};
 };

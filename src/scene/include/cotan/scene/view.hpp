@@ -33,8 +33,8 @@ enum class Lighting {
 };
 
 // What a turned normal does to a surface that is otherwise flat there. All but the first follow rays from the point, 64
-// a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference renderer
-// only; with Blinn-Phong and in tangent space all are the first.
+// a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference
+// renderer only; with Blinn-Phong and in tangent space all are the first.
 enum class NormalMapping {
     shading,     // lights and surroundings meet the turned normal
     rays,        // the same, but light from below the surface is lost, as path tracers have it
@@ -87,7 +87,7 @@ struct View {
     ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;
     int samples = 4; // shaded only: 1 or 4 a pixel
-    // Shaded: rougher where normals turn within a pixel, or where a filtered texel of the normal map is short.
+    // Shaded: lights sixteen normals of a pixel, each rougher by what is smaller: turn, and lost length of the map's.
     bool specularAntialiasing = false;
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers
     Derivatives derivatives = Derivatives::fine;

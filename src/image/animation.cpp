@@ -1,0 +1,118 @@
+#include "cotan/image/animation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+#include "cotan/files/output.hpp"
+#include "cotan/image/convert.hpp"
+#include "formats.hpp"
+#include "webp.hpp"
+
+namespace cotan {
+
+namespace {
+
+bool isGif(const std::filesystem::path& file) { return lowerExtension(file) == ".gif"; }
+
+// A GIF is written beside its place by the module.
+class GifFile : public AnimationWriter {
+public:
+    GifFile(OutputFile output, std::unique_ptr<AnimationWriter> writer)
+        : output_(std::move(output)), writer_(std::move(writer))
+    {
+    }
+
+    Status add(const Image& picture) override { return inWords(writer_->add(picture)); }
+
+    Status finish() override
+    {
+        if (Status done = writer_->finish(); !done)
+            return inWords(std::move(done));
+        return output_.commit();
+    }
+
+private:
+    Status inWords(Status status) const { return status ? std::move(status) : Status(output_.failed(status.error())); }
+
+    OutputFile output_;
+    std::unique_ptr<AnimationWriter> writer_;
+};
+
+// Of 8 bits, whatever comes.
+class EightBits : public AnimationWriter {
+public:
+    EightBits(std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
+        : writer_(std::move(writer)), format_(format), name_(std::move(name))
+    {
+    }
+
+    Status add(const Image& picture) override
+    {
+        if (picture.width != format_.width || picture.height != format_.height)
+            return outputError(fmt::format("{}: expected pictures of {} x {}; found {} x {}", name_, format_.width,
+                                           format_.height, picture.width, picture.height));
+        return picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture));
+    }
+
+    Status finish() override { return writer_->finish(); }
+
+private:
+    std::unique_ptr<AnimationWriter> writer_;
+    AnimationFormat format_;
+    std::string name_;
+};
+
+Status checkFormat(const std::filesystem::path& file, const AnimationFormat& format)
+{
+    const int most = isGif(file) ? 65535 : 16383;
+    if (format.width < 1 || format.height < 1 || format.width > most || format.height > most)
+        return usageError(fmt::format("{}: expected a picture of 1 to {} pixels a side; found {} x {}", file.string(),
+                                      most, format.width, format.height));
+    const double fastest = isGif(file) ? 50 : 1000;
+    if (!(format.rate > 0) || format.rate > fastest)
+        return usageError(fmt::format("{}: expected at most {:.0f} pictures a second in such a file; found {:g}",
+                                      file.string(), fastest, format.rate));
+    return Done{};
+}
+
+Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format)
+{
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", file.string(), formats.error().message)};
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    AnimationFormat rounded = format;
+    rounded.rate = animationRate(file, format.rate);
+    auto writer = (*formats)->createGif(output->path(), rounded, file.string());
+    if (!writer)
+        return output->failed(writer.error());
+    return std::unique_ptr<AnimationWriter>(new GifFile(std::move(*output), std::move(*writer)));
+}
+
+} // namespace
+
+bool isAnimation(const std::filesystem::path& file) { return isGif(file) || lowerExtension(file) == ".webp"; }
+
+double animationRate(const std::filesystem::path& file, double rate)
+{
+    return isGif(file) ? 100 / std::max(std::round(100 / rate), 1.0) : rate;
+}
+
+Result<std::unique_ptr<AnimationWriter>> createAnimation(const std::filesystem::path& file,
+                                                         const AnimationFormat& format)
+{
+    if (Status fits = checkFormat(file, format); !fits)
+        return fits.error();
+    auto writer = isGif(file) ? createGif(file, format) : createWebpAnimation(file, format);
+    if (!writer)
+        return writer.error();
+    return std::unique_ptr<AnimationWriter>(new EightBits(std::move(*writer), format, file.string()));
+}
+
+} // namespace cotan

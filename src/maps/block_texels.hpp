@@ -1,0 +1,59 @@
+// What encoders of blocks of 4 x 4 texels share.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cotan/parallel/loops.hpp"
+#include "cotan/scene/image.hpp"
+
+// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
+namespace cotan::maps {
+
+// Sixteen texels, four at a time: strict sums of floats are not made side by side by compilers. The order of the sums
+// is fixed, so the bytes are the same everywhere.
+using Four = float __attribute__((vector_size(16)));
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+using Values = std::array<Four, 4>;
+
+inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
+
+inline Four most(Four a, Four b) { return a > b ? a : b; }
+inline Four least(Four a, Four b) { return a < b ? a : b; }
+inline float sumOf(Four f) { return (f[0] + f[1]) + (f[2] + f[3]); }
+
+inline Four rootOf(Four f)
+{
+    const Four root{std::sqrt(f[0]), std::sqrt(f[1]), std::sqrt(f[2]), std::sqrt(f[3])};
+    return root;
+}
+
+// To the next whole number, of numbers below 2^22: what is added has no room for fractions.
+inline Four rounded(Four f)
+{
+    constexpr float kNoFractions = 12582912;
+    return f + kNoFractions - kNoFractions;
+}
+
+inline constexpr Four kNone{};
+
+// Rows of blocks from the top. encode(left, top, to): writes the block of those texels.
+template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)
+{
+    const std::size_t across = std::size_t(map.width + 3) / 4, down = std::size_t(map.height + 3) / 4;
+    std::vector<std::byte> blocks(across * down * bytes);
+    parallelFor(std::size_t(0), down, [&](std::size_t row) {
+        for (std::size_t column = 0; column < across; ++column)
+            encode(int(column) * 4, int(row) * 4, blocks.data() + (row * across + column) * bytes);
+    });
+    return blocks;
+}
+
+} // namespace cotan::maps

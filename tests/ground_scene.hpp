@@ -1,0 +1,104 @@
+// A ball and a box over a plane, as a formula and as meshes, and rays to a lamp's disc around them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/draw/painter.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan::test {
+
+// What stands there, as a formula and as a mesh: a ball, and a box that is as wide as it is deep.
+struct Solids {
+    glm::dvec3 ballCentre{-0.6, 0.9, 0.1};
+    double ballRadius = 0.4;
+    glm::dvec3 boxLow{0.3, 0, -0.4}, boxHigh{0.7, 1.2, 0};
+
+    bool stop(const glm::dvec3& from, const glm::dvec3& d) const
+    {
+        const glm::dvec3 c = from - ballCentre;
+        const double b = glm::dot(c, d), root = b * b - glm::dot(c, c) + ballRadius * ballRadius;
+        if (root > 0 && -b + std::sqrt(root) > 0)
+            return true;
+        double first = 1e-6, last = 1e9;
+        for (int i = 0; i < 3; ++i) {
+            const double in = (boxLow[i] - from[i]) / d[i], out = (boxHigh[i] - from[i]) / d[i];
+            first = std::max(first, std::min(in, out));
+            last = std::min(last, std::max(in, out));
+        }
+        return first < last;
+    }
+};
+
+inline void add(Scene& scene, Mesh mesh, const glm::mat4& toWorld)
+{
+    scene.materials.resize(1);
+    scene.materials[0].metallic = 0;
+    Instance instance;
+    instance.mesh = int(scene.meshes.size());
+    instance.toWorld = toWorld;
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back(instance);
+}
+
+inline glm::mat4 placedAt(const glm::dvec3& at, const glm::dvec3& size)
+{
+    glm::mat4 m(1);
+    for (int i = 0; i < 3; ++i)
+        m[i][i] = float(size[i]);
+    m[3] = glm::vec4(glm::vec3(at), 1);
+    return m;
+}
+
+inline Scene sceneOf(const Solids& solids)
+{
+    Scene scene;
+    add(scene, makeSphere(1, 96), placedAt(solids.ballCentre, glm::dvec3(solids.ballRadius)));
+    add(scene, makeCube(1, 1), placedAt((solids.boxLow + solids.boxHigh) / 2.0, solids.boxHigh - solids.boxLow));
+    return scene;
+}
+
+inline constexpr float kSoftness = 0.12f;
+
+inline View sunnyView()
+{
+    View view;
+    view.environment = false;
+    view.shadowSoftness = kSoftness;
+    view.lights.resize(1);
+    view.lights[0].direction = glm::normalize(glm::vec3(0.6f, -0.9f, -0.5f));
+    return view;
+}
+
+// The share of rays to a disc around the light that nothing stops.
+inline double lightTraced(const Solids& solids, const glm::dvec3& from, const glm::dvec3& toLight, double softness)
+{
+    const glm::dvec3 right = glm::normalize(glm::cross(toLight, glm::dvec3(0, 1, 0))), up = glm::cross(right, toLight);
+    constexpr int kSide = 24;
+    int seen = 0, passed = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double x = (2 * (i % kSide) + 1.0) / kSide - 1, y = (2 * (i / kSide) + 1.0) / kSide - 1;
+        if (x * x + y * y > 1)
+            continue;
+        ++seen;
+        passed += !solids.stop(from, glm::normalize(toLight + (right * x + up * y) * softness));
+    }
+    return double(passed) / seen;
+}
+
+inline std::vector<std::unique_ptr<Painter>> painters()
+{
+    std::vector<std::unique_ptr<Painter>> all;
+    all.push_back(*openPainter("reference"));
+    auto gpu = openPainter("auto");
+    if (gpu && (*gpu)->note.empty())
+        all.push_back(std::move(*gpu));
+    return all;
+}
+
+} // namespace cotan::test

@@ -1,0 +1,130 @@
+// Soft shadows on the model against rays to an area light.
+#include <gtest/gtest.h>
+
+#include "cotan/environment/environment.hpp"
+#include "cotan/ground/ground.hpp"
+#include "ground_scene.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using glm::dvec3;
+using glm::vec3;
+
+// Percentage-closer filtering takes one distance for all that stands before the lamp, and one disc for the search: the
+// bar is what that leaves on the floor under a ball and a box; sharp shadows are off by three times as much.
+TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
+{
+    const Solids solids;
+    Scene scene = sceneOf(solids);
+    add(scene, makePlane(6, 1, 1), glm::mat4(1));
+    View view = sunnyView();
+    view.width = view.height = 96;
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 4;
+    view.camera.eye = {0, 5, 0};
+    view.camera.up = {0, 0, -1};
+    view.linearOutput = true;
+    view.samples = 1;
+    view.shadowSoftness = 0.06f;
+    const dvec3 toLight = -dvec3(view.lights[0].direction);
+    for (const auto& painter : painters()) {
+        ASSERT_TRUE(painter->load(scene));
+        const auto meanError = [&](const View& drawn) {
+            View bare = drawn;
+            bare.shadows = false;
+            const auto with = painter->draw(drawn), without = painter->draw(bare);
+            double sum = 0;
+            int count = 0;
+            for (int i = 0; with && without && i < 96 * 96; ++i) {
+                const dvec3 p((i % 96 + 0.5) / 24 - 2, 0, (i / 96 + 0.5) / 24 - 2);
+                if (solids.stop(p, {1e-9, 1, 1e-9}))
+                    continue; // not the floor
+                const double share = with->floats()[4 * i] / double(without->floats()[4 * i]);
+                sum += std::abs(share - lightTraced(solids, p, toLight, view.shadowSoftness));
+                ++count;
+            }
+            EXPECT_GT(count, 5000);
+            return sum / count;
+        };
+        View sharp = view;
+        sharp.shadowSoftness = 0;
+        EXPECT_LT(meanError(view), 0.003) << painter->device();
+        EXPECT_GT(meanError(sharp), 0.007) << painter->device();
+    }
+}
+
+TEST(SoftShadows, convexSolidsDoNotShadeTheirLitSides)
+{
+    Scene scene = sceneOf({});
+    scene.instances.resize(1); // the ball
+    View view = sunnyView();
+    view.width = view.height = 128;
+    view.camera.eye = vec3(-0.6f, 0.9f, 0.1f) - view.lights[0].direction * 2.0f;
+    view.camera.target = {-0.6f, 0.9f, 0.1f};
+    view.linearOutput = true;
+    view.samples = 1;
+    for (const auto& painter : painters()) {
+        ASSERT_TRUE(painter->load(scene));
+        View bare = view;
+        bare.shadows = false;
+        const auto with = painter->draw(view), without = painter->draw(bare);
+        ASSERT_TRUE(with && without);
+        for (std::size_t i = 0; i < with->pixelCount(); ++i)
+            ASSERT_NEAR(with->floats()[4 * i], without->floats()[4 * i], 0.004f) << painter->device() << " " << i;
+    }
+}
+
+TEST(SoftShadows, bothRenderersDrawTheSameOverEveryBackground)
+{
+    const auto all = painters();
+    if (all.size() < 2)
+        GTEST_SKIP() << "no Vulkan device";
+    Scene scene = sceneOf({});
+    add(scene, makeTorus(0.3f, 0.1f, 48, 1, 1), placedAt({0, 0.4, 0.6}, dvec3(1)));
+    scene.materials.resize(2);
+    scene.materials[1].alphaMode = AlphaMode::blend;
+    scene.materials[1].baseColor = {0.2f, 0.8f, 0.3f, 0.5f};
+    scene.meshes.back().material = 1;
+    View view = sunnyView();
+    view.width = 240, view.height = 180;
+    view.environment = true;
+    view.environmentMap = std::make_shared<const EnvironmentMap>(makeEnvironment(*builtinRadiance("studio"), 1));
+    auto ground = makeGround(scene, view);
+    ASSERT_TRUE(ground);
+    view.ground = std::make_shared<const GroundMap>(std::move(*ground));
+    view.camera.eye = {1.5f, 1.6f, 4};
+    view.camera.target = {0, 0.5f, 0};
+    view.camera.verticalExtent = 3;
+    for (const auto& painter : all)
+        ASSERT_TRUE(painter->load(scene));
+    for (const Backdrop backdrop : {Backdrop::gradient, Backdrop::blurred, Backdrop::sharp, Backdrop::paper})
+        for (const bool background : {true, false})
+            for (const bool orthographic : {false, true}) {
+                view.backdrop = backdrop;
+                view.background = background;
+                view.camera.orthographic = orthographic;
+                const auto a = all[0]->draw(view), b = all[1]->draw(view);
+                ASSERT_TRUE(a && b);
+                int large = 0;
+                for (std::size_t i = 0; i < a->data.size(); ++i)
+                    large += std::abs(int(a->bytes8()[i]) - int(b->bytes8()[i])) > 3;
+                // Rims of the shadow on the solids, whose maps have texels of their own.
+                EXPECT_LT(large, int(a->data.size()) / 100) << int(backdrop) << background << orthographic;
+                if (background)
+                    continue;
+                // The shadow alone: black, as opaque as it is dark.
+                const std::uint8_t* shadow = a->bytes8() + 4 * (240 * 170 + 120);
+                EXPECT_EQ(shadow[0] + shadow[1] + shadow[2], 0);
+                int half = 0;
+                for (std::size_t i = 0; i < a->pixelCount(); ++i) {
+                    const std::uint8_t* p = a->bytes8() + 4 * i;
+                    half += p[0] + p[1] + p[2] == 0 && p[3] > 60 && p[3] < 240;
+                }
+                EXPECT_GT(half, 300);
+            }
+}
+
+} // namespace
+} // namespace cotan
