@@ -98,7 +98,9 @@ public:
             recording_ << fmt::format("0.000 resize {} {}\n", state_.size.x, state_.size.y);
         }
         start_ = last_ = secondsNow();
-        const Status done = loop();
+        Status done = loop();
+        if (done && recording_.is_open() && !recording_.flush())
+            done = outputError(fmt::format("{}: cannot be written", options_.record.string()));
         {
             const std::lock_guard lock(waking_);
             wakes_ = nullptr;
@@ -130,11 +132,7 @@ private:
             std::vector<Event> events = window_->poll(pause());
             const double now = secondsNow();
             for (Event& event : events)
-                event.seconds = now - start_;
-            if (recording_)
-                for (const Event& event : events)
-                    if (event.kind != EventKind::command)
-                        recording_ << toText(event) << '\n';
+                event.seconds = event.seconds < 0 ? event.seconds : now - start_;
             double passed = now - last_;
             last_ = now;
             if (options_.plays) {
@@ -142,6 +140,9 @@ private:
                 if (const Status played = play(events, passed); !played)
                     return played;
             }
+            for (const Event& event : events)
+                if (recording_ && event.seconds >= 0) // what is chosen in the interface follows from the clicks
+                    recording_ << toText(event) << '\n';
             for (const Event& event : window_->interact(interface(), events)) {
                 const std::string before = state_.problem;
                 apply(state_, event);
