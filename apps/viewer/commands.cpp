@@ -291,6 +291,8 @@ Status performSet(State& state, Words& words)
         return set;
     if (setting->meters)
         state.metered = 0;
+    if (name == "exposure")
+        state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
     if (setting->loads)
         wish(state, Wish::Kind::load, state.picture.model);
     return Done{};

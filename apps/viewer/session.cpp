@@ -432,6 +432,7 @@ private:
         if (other || !state_.cameraMoved) {
             if (state_.loads > 1 && other) {
                 state_.picture.camera.clear();
+                state_.meteredFrom.clear();
                 state_.metered = 0;
             }
             resetCamera(state_);
