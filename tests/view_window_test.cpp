@@ -255,7 +255,66 @@ TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
     EXPECT_EQ(readPicture(folder / "w.png").width, 300);
 }
 
-// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED make it longer, or another.
+TEST(ViewWindow, whatIsRecordedIsDoneAgain)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    const std::string session = "0 wait\n0.1 move 100 60\n0.1 press left\n0.2 move 130 90\n0.3 release left\n"
+                                "0.4 scroll 0 -1\n0.5 key 3\n0.6 do toggle look\n";
+    const ToolRun first =
+        play(folder, session + "9 do report a.txt\n", {"--size", "160x120", "--record", "recorded.txt"});
+    ASSERT_EQ(first.code, 0) << first.err;
+    const std::string recorded = readWhole(folder / "recorded.txt");
+    const ToolRun second = play(folder, recorded.substr(0, recorded.find("9.000 do report")) + "9 do report b.txt\n",
+                                {"--size", "160x120"});
+    ASSERT_EQ(second.code, 0) << second.err << recorded;
+    EXPECT_EQ(readWhole(folder / "a.txt"), readWhole(folder / "b.txt"));
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "camera moved"), "yes");
+    const ToolRun nowhere = play(folder, "0 wait\n", {"--size", "64x48", "--record", "no/such/folder.txt"});
+    EXPECT_EQ(nowhere.code, 4) << nowhere.err;
+}
+
+TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    Image sky = makeImage(16, 8, PixelType::float32);
+    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
+    ASSERT_TRUE(writeImage(folder / "sky.hdr", sky));
+    std::ofstream(folder / "bad.hdr") << "#?RADIANCE nonsense";
+    const ToolRun run = play(folder,
+                             "0 wait\n0 drop sky.hdr\n0 wait\n0 do report a.txt\n0 drop bad.hdr\n0 wait\n0 wait\n"
+                             "0 do report b.txt\n",
+                             {"--shape", "sphere", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "environment"), "sky.hdr");
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "environment"), "sky.hdr");
+    EXPECT_NE(lineOf(readWhole(folder / "b.txt"), "problem").find("bad.hdr"), std::string::npos);
+}
+
+TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
+    std::ofstream(folder / "zenity") << "#!/bin/sh\necho " << (folder / "quad.gltf").string() << "\n";
+    std::filesystem::permissions(folder / "zenity", std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do report a.txt\n0 do set shape torus\n0 wait\n0 do report b.txt\n"
+                             "0 key ctrl+o\n0 wait\n0 do report c.txt\n",
+                             {"map.png", "--size", "100x80"});
+    ::setenv("PATH", path.c_str(), 1);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "model"), "plane");
+    EXPECT_NE(lineOf(readWhole(folder / "a.txt"), "first").find("map.png"), std::string::npos);
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "model"), "torus");
+    EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
+}
+
+// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED make it longer, or another; COTAN_VIEW_KEEP is a folder that gets it.
 TEST(ViewWindow, randomEventsAreLivedThrough)
 {
     COTAN_NEEDS_DISPLAY();
@@ -361,6 +420,11 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
         }
         session += '\n';
     }
+    if (const char* kept = std::getenv("COTAN_VIEW_KEEP")) // a folder, to look at a finding
+        std::filesystem::copy(folder.path(), kept,
+                              std::filesystem::copy_options::overwrite_existing
+                                  | std::filesystem::copy_options::recursive),
+            std::ofstream(std::filesystem::path(kept) / "session.txt") << session;
     const ToolRun run = play(folder, session + "9999 wait\n9999 do report r.txt\n", {"quad.gltf", "--size", "160x120"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_NE(lineOf(readWhole(folder / "r.txt"), "model"), "no such line");

@@ -213,6 +213,16 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
     }
 }
 
+// Without surroundings `render` refuses to turn them.
+TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
+{
+    State state = withModel();
+    send(state, "0 do turn-light 30\ndo set background blur\ndo set environment none\ndo turn-light 30\n");
+    EXPECT_EQ(state.picture.environmentRotation, 0);
+    EXPECT_EQ(state.picture.background, "");
+    EXPECT_TRUE(viewOf(optionsOf(state, false), state.model->scene));
+}
+
 // ---- menus and keys ----------------------------------------------------------------------------
 
 TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)

@@ -273,7 +273,12 @@ private:
             ground_ = {under, groundOf(o, *s.scene, *view)};
         view->ground = *ground_.value;
         if (meters(o) && exposure <= 0) {
-            const auto found = meterExposure(*s.painter, *view);
+            View looked = *view;
+            app::PictureOptions from = o;
+            from.camera = order.meteredFrom;
+            if (const auto there = viewOf(from, *s.scene))
+                looked.camera = there->camera;
+            const auto found = meterExposure(*s.painter, looked);
             if (!found)
                 return found.error();
             exposure = *found;
@@ -453,6 +458,7 @@ Order orderOf(const State& state)
     order.flipped = state.second;
     order.model = state.model;
     order.exposure = state.metered;
+    order.meteredFrom = state.meteredFrom.empty() ? state.picture.camera : state.meteredFrom;
     order.draft = state.moving;
     order.figures = state.statisticsShown && !state.moving && !inspectionFromName(state.show);
     return order;

@@ -19,6 +19,7 @@ struct Order {
     bool flipped = false;
     std::shared_ptr<const Model> model;
     float exposure = 0; // for "auto": what was found before; 0: find it
+    std::string meteredFrom; // from this camera, in words
     bool draft = false; // smaller, and without figures, if pictures take long
     bool figures = false;
 };

@@ -301,14 +301,25 @@ Status performSet(State& state, Words& words)
         return set;
     if (setting->meters)
         state.metered = 0;
+    if (name == "exposure")
+        state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
     if (setting->loads)
         wish(state, Wish::Kind::load, state.picture.model);
     return Done{};
 }
 
-} // namespace
+// Options that are refused without surroundings go with them.
+void settle(app::PictureOptions& o)
+{
+    if (o.environment != "none")
+        return;
+    o.environmentRotation = 0;
+    o.environmentIntensity = 1;
+    if (o.background == "environment" || o.background == "blur")
+        o.background.clear();
+}
 
-Status perform(State& state, const std::string& line)
+Status performOne(State& state, const std::string& line)
 {
     Words words{line};
     const std::string command = words.next();
@@ -392,6 +403,15 @@ Status perform(State& state, const std::string& line)
         return Done{};
     }
     return performSwitch(state, command, words);
+}
+
+} // namespace
+
+Status perform(State& state, const std::string& line)
+{
+    Status done = performOne(state, line);
+    settle(state.picture);
+    return done;
 }
 
 } // namespace cotan::viewer

@@ -24,7 +24,7 @@ enum class EventKind {
 };
 
 struct Event {
-    double seconds = 0; // from the start
+    double seconds = 0; // from the start; below 0: of a command that was chosen in the interface
     EventKind kind = EventKind::wait;
     float x = 0, y = 0;
     std::string word;

@@ -265,6 +265,8 @@ std::vector<Slider> slidersOf(const State& s)
         {"light", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
         {"shadow softness", "set shadow-softness", "degrees", number("shadow-softness"), 0, 60},
     };
+    if (s.picture.shadowSoftness < 0) // that of the lamp
+        sliders.back().value = s.picture.environment == "evening" ? 3 : 10;
     if (s.compare == Compare::divider)
         sliders.push_back({"divider", "divider", "", s.divider, 0, 1});
     if (!s.picture.animation.empty())

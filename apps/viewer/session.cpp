@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostRecent = 10;
-constexpr double kPatience = 300; // seconds that a played session waits for one picture
+constexpr double kPatience = 120; // seconds that a played session waits for one picture
 
 double secondsNow()
 {
@@ -98,7 +98,9 @@ public:
             recording_ << fmt::format("0.000 resize {} {}\n", state_.size.x, state_.size.y);
         }
         start_ = last_ = secondsNow();
-        const Status done = loop();
+        Status done = loop();
+        if (done && recording_.is_open() && !recording_.flush())
+            done = outputError(fmt::format("{}: cannot be written", options_.record.string()));
         {
             const std::lock_guard lock(waking_);
             wakes_ = nullptr;
@@ -130,11 +132,7 @@ private:
             std::vector<Event> events = window_->poll(pause());
             const double now = secondsNow();
             for (Event& event : events)
-                event.seconds = now - start_;
-            if (recording_)
-                for (const Event& event : events)
-                    if (event.kind != EventKind::command)
-                        recording_ << toText(event) << '\n';
+                event.seconds = event.seconds < 0 ? event.seconds : now - start_;
             double passed = now - last_;
             last_ = now;
             if (options_.plays) {
@@ -142,11 +140,14 @@ private:
                 if (const Status played = play(events, passed); !played)
                     return played;
             }
+            for (const Event& event : events)
+                if (recording_ && event.seconds >= 0) // what is chosen in the interface follows from the clicks
+                    recording_ << toText(event) << '\n';
             for (const Event& event : window_->interact(interface(), events)) {
                 const std::string before = state_.problem;
                 apply(state_, event);
-                if (options_.plays && event.kind == EventKind::command && firstProblem_.empty()
-                    && state_.problem != before)
+                written_ = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
+                if (options_.plays && written_ && firstProblem_.empty() && state_.problem != before)
                     firstProblem_ = state_.problem;
             }
             goOn(state_, passed);
@@ -176,7 +177,7 @@ private:
 
     bool idle() const
     {
-        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && key_ == keyOf(state_) && !dialog_.open()
+        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_)) && !dialog_.open()
             && !probing_.valid();
     }
 
@@ -265,7 +266,7 @@ private:
             const Status done = fulfilOne(w);
             if (!done) {
                 state_.problem = done.error().message;
-                if (options_.plays && firstProblem_.empty())
+                if (options_.plays && written_ && firstProblem_.empty())
                     firstProblem_ = state_.problem;
             }
         }
@@ -356,8 +357,13 @@ private:
         }
         if (auto drawn = artist_->take()) {
             state_.device = drawn->device.empty() ? state_.device : drawn->device;
-            if (!drawn->problem.empty())
+            if (!drawn->problem.empty()) {
                 state_.problem = drawn->problem;
+                goBack();
+            } else if (drawn->picture) {
+                good_ = {true, state_.picture, state_.a, state_.b};
+            }
+            failed_ = !drawn->problem.empty();
             if (drawn->picture && drawn->picture != drawn_.picture) {
                 ++serial_;
                 firstPicture_ = firstPicture_ > 0 ? firstPicture_ : drawn->seconds;
@@ -378,6 +384,22 @@ private:
             if (drawn->picture)
                 drawn_ = std::move(*drawn);
         }
+    }
+
+    // What could not be drawn is left: a light or a map that cannot be read, a convention that does not fit.
+    void goBack()
+    {
+        if (!good_.any)
+            return;
+        const app::PictureOptions now = std::exchange(state_.picture, good_.picture);
+        state_.picture.model = now.model;
+        state_.picture.shape = now.shape;
+        state_.picture.variant = now.variant;
+        state_.picture.animation = now.animation;
+        state_.picture.time = now.time;
+        state_.picture.camera = now.camera;
+        state_.a = good_.a;
+        state_.b = good_.b;
     }
 
     void takeModel(Loaded& loaded)
@@ -411,6 +433,7 @@ private:
         if (other || !state_.cameraMoved) {
             if (state_.loads > 1 && other) {
                 state_.picture.camera.clear();
+                state_.meteredFrom.clear();
                 state_.metered = 0;
             }
             resetCamera(state_);
@@ -437,8 +460,8 @@ private:
         if (!state_.model || state_.size.x < 1 || state_.size.y < 1)
             return;
         const std::string key = keyOf(state_);
-        const bool meter =
-            state_.metered == 0 && state_.show == "shaded" && meters(optionsOf(state_, false)) && !artist_->busy();
+        const bool meter = state_.metered == 0 && state_.show == "shaded" && meters(optionsOf(state_, false))
+            && !artist_->busy() && !failed_; // what failed would fail again
         if (key == key_ && !meter)
             return;
         key_ = key;
@@ -534,6 +557,11 @@ private:
     std::ofstream recording_;
     Drawn drawn_;
     struct {
+        bool any = false;
+        app::PictureOptions picture;
+        Side a, b;
+    } good_; // of the last picture that could be drawn
+    struct {
         glm::ivec2 size{0};
         std::vector<float> degrees;
     } figures_; // of the picture that is shown
@@ -545,7 +573,8 @@ private:
     std::size_t next_ = 0; // of the played events
     double start_ = 0, last_ = 0, playedTo_ = 0, waitsSince_ = 0;
     double begun_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstPicture_ = 0, firstShown_ = 0; // of a report
-    bool waits_ = false, quits_ = false;
+    bool waits_ = false, quits_ = false, failed_ = false;
+    bool written_ = false; // what happens now was written as a command
 };
 
 } // namespace

@@ -36,7 +36,7 @@ std::span<const Setting> settings()
         {"environment-intensity", &Options::environmentIntensity, {}, 1e-6, 1e6},
         {"background", &Options::background, {"", "paper", "blur", "environment", "gradient", "none"}},
         {"ground", &Options::ground, {"on", "off"}},
-        {"shadow-softness", &Options::shadowSoftness, {}, 0, 60},
+        {"shadow-softness", &Options::shadowSoftness, {}, -1, 60}, // below 0: that of the lamp
         {"no-shadows", &Options::noShadows},
         {"no-normal-maps", &Options::noNormalMaps},
         {"point-sampled", &Options::pointSampled},

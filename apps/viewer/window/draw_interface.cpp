@@ -199,8 +199,8 @@ void drawSheet(const Interface& interface)
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin("##sheet", nullptr, kFixed | ImGuiWindowFlags_NoInputs)) {
-        const int rows = int(size.y * 0.85f / ImGui::GetTextLineHeightWithSpacing());
-        const int columns = std::max(1, (int(interface.sheet.size()) + rows - 1) / std::max(rows, 1));
+        const int rows = std::max(1, int(size.y * 0.85f / ImGui::GetTextLineHeightWithSpacing()));
+        const int columns = std::clamp((int(interface.sheet.size()) + rows - 1) / rows, 1, 4);
         if (ImGui::BeginTable("keys", 2 * columns, ImGuiTableFlags_SizingFixedFit)) {
             const int high = (int(interface.sheet.size()) + columns - 1) / columns;
             for (int row = 0; row < high; ++row) {

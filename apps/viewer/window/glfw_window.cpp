@@ -165,7 +165,7 @@ public:
         std::vector<Event> others;
         const auto take = [&] {
             for (std::string& command : layOut(interface))
-                others.push_back({0, EventKind::command, 0, 0, std::move(command)});
+                others.push_back({-1, EventKind::command, 0, 0, std::move(command)});
         };
         for (const Event& event : events) {
             switch (event.kind) {
@@ -208,7 +208,7 @@ public:
     {
         try {
             for (std::string& command : layOut(interface))
-                events_.push_back({0, EventKind::command, 0, 0, std::move(command)});
+                events_.push_back({-1, EventKind::command, 0, 0, std::move(command)});
             const glm::ivec2 pixels = size();
             presenter_->show(shown, ImGui::GetDrawData(), pixels.x, pixels.y);
             return Done{};
