@@ -194,8 +194,8 @@ void addPictureCases(std::vector<Case>& all)
 {
     // Whole numbers of tiles are not meant to be between; what is there is read from the nearest.
     all.push_back(COTAN_LIT_CASE("tile", cotan_environment_tile(y * cotan_real(10.0))));
-    all.push_back(COTAN_LIT_CASE("octahedral place",
-                                 cotan_vec3(cotan_octahedral_place(l).x, cotan_octahedral_place(l).y, cotan_real(1.0))));
+    all.push_back(COTAN_LIT_CASE(
+        "octahedral place", cotan_vec3(cotan_octahedral_place(l).x, cotan_octahedral_place(l).y, cotan_real(1.0))));
     all.push_back(COTAN_LIT_CASE("octahedral direction", cotan_octahedral_direction(cotan_vec2(s.metallic, y))));
     all.push_back(COTAN_LIT_CASE("environment texel",
                                  cotan_vec3(cotan_environment_texel(l, cotan_real(0.0)).x,
@@ -208,14 +208,15 @@ void addPictureCases(std::vector<Case>& all)
     all.push_back( // 0 of shares that add up to one
         COTAN_LIT_CASE("bounces, more",
                        cotan_bounces_of(s.base_color, y, cotan_split_sum(y, s.roughness)).more + s.base_color));
-    all.push_back(COTAN_LIT_CASE("reflect image", cotan_reflect_image(s, g, s.emissive, s.base_color * cotan_real(2.0),
-                                                                      cotan_split_sum(y, s.roughness))));
+    all.push_back(COTAN_LIT_CASE(
+        "reflect image",
+        cotan_reflect_image(s, g, s.emissive, s.base_color * cotan_real(2.0), cotan_split_sum(y, s.roughness))));
     all.push_back(COTAN_LIT_CASE("reflect coat image",
                                  cotan_reflect_coat_image(c, s.base_color, cotan_split_sum(y, s.roughness))));
     all.push_back(COTAN_LIT_CASE("tone neutral", cotan_tone_neutral(s.base_color * (y * cotan_real(8.0)))));
-    all.push_back(COTAN_LIT_CASE("AgX, contrast, encoded",
-                                 cotan_vec3(cotan_agx_contrast(y), cotan_agx_encoded(s.roughness * cotan_real(8.0)),
-                                            cotan_real(1.0))));
+    all.push_back(COTAN_LIT_CASE(
+        "AgX, contrast, encoded",
+        cotan_vec3(cotan_agx_contrast(y), cotan_agx_encoded(s.roughness * cotan_real(8.0)), cotan_real(1.0))));
     steeper(all.back(), kAgxTerm);
     all.push_back(COTAN_LIT_CASE("tone AgX", cotan_tone_agx(s.base_color * (y * cotan_real(8.0)))));
     steeper(all.back(), kAgxTerm);
@@ -225,8 +226,9 @@ void addPictureCases(std::vector<Case>& all)
                                      + cotan_tone_of(0, s.base_color * x)));
     steeper(all.back(), kAgxTerm);
     all.push_back(COTAN_LIT_CASE("saturate color", cotan_saturate_color(s.base_color * x)));
-    all.push_back(COTAN_LIT_CASE("tap", cotan_vec3(cotan_next_tap(cotan_vec2(x, y)).x,
-                                                   cotan_next_tap(cotan_vec2(x, y)).y, cotan_tap_radius(3, 24))));
+    all.push_back(COTAN_LIT_CASE(
+        "tap",
+        cotan_vec3(cotan_next_tap(cotan_vec2(x, y)).x, cotan_next_tap(cotan_vec2(x, y)).y, cotan_tap_radius(3, 24))));
     all.push_back(COTAN_LIT_CASE("penumbra",
                                  cotan_vec3(cotan_penumbra(abs(x), y, cotan_real(0.01), s.roughness),
                                             cotan_penumbra(abs(x), y, s.metallic, cotan_real(1.0)), cotan_real(1.0))));

@@ -214,10 +214,12 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
 TEST(ChosenText, setsOfFunctionsComeOnlyWhenAskedFor)
 {
     // Of each set a function that no other one calls.
-    const std::map<Set, std::string> own = {
-        {Set::gradient, "cotan_gradient_triplanar("}, {Set::blend, "cotan_blend_udn("},
-        {Set::light, "cotan_reflect_coat("},          {Set::environment, "cotan_environment_texel("},
-        {Set::tone, "cotan_tone_agx("},               {Set::shadow, "cotan_penumbra("}};
+    const std::map<Set, std::string> own = {{Set::gradient, "cotan_gradient_triplanar("},
+                                            {Set::blend, "cotan_blend_udn("},
+                                            {Set::light, "cotan_reflect_coat("},
+                                            {Set::environment, "cotan_environment_texel("},
+                                            {Set::tone, "cotan_tone_agx("},
+                                            {Set::shadow, "cotan_penumbra("}};
     for (const Set set : kSets) {
         Choice with, others;
         with.sets = {set};

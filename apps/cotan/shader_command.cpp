@@ -174,7 +174,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--uv-sets", o.uvSets,
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
-    a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all").separatedByCommas().in("A,B");
+    a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all")
+        .separatedByCommas()
+        .in("A,B");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")

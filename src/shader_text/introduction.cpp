@@ -198,12 +198,14 @@ std::string ofSets(const Choice& choice)
 {
     std::string text;
     if (hasSet(choice, Set::environment))
-        text += "//   environment  one picture of square tiles, 970 x 524 texels of linear light, read by the caller with\n"
-                "//              bilinear filtering and no mips where cotan_environment_texel says. Tiles 0 to 8 hold\n"
-                "//              radiance filtered for roughness 0, 1/8, ... 1; 9 irradiance over pi; 10 what GGX\n"
-                "//              reflects of white light (x times f0, plus y). World space, y up\n";
+        text +=
+            "//   environment  one picture of square tiles, 970 x 524 texels of linear light, read by the caller with\n"
+            "//              bilinear filtering and no mips where cotan_environment_texel says. Tiles 0 to 8 hold\n"
+            "//              radiance filtered for roughness 0, 1/8, ... 1; 9 irradiance over pi; 10 what GGX\n"
+            "//              reflects of white light (x times f0, plus y). World space, y up\n";
     if (hasSet(choice, Set::tone))
-        text += "//   tone       linear colours with the primaries of sRGB, not negative, to linear in [0,1]; curve 0 cuts\n"
+        text += "//   tone       linear colours with the primaries of sRGB, not negative, to linear in [0,1]; curve 0 "
+                "cuts\n"
                 "//              off, 1 is ACES, 2 Khronos PBR Neutral, 3 AgX\n";
     if (hasSet(choice, Set::shadow))
         text += "//   shadow     reads of the map of depths are yours: 8 or so around the point for the mean depth of\n"
@@ -216,7 +218,8 @@ std::string credits(const Choice& choice)
     std::string text = "// After:\n"
                        "//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006\n"
                        "//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013\n";
-    if (hasSet(choice, Set::gradient) || choice.uvSets > 1 || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
+    if (hasSet(choice, Set::gradient) || choice.uvSets > 1 || choice.frame == Frame::gradient
+        || choice.frame == Frame::orthonormal)
         text += "//   [2020] M. Mikkelsen, Surface Gradient Based Bump Mapping Framework, JCGT 9(3), 2020\n";
     if (choice.frame == Frame::mikktspace)
         text += "//   M. Mikkelsen, mikktspace.h\n";
