@@ -14,7 +14,8 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr float kGrey = 0.5f; // how bright the furnace is shown
+constexpr float kGrey = 0.5f;    // how bright the furnace is shown
+constexpr int kMostPixels = 360; // a side: 64 walks each take their time
 
 Scene ballScene(Material material)
 {
@@ -28,6 +29,7 @@ Scene ballScene(Material material)
 View ballView(const Studio& studio, NormalMapping mapping)
 {
     View view = squareView(studio, frontal(2.2f));
+    view.width = view.height = std::min(view.height, kMostPixels);
     view.frame = Frame::cotangent;
     view.shading = Shading::pbr;
     view.normalMapping = mapping;

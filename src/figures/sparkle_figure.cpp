@@ -14,8 +14,9 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kFiner = 16;   // samples along a side of a pixel, in the truth
-constexpr int kEnlarged = 3; // pixels of a panel along a side of one that was drawn
+constexpr int kFiner = 16;       // samples along a side of a pixel, in the truth
+constexpr int kEnlarged = 3;     // pixels of a panel along a side of one that was drawn
+constexpr int kMostPixels = 160; // that are drawn, a side: the truth takes 256 times as much memory
 
 // Slopes without order, of 11 degrees (root mean square), as wide as three texels.
 Image grain()
@@ -110,7 +111,7 @@ void addRow(Studio& studio, Figure& figure, const std::string& name, Image map)
 {
     const Scene scene = sparkling(std::move(map));
     studio.show(scene);
-    const int side = studio.height() / kEnlarged;
+    const int side = std::clamp(studio.height() / kEnlarged, 8, kMostPixels);
     View fine = sparklingView(side * kFiner);
     fine.pointSampled = true; // smaller levels would have lost what is looked for
     const Image truth = averaged(studio.drawReference(fine));
