@@ -101,7 +101,8 @@ void fillTaps(cotan_frame frame, vec3 smoothNormal, float side, float turn, vec2
     vec2 dy = finiteUv(d.duvdy * step);
     tapCount = COTAN_TAPS_A_SIDE * COTAN_TAPS_A_SIDE;
     for (int i = 0; i < tapCount; ++i) {
-        vec2 place = vec2(float(i % COTAN_TAPS_A_SIDE), float(i / COTAN_TAPS_A_SIDE)) - 0.5 * float(COTAN_TAPS_A_SIDE - 1);
+        vec2 place =
+            vec2(float(i % COTAN_TAPS_A_SIDE), float(i / COTAN_TAPS_A_SIDE)) - 0.5 * float(COTAN_TAPS_A_SIDE - 1);
         vec4 texel = textureGrad(normalMap, finiteUv(uv + dx * place.x + dy * place.y), dx, dy);
         taps[i] = Tap(normalOfTexel(texel, frame, smoothNormal) * side,
             cotan_roughness_of_spread(s.roughness, turn + cotan_spread_of_length(texel.w)));

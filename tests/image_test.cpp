@@ -189,8 +189,10 @@ TEST(Decode, whatIsNoImageIsRefused)
 // The first letters of formats are looked for in as many bytes as there are.
 TEST(Decode, filesOfAFewBytesAreRefused)
 {
-    for (const std::string& head : {"\0\0\0\x1c" "ftypavif"s, "RIFF\0\0\0\0WEBP"s, "\xabKTX 20\xbb\r\n\x1a\n"s,
-                                    "\x89PNG\r\n\x1a\n\0\0\0\0"s, "DDS \0\0\0\0\0\0\0\0"s})
+    for (const std::string& head :
+         {"\0\0\0\x1c"
+          "ftypavif"s,
+          "RIFF\0\0\0\0WEBP"s, "\xabKTX 20\xbb\r\n\x1a\n"s, "\x89PNG\r\n\x1a\n\0\0\0\0"s, "DDS \0\0\0\0\0\0\0\0"s})
         for (std::size_t length = 0; length <= head.size(); ++length) {
             Bytes bytes;
             test::put(bytes, head.substr(0, length));

@@ -37,6 +37,7 @@ inline cotan_vec3 operator+(cotan_vec3 a, cotan_vec3 b) { return {a.x + b.x, a.y
 inline cotan_vec3 operator-(cotan_vec3 a, cotan_vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline cotan_vec3 operator*(cotan_vec3 a, cotan_vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline cotan_vec3 operator*(cotan_vec3 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k}; }
+inline cotan_vec3 operator/(cotan_vec3 a, cotan_vec3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 inline cotan_vec3 operator/(cotan_vec3 a, cotan_real k) { return {a.x / k, a.y / k, a.z / k}; }
 inline cotan_vec2 operator*(cotan_vec2 a, cotan_real k) { return {a.x * k, a.y * k}; }
 inline cotan_vec2 operator-(cotan_vec2 a, cotan_vec2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -52,6 +53,7 @@ inline cotan_real min(cotan_real a, cotan_real b) { return b < a ? b : a; }
 using std::abs;
 using std::copysign;
 using std::exp2;
+using std::log2;
 using std::pow;
 using std::sqrt;
 

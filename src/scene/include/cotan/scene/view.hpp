@@ -33,8 +33,8 @@ enum class Lighting {
 };
 
 // What a turned normal does to a surface that is otherwise flat there. All but the first follow rays from the point, 64
-// a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference renderer
-// only; with Blinn-Phong and in tangent space all are the first.
+// a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference
+// renderer only; with Blinn-Phong and in tangent space all are the first.
 enum class NormalMapping {
     shading,     // lights and surroundings meet the turned normal
     rays,        // the same, but light from below the surface is lost, as path tracers have it
