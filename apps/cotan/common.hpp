@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/terminal/arguments.hpp"
 #include "cotan/files/plan.hpp"
 #include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
+#include "cotan/terminal/arguments.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {

@@ -274,7 +274,7 @@ private:
         view->ground = *ground_.value;
         if (meters(o) && exposure <= 0) {
             View looked = *view;
-            app::PictureOptions from = o;
+            PictureOptions from = o;
             from.camera = order.meteredFrom;
             if (const auto there = viewOf(from, *s.scene))
                 looked.camera = there->camera;

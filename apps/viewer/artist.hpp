@@ -18,9 +18,9 @@ struct Order {
     Compare compare = Compare::off;
     bool flipped = false;
     std::shared_ptr<const Model> model;
-    float exposure = 0; // for "auto": what was found before; 0: find it
+    float exposure = 0;      // for "auto": what was found before; 0: find it
     std::string meteredFrom; // from this camera, in words
-    bool draft = false; // smaller, and without figures, if pictures take long
+    bool draft = false;      // smaller, and without figures, if pictures take long
     bool figures = false;
 };
 

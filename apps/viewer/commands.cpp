@@ -309,7 +309,7 @@ Status performSet(State& state, Words& words)
 }
 
 // Options that are refused without surroundings go with them.
-void settle(app::PictureOptions& o)
+void settle(PictureOptions& o)
 {
     if (o.environment != "none")
         return;

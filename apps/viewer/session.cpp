@@ -177,8 +177,8 @@ private:
 
     bool idle() const
     {
-        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_)) && !dialog_.open()
-            && !probing_.valid();
+        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_))
+            && !dialog_.open() && !probing_.valid();
     }
 
     // The next of the played events, unless one waits.
@@ -391,7 +391,7 @@ private:
     {
         if (!good_.any)
             return;
-        const app::PictureOptions now = std::exchange(state_.picture, good_.picture);
+        const PictureOptions now = std::exchange(state_.picture, good_.picture);
         state_.picture.model = now.model;
         state_.picture.shape = now.shape;
         state_.picture.variant = now.variant;
@@ -558,7 +558,7 @@ private:
     Drawn drawn_;
     struct {
         bool any = false;
-        app::PictureOptions picture;
+        PictureOptions picture;
         Side a, b;
     } good_; // of the last picture that could be drawn
     struct {

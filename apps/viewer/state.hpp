@@ -81,7 +81,7 @@ struct State {
     Camera camera;
     bool cameraMoved = false;    // from where a reset puts it
     float metered = 0;           // exposure that "auto" has found; 0: not yet
-    std::string meteredFrom;        // camera that "auto" looks from, in words; empty: where a reset puts it
+    std::string meteredFrom;     // camera that "auto" looks from, in words; empty: where a reset puts it
     bool lightPinned = false;    // the light turns with the camera
     float pinnedAt = 0;          // azimuth of the camera when it was pinned, degrees
     bool moving = false;         // the camera is in someone's hand
