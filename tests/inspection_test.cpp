@@ -75,7 +75,7 @@ TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
 {
     const glm::ivec3 plain = middleOf(square(1, 0, false), Inspection::mirrored),
                      mirrored = middleOf(square(1, 0, true), Inspection::mirrored);
-    EXPECT_GT(plain.z, plain.x); // blue
+    EXPECT_GT(plain.z, plain.x);       // blue
     EXPECT_GT(mirrored.x, mirrored.z); // orange
     Scene scene = square(1, 0, false);
     const glm::ivec3 none = middleOf(scene, Inspection::w);
@@ -251,7 +251,7 @@ TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
             cyan += picture.bytes8()[4 * i + 2] == 255;
         return cyan;
     };
-    EXPECT_NEAR(seen(), 200, 8); // four sides of 50 pixels
+    EXPECT_NEAR(seen(), 200, 8);             // four sides of 50 pixels
     scene.meshes.push_back(scene.meshes[0]); // the same, before it and larger
     scene.instances.push_back({"before", 1, glm::scale(glm::translate(glm::mat4(1), {-1, -1, 1}), {8, 8, 1})});
     EXPECT_LE(seen(), 4);

@@ -130,12 +130,13 @@ TEST(ViewWindow, theCommandThatItWritesDrawsTheSamePicture)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
-    const ToolRun seen = play(folder,
-                              "0 wait\n0 do orbit 33.3 7\n0 do zoom 0.7\n0 do pan 11 -7\n0 do frame exact\n"
-                              "0 do set environment overcast\n0 do set shadow-softness 3\n0 wait\n0 do toggle interface\n"
-                              "0 do picture a.png\n0 do window window.png\n0 do orthographic\n0 do see top\n0 wait\n"
-                              "0 do picture b.png\n0 do picture c.exr 60 40\n",
-                              {"--size", "160x120"});
+    const ToolRun seen =
+        play(folder,
+             "0 wait\n0 do orbit 33.3 7\n0 do zoom 0.7\n0 do pan 11 -7\n0 do frame exact\n"
+             "0 do set environment overcast\n0 do set shadow-softness 3\n0 wait\n0 do toggle interface\n"
+             "0 do picture a.png\n0 do window window.png\n0 do orthographic\n0 do see top\n0 wait\n"
+             "0 do picture b.png\n0 do picture c.exr 60 40\n",
+             {"--size", "160x120"});
     ASSERT_EQ(seen.code, 0) << seen.err;
     EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "a.png")), 0u);
     for (const std::string name : {"a.png", "b.png", "c.exr"}) {
@@ -143,7 +144,8 @@ TEST(ViewWindow, theCommandThatItWritesDrawsTheSamePicture)
         const std::size_t start = seen.out.find("cotan render -o " + name);
         ASSERT_NE(start, std::string::npos) << seen.out;
         const std::string command = seen.out.substr(start + 6, seen.out.find('\n', start) - start - 6);
-        const std::string shell = fmt::format("cd {} && {} {} > /dev/null", folder.path().string(), COTAN_TOOL, command);
+        const std::string shell =
+            fmt::format("cd {} && {} {} > /dev/null", folder.path().string(), COTAN_TOOL, command);
         ASSERT_EQ(std::system(shell.c_str()), 0) << command;
         EXPECT_TRUE(readWhole(folder / name) == readWhole(folder / ("viewer-" + name))) << command;
     }
@@ -173,8 +175,8 @@ TEST(ViewWindow, dragsAndKeysDoTheSameEveryTime)
                                 "0.7 move 200 60\n0.7 release left\n0.8 wait\n0.8 do report {}.txt\n"
                                 "0.8 do window {}.png\n";
     for (const std::string name : {"one", "two"}) {
-        const ToolRun run =
-            play(folder, fmt::format(fmt::runtime(session), name, name), {"--size", "320x180", "--device", "reference"});
+        const ToolRun run = play(folder, fmt::format(fmt::runtime(session), name, name),
+                                 {"--size", "320x180", "--device", "reference"});
         ASSERT_EQ(run.code, 0) << run.err;
     }
     const std::string report = readWhole(folder / "one.txt");
@@ -192,13 +194,15 @@ TEST(ViewWindow, aMenuIsOpenedAndChosenFromByThePointer)
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
     // The third menu, which has room below the bar, and one of its first entries.
-    const ToolRun run = play(folder,
-                             "0 do scale 1\n0 wait\n0 move 137 10\n0 press left\n0 release left\n0 wait\n0 do window menu.png\n"
-                             "0 move 150 80\n0 press left\n0 release left\n0 wait\n0 do report r.txt\n",
-                             {"--shape", "plane", "--size", "640x600"});
+    const ToolRun run =
+        play(folder,
+             "0 do scale 1\n0 wait\n0 move 137 10\n0 press left\n0 release left\n0 wait\n0 do window menu.png\n"
+             "0 move 150 80\n0 press left\n0 release left\n0 wait\n0 do report r.txt\n",
+             {"--shape", "plane", "--size", "640x600"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "first"), "triangle stored - -");
-    EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "camera moved"), "no"); // what the menu takes the picture does not get
+    EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "camera moved"),
+              "no"); // what the menu takes the picture does not get
 }
 
 TEST(ViewWindow, aBadFileSaysSoAndTheLastModelStays)
@@ -224,9 +228,9 @@ TEST(ViewWindow, aModelThatChangesIsReadAgainAndTheCameraStays)
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
     write(quad(2), folder.path());
-    const ToolRun run = play(folder,
-                             "0 wait\n0 do orbit 20 10\n0 wait\n0 do report a.txt\n0 key f5\n0 wait\n0 do report b.txt\n",
-                             {"quad.gltf", "--size", "200x150"});
+    const ToolRun run =
+        play(folder, "0 wait\n0 do orbit 20 10\n0 wait\n0 do report a.txt\n0 key f5\n0 wait\n0 do report b.txt\n",
+             {"quad.gltf", "--size", "200x150"});
     ASSERT_EQ(run.code, 0) << run.err;
     const std::string a = readWhole(folder / "a.txt"), b = readWhole(folder / "b.txt");
     EXPECT_EQ(lineOf(b, "loads"), "2 failed 0");
@@ -244,9 +248,9 @@ TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
                              {"--size", "200x150"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "size"), "300x200");
-    const ToolRun drawn = runTool({"render", "-o", "r.png", "--size", "300x200", "--exposure",
-                                   lineOf(readWhole(folder / "r.txt"), "metered")},
-                                  folder.path());
+    const ToolRun drawn = runTool(
+        {"render", "-o", "r.png", "--size", "300x200", "--exposure", lineOf(readWhole(folder / "r.txt"), "metered")},
+        folder.path());
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_EQ(readPicture(folder / "w.png").width, 300);
 }
@@ -324,11 +328,64 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
     };
     std::mt19937 random(unsigned(numberOf("COTAN_VIEW_SEED", 1)));
     const auto below = [&](int n) { return int(random() % unsigned(n)); };
-    const std::vector<std::string> keys = {
-        "1", "2", "3", "4", "5", "6", "7", "8", "9", "shift+1", "shift+2", "shift+4", "shift+9", "alt+1", "alt+2", "alt+7",
-        "alt+9", "v", "d", "f", "g", "x", "i", "l", "n", "w", "m", "tab", "s", "h", "p", "e", ".", ",", "a", "o", "r", "kp1",
-        "kp7", "ctrl+kp7", "=", "-", "left", "up", "down", "[", "]", "space", "home", "f5", "pagedown", "ctrl+c",
-        "ctrl+shift+c", "ctrl+v", "escape", "enter", "q", "ctrl+a"};
+    const std::vector<std::string> keys = {"1",
+                                           "2",
+                                           "3",
+                                           "4",
+                                           "5",
+                                           "6",
+                                           "7",
+                                           "8",
+                                           "9",
+                                           "shift+1",
+                                           "shift+2",
+                                           "shift+4",
+                                           "shift+9",
+                                           "alt+1",
+                                           "alt+2",
+                                           "alt+7",
+                                           "alt+9",
+                                           "v",
+                                           "d",
+                                           "f",
+                                           "g",
+                                           "x",
+                                           "i",
+                                           "l",
+                                           "n",
+                                           "w",
+                                           "m",
+                                           "tab",
+                                           "s",
+                                           "h",
+                                           "p",
+                                           "e",
+                                           ".",
+                                           ",",
+                                           "a",
+                                           "o",
+                                           "r",
+                                           "kp1",
+                                           "kp7",
+                                           "ctrl+kp7",
+                                           "=",
+                                           "-",
+                                           "left",
+                                           "up",
+                                           "down",
+                                           "[",
+                                           "]",
+                                           "space",
+                                           "home",
+                                           "f5",
+                                           "pagedown",
+                                           "ctrl+c",
+                                           "ctrl+shift+c",
+                                           "ctrl+v",
+                                           "escape",
+                                           "enter",
+                                           "q",
+                                           "ctrl+a"};
     std::string session;
     const int count = numberOf("COTAN_VIEW_EVENTS", 400);
     for (int i = 0; i < count; ++i) {
@@ -341,7 +398,10 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
         case 4:
         case 5:
         case 6:
-            session += fmt::format("{} {}{}", below(2) ? "press" : "release", below(4) ? "" : below(2) ? "shift+" : "ctrl+",
+            session += fmt::format("{} {}{}", below(2) ? "press" : "release",
+                                   below(4)       ? ""
+                                       : below(2) ? "shift+"
+                                                  : "ctrl+",
                                    std::vector<std::string>{"left", "right", "middle"}[std::size_t(below(3))]);
             break;
         case 7: session += fmt::format("scroll {} {}", below(3) - 1, below(21) - 10); break;
@@ -397,8 +457,12 @@ TEST(ViewWindow, wrongWordsEndAtOnce)
     };
     std::ofstream(folder / "broken.txt") << "0 wiat\n";
     ::setenv("DISPLAY", display().c_str(), 1);
-    for (const Case& c : {Case{{"--frame", "none"}, 1}, {{"--play", "missing.txt"}, 2}, {{"--play", "broken.txt"}, 2},
-                          {{"--do", "nonsense"}, 1}, {{"--size", "0x0"}, 1}, {{"-o", "x.png"}, 1}}) {
+    for (const Case& c : {Case{{"--frame", "none"}, 1},
+                          {{"--play", "missing.txt"}, 2},
+                          {{"--play", "broken.txt"}, 2},
+                          {{"--do", "nonsense"}, 1},
+                          {{"--size", "0x0"}, 1},
+                          {{"-o", "x.png"}, 1}}) {
         std::vector<std::string> words = c.words;
         words.insert(words.begin(), "view");
         const ToolRun run = runTool(words, folder.path());

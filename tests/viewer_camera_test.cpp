@@ -25,8 +25,8 @@ Camera someCamera(bool orthographic = false)
 
 void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance)
 {
-    EXPECT_LT(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y
-                                             << ' ' << b.z;
+    EXPECT_LT(glm::length(a - b), tolerance)
+        << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 TEST(ViewerCamera, orbitKeepsThePivotAndTheDistance)
@@ -97,8 +97,12 @@ TEST(ViewerCamera, zoomNeverReachesThePivotNorLeavesFloats)
 
 TEST(ViewerCamera, aSideIsSeenStraightOnFromTheSameDistance)
 {
-    for (const auto& [side, from] : {std::pair("front", glm::vec3(0, 0, 1)), {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},
-                                     {"right", {1, 0, 0}}, {"top", {0, 1, 0}}, {"bottom", {0, -1, 0}}}) {
+    for (const auto& [side, from] : {std::pair("front", glm::vec3(0, 0, 1)),
+                                     {"back", {0, 0, -1}},
+                                     {"left", {-1, 0, 0}},
+                                     {"right", {1, 0, 0}},
+                                     {"top", {0, 1, 0}},
+                                     {"bottom", {0, -1, 0}}}) {
         Camera camera = someCamera();
         const float distance = glm::length(camera.eye - camera.target);
         ASSERT_TRUE(seeFrom(camera, side));

@@ -44,10 +44,7 @@ void send(State& state, const std::string& text)
 }
 
 // All that a switch can change.
-std::string keyLike(const State& s)
-{
-    return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown);
-}
+std::string keyLike(const State& s) { return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown); }
 
 // ---- events ----------------------------------------------------------------------------------
 
@@ -75,8 +72,8 @@ TEST(ViewerEvents, everyKindComesBackFromItsText)
 
 TEST(ViewerEvents, aWrongLineIsNamedWithItsNumber)
 {
-    for (const char* line : {"0 mvoe 1 2", "0 move 1", "0 move 1 x", "0 press", "-1 wait", "nan wait", "0 wait 3",
-                             "0 move 1 2 3"}) {
+    for (const char* line :
+         {"0 mvoe 1 2", "0 move 1", "0 move 1 x", "0 press", "-1 wait", "nan wait", "0 wait 3", "0 move 1 2 3"}) {
         const auto events = eventsOf(std::string("0 wait\n") + line + "\n", "session.txt");
         ASSERT_FALSE(events) << line;
         EXPECT_EQ(events.error().kind, ErrorKind::input);
@@ -181,10 +178,29 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
 {
     State state = withModel();
     const std::string before = reportOf(state);
-    for (const char* line : {"frame none", "show heat", "set exposure -1", "set nothing 1", "compare all", "see behind",
-                             "camera 7", "toggle x", "size 0 0", "copy", "zoom", "orbit 1", "second x y", "nonsense",
-                             "set environment-rotation 1000", "picture a.png 0 0", "turn-light nan", "next", "play",
-                             "hot-spot 3", "convention green", "window", ""}) {
+    for (const char* line : {"frame none",
+                             "show heat",
+                             "set exposure -1",
+                             "set nothing 1",
+                             "compare all",
+                             "see behind",
+                             "camera 7",
+                             "toggle x",
+                             "size 0 0",
+                             "copy",
+                             "zoom",
+                             "orbit 1",
+                             "second x y",
+                             "nonsense",
+                             "set environment-rotation 1000",
+                             "picture a.png 0 0",
+                             "turn-light nan",
+                             "next",
+                             "play",
+                             "hot-spot 3",
+                             "convention green",
+                             "window",
+                             ""}) {
         state.problem.clear();
         send(state, std::string("0 do ") + (*line ? line : " ") + "\n");
         if (*line) {
@@ -246,7 +262,8 @@ TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
     EXPECT_NE(lineOf("d").find("on"), std::string::npos);
     for (const Entry& entry : entriesOf(state)) {
         const bool digit = !entry.key.empty() && entry.key.back() >= '1' && entry.key.back() <= '9'
-            && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f' && entry.key.find("+f") == std::string::npos;
+            && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f'
+            && entry.key.find("+f") == std::string::npos;
         if (!entry.key.empty() && !digit) {
             EXPECT_FALSE(lineOf(entry.key.c_str()).empty()) << entry.key;
         }

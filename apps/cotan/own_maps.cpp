@@ -82,7 +82,10 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
 {
     a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
         .in("FILE");
-    a.option("--convention", maps.convention, "how that image is stored, or without one how the model's own normal maps are to be read: " + conventionWords()).in("WORDS");
+    a.option("--convention", maps.convention,
+             "how that image is stored, or without one how the model's own normal maps are to be read: "
+                 + conventionWords())
+        .in("WORDS");
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
         .in("N");

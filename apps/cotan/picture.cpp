@@ -38,7 +38,8 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
         return size.error();
     view.width = size->first;
     view.height = size->second;
-    const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty() && !scene.cameras.empty();
+    const bool ownCamera =
+        options.camera.empty() && options.model.empty() && options.shape.empty() && !scene.cameras.empty();
     const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
     auto parsed = cameraFromWords(camera, scene, view.width, view.height);
     if (!parsed)
@@ -66,17 +67,15 @@ bool keepsFloats(const std::filesystem::path& file)
     return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
 }
 
-bool meters(const PictureOptions& options)
-{
-    return options.exposure == "auto" && options.use == PictureUse::shown;
-}
+bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
 
 void addShowOption(Arguments& a, std::string& show)
 {
-    a.option("--view", show,
-             "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); checker, "
-             "density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map by itself: "
-             "base-color, alpha, normal-map, normal-map-red, -green, -blue, roughness, metallic, occlusion, emissive")
+    a.option(
+         "--view", show,
+         "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); checker, "
+         "density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map by itself: "
+         "base-color, alpha, normal-map, normal-map-red, -green, -blue, roughness, metallic, occlusion, emissive")
         .from(showNames())
         .in("NAME");
 }
@@ -100,7 +99,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option(
          "--camera", o.camera,
          "front (filling the picture), fit (the whole box around the model), the number of a camera of the file, or "
-         "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" for "
+         "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" "
+         "for "
          "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
          "own)")
         .in("CAMERA");
@@ -310,14 +310,16 @@ Status layEdges(Painter& painter, View view, const PictureOptions& options, std:
     const auto depth = painter.draw(view);
     if (!depth)
         return depth.error();
-    drawEdges(picture, *depth, view.camera, edges,
-              {options.edges != "seams", options.edges != "triangles"});
+    drawEdges(picture, *depth, view.camera, edges, {options.edges != "seams", options.edges != "triangles"});
     return Done{};
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)
 {
-    Json report = {{"model", !options.model.empty() ? options.model : !options.shape.empty() ? options.shape : "built-in"},
+    Json report = {{"model",
+                    !options.model.empty()       ? options.model
+                        : !options.shape.empty() ? options.shape
+                                                 : "built-in"},
                    {"size", {picture.view.width, picture.view.height}}};
     if (!options.animation.empty())
         report["pose"] = {{"animation", options.animation}, {"seconds", options.time}};

@@ -86,7 +86,7 @@ bool meters(const PictureOptions& options);
 struct Picture {
     Scene scene;
     View view;
-    bool meter = false; // the exposure is to be found
+    bool meter = false;             // the exposure is to be found
     std::vector<SurfaceEdge> edges; // to be drawn over it
     double loadSeconds = 0;
 };

@@ -26,10 +26,10 @@ struct RenderCommandOptions : CommonOptions {
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
     auto image = drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
-                    [&](const AngleStatistics& degrees) {
-                        report["error_against_exact"] = toJson(degrees);
-                        say(o, "{} against exact: {}", o.frame, toText(degrees));
-                    });
+                          [&](const AngleStatistics& degrees) {
+                              report["error_against_exact"] = toJson(degrees);
+                              say(o, "{} against exact: {}", o.frame, toText(degrees));
+                          });
     if (image)
         if (Status laid = layEdges(painter, picture.view, o.picture, picture.edges, *image); !laid)
             return laid.error();
@@ -158,8 +158,8 @@ Status run(const RenderCommandOptions& o)
     Sequence sequence;
     RenderCommandOptions one = o;
     one.picture.use = o.picture.show != "shaded" ? PictureUse::data
-        : keepsFloats(o.output)          ? PictureUse::radiance
-                                         : PictureUse::shown;
+        : keepsFloats(o.output)                  ? PictureUse::radiance
+                                                 : PictureUse::shown;
     if (numbers->empty())
         return renderOne(one, *frame, sequence);
     if (animated)

@@ -43,8 +43,8 @@ std::string sceneKey(const Model& model, const app::PictureOptions& o, Frame fra
 {
     const std::string vertices = readsVertices(frame) ? std::string(name(frame)) + "/" + o.tangents : "";
     const app::OwnMaps& m = o.maps;
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor, m.metallicRoughness,
-                       m.occlusion, m.convention, m.material);
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor,
+                       m.metallicRoughness, m.occlusion, m.convention, m.material);
 }
 
 bool plain(const app::PictureOptions& o, Frame frame)
@@ -267,8 +267,8 @@ private:
             surroundings_ = {lightKey(o), *opened};
         }
         view->environmentMap = dark ? nullptr : *surroundings_.value;
-        const std::string under = fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows,
-                                              o.shadowSoftness);
+        const std::string under =
+            fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness);
         if (under != ground_.key || !ground_.value)
             ground_ = {under, groundOf(o, *s.scene, *view)};
         view->ground = *ground_.value;

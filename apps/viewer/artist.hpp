@@ -18,9 +18,9 @@ struct Order {
     Compare compare = Compare::off;
     bool flipped = false;
     std::shared_ptr<const Model> model;
-    float exposure = 0; // for "auto": what was found before; 0: find it
+    float exposure = 0;      // for "auto": what was found before; 0: find it
     std::string meteredFrom; // from this camera, in words
-    bool draft = false; // smaller, and without figures, if pictures take long
+    bool draft = false;      // smaller, and without figures, if pictures take long
     bool figures = false;
 };
 
@@ -28,8 +28,8 @@ struct Drawn {
     std::uint64_t number = 0;
     std::shared_ptr<const Image> picture, other; // 8 bits; other: of a divider
     View view;                                   // that the first was drawn with
-    float exposure = 0; // that was found for "auto"; 0: it was not asked for
-    std::string device, problem; // a problem comes without a picture
+    float exposure = 0;                          // that was found for "auto"; 0: it was not asked for
+    std::string device, problem;                 // a problem comes without a picture
     double seconds = 0;
     bool draft = false;
     // Figures, which come later than the picture; degrees has an entry a pixel, or is empty.

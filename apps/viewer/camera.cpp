@@ -58,8 +58,8 @@ void change(Camera& camera, const Camera& to)
 
 float unitsOfPixel(const Camera& camera, float depth, glm::ivec2 size)
 {
-    const float height = camera.orthographic ? camera.verticalExtent
-                                             : 2 * depth * std::tan(camera.verticalFieldOfView / 2);
+    const float height =
+        camera.orthographic ? camera.verticalExtent : 2 * depth * std::tan(camera.verticalFieldOfView / 2);
     return height / float(std::max(size.y, 1));
 }
 
@@ -70,8 +70,8 @@ void orbit(Camera& camera, float right, float upward)
     const auto [azimuth, elevation] = anglesOf(back / distance, camera.up);
     Camera to = camera;
     to.up = {0, 1, 0};
-    to.eye = camera.target
-        + directionAt(azimuth + right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
+    to.eye =
+        camera.target + directionAt(azimuth + right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
     change(camera, to);
 }
 
@@ -107,8 +107,8 @@ void look(Camera& camera, float right, float upward)
     const auto [azimuth, elevation] = anglesOf(forward / distance, -camera.up);
     Camera to = camera;
     to.up = {0, 1, 0};
-    to.target = camera.eye
-        + directionAt(azimuth - right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
+    to.target =
+        camera.eye + directionAt(azimuth - right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
     change(camera, to);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <ranges>
 #include <sstream>
 #include <string_view>
 
@@ -151,10 +150,14 @@ Status setCamera(State& state, const std::string& words)
 
 Status toggle(State& state, const std::string& name)
 {
-    const std::map<std::string, bool State::*> switches = {
-        {"interface", &State::interfaceShown}, {"help", &State::cheatSheet},  {"settings", &State::settingsShown},
-        {"hot-spots", &State::hotSpotsShown},  {"card", &State::cardShown},   {"statistics", &State::statisticsShown},
-        {"look", &State::dark},                {"pin-light", &State::lightPinned}};
+    const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
+                                                           {"help", &State::cheatSheet},
+                                                           {"settings", &State::settingsShown},
+                                                           {"hot-spots", &State::hotSpotsShown},
+                                                           {"card", &State::cardShown},
+                                                           {"statistics", &State::statisticsShown},
+                                                           {"look", &State::dark},
+                                                           {"pin-light", &State::lightPinned}};
     const auto known = switches.find(name);
     if (known != switches.end()) {
         state.*known->second = !(state.*known->second);
@@ -163,7 +166,10 @@ Status toggle(State& state, const std::string& name)
             wish(state, Wish::Kind::findHotSpots);
         return Done{};
     }
-    return expected("toggle", fmt::format("one of {}", fmt::join(std::views::keys(switches), ", ")), name);
+    std::string names;
+    for (const auto& [word, field] : switches)
+        names += (names.empty() ? "one of " : ", ") + word;
+    return expected("toggle", names, name);
 }
 
 Status setCompare(State& state, const std::string& mode)
@@ -231,9 +237,15 @@ struct Motion {
 constexpr Motion kMotions[] = {
     {"orbit", 2, [](State& s, const Numbers& n) { orbit(s.camera, n[0] * kRadians, n[1] * kRadians); }},
     {"look", 2, [](State& s, const Numbers& n) { look(s.camera, n[0] * kRadians, n[1] * kRadians); }},
-    {"pan", 2, [](State& s, const Numbers& n) { pan(s.camera, {n[0], n[1]}, s.size); }},
+    {"pan", 2,
+     [](State& s, const Numbers& n) {
+         pan(s.camera, {n[0], n[1]}, s.size);
+     }},
     {"zoom", 1, [](State& s, const Numbers& n) { zoomTo(s.camera, n[0], glm::vec2(s.size) * 0.5f, s.size); }},
-    {"fly", 3, [](State& s, const Numbers& n) { fly(s.camera, {n[0], n[1], n[2]}); }},
+    {"fly", 3,
+     [](State& s, const Numbers& n) {
+         fly(s.camera, {n[0], n[1], n[2]});
+     }},
 };
 
 Status performSwitch(State& state, const std::string& command, Words& words)

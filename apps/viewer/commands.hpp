@@ -1,5 +1,5 @@
-// Everything that the viewer can be told to do, as one line of text each. Keys, menus, sliders, the command line's --do and
-// played sessions all end here.
+// Everything that the viewer can be told to do, as one line of text each. Keys, menus, sliders, the command line's --do
+// and played sessions all end here.
 #pragma once
 
 #include <string>

@@ -23,7 +23,10 @@ template<std::size_t n> bool endsWithOneOf(const fs::path& file, const std::arra
 
 int digit(char c)
 {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    return c >= '0' && c <= '9' ? c - '0'
+        : c >= 'a' && c <= 'f'  ? c - 'a' + 10
+        : c >= 'A' && c <= 'F'  ? c - 'A' + 10
+                                : -1;
 }
 
 } // namespace
@@ -37,7 +40,8 @@ bool isPicture(const fs::path& file)
 
 bool isModel(const fs::path& file)
 {
-    constexpr std::array<std::string_view, 8> kEndings = {".gltf", ".glb", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"};
+    constexpr std::array<std::string_view, 8> kEndings = {".gltf", ".glb", ".obj", ".ply",
+                                                          ".stl",  ".dae", ".fbx", ".3ds"};
     return endsWithOneOf(file, kEndings);
 }
 

@@ -14,9 +14,9 @@ namespace cotan::viewer {
 
 namespace {
 
-constexpr float kClick = 4;              // pixels that a click may move
-constexpr float kDegreesAPixel = 0.35f;  // of turning
-constexpr float kGrip = 8;               // pixels beside the divider that take hold of it
+constexpr float kClick = 4;             // pixels that a click may move
+constexpr float kDegreesAPixel = 0.35f; // of turning
+constexpr float kGrip = 8;              // pixels beside the divider that take hold of it
 constexpr const char* kFlyKeys = "wasdqe";
 
 void run(State& state, const std::string& command)
@@ -122,7 +122,9 @@ void goOn(State& state, double seconds)
 {
     if (flying(state) && state.model && !state.model->box.empty()) {
         glm::vec3 by{0};
-        const auto down = [&](const char* key) { return std::ranges::find(state.keysDown, key) != state.keysDown.end(); };
+        const auto down = [&](const char* key) {
+            return std::ranges::find(state.keysDown, key) != state.keysDown.end();
+        };
         by.x = float(down("d")) - float(down("a"));
         by.y = float(down("e")) - float(down("q"));
         by.z = float(down("w")) - float(down("s"));

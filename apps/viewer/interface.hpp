@@ -1,5 +1,5 @@
-// What the window shows beside the picture, as plain values: the window draws them, and knows nothing of what they mean.
-// What is chosen in it comes back as the text of a command.
+// What the window shows beside the picture, as plain values: the window draws them, and knows nothing of what they
+// mean. What is chosen in it comes back as the text of a command.
 #pragma once
 
 #include <string>
@@ -40,9 +40,9 @@ struct Choice { // of a list
 };
 
 struct Interface {
-    bool shown = true;    // menus and panels
-    bool dark = true;     // its look
-    float scale = 0;      // of its text; 0: as the screen asks for
+    bool shown = true; // menus and panels
+    bool dark = true;  // its look
+    float scale = 0;   // of its text; 0: as the screen asks for
     bool cheatSheet = false;
     std::vector<Menu> menus;
     std::vector<Slider> sliders;

@@ -76,8 +76,8 @@ std::filesystem::path memoryFile()
     const char* place = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
     std::filesystem::path folder = place && *place == '/' ? std::filesystem::path(place)
-        : home && *home                                  ? std::filesystem::path(home) / ".local" / "state"
-                                                         : std::filesystem::path();
+        : home && *home                                   ? std::filesystem::path(home) / ".local" / "state"
+                                                          : std::filesystem::path();
     return folder.empty() ? folder : folder / "cotan" / "view.txt";
 }
 

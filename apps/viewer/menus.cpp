@@ -84,16 +84,21 @@ void addCameraEntries(Entries& e, const State& s)
 {
     e.menu("Camera");
     e.add("Reset", "r", "reset");
-    for (const auto& [key, side] : {std::pair("kp1", "front"), {"kp3", "right"}, {"kp7", "top"}, {"ctrl+kp1", "back"},
-                                    {"ctrl+kp3", "left"}, {"ctrl+kp7", "bottom"}})
+    for (const auto& [key, side] : {std::pair("kp1", "front"),
+                                    {"kp3", "right"},
+                                    {"kp7", "top"},
+                                    {"ctrl+kp1", "back"},
+                                    {"ctrl+kp3", "left"},
+                                    {"ctrl+kp7", "bottom"}})
         e.add(fmt::format("From the {}", side), key, fmt::format("see {}", side));
     e.add("Orthographic", "o", "orthographic", s.camera.orthographic);
     e.line();
     e.add("Nearer", "=", "zoom 0.8");
     e.add("Away", "-", "zoom 1.25");
-    for (const auto& [key, label, command] :
-         {std::tuple("left", "Turn left", "orbit -5 0"), {"right", "Turn right", "orbit 5 0"},
-          {"up", "Turn up", "orbit 0 5"}, {"down", "Turn down", "orbit 0 -5"}})
+    for (const auto& [key, label, command] : {std::tuple("left", "Turn left", "orbit -5 0"),
+                                              {"right", "Turn right", "orbit 5 0"},
+                                              {"up", "Turn up", "orbit 0 5"},
+                                              {"down", "Turn down", "orbit 0 -5"}})
         e.add(label, key, command);
     const std::size_t cameras = s.model ? s.model->scene.cameras.size() : 0;
     if (cameras > 0)
@@ -106,8 +111,8 @@ void addCameraEntries(Entries& e, const State& s)
 
 void addFrameEntries(Entries& e, const State& s)
 {
-    constexpr std::array<const char*, 9> kFirst = {"cotangent", "mikktspace", "triangle", "smooth", "exact",
-                                                   "orthonormal", "vertex", "gradient", "paper-full"};
+    constexpr std::array<const char*, 9> kFirst = {"cotangent",   "mikktspace", "triangle", "smooth",    "exact",
+                                                   "orthonormal", "vertex",     "gradient", "paper-full"};
     std::vector<std::string> names(kFirst.begin(), kFirst.end());
     for (const std::string& name : app::splitAtCommas(app::frameNames())) {
         const std::string word = name.substr(std::min(name.find_first_not_of(' '), name.size()));
@@ -127,9 +132,10 @@ void addFrameEntries(Entries& e, const State& s)
         e.add("Tangents generated", "", before + "tangents generated", side.tangents == "generated");
         e.line();
         e.add("Maps as the file says", "", before + "convention ", side.convention.empty());
-        for (const auto& [label, words] :
-             {std::pair("Green up (glTF, OpenGL)", "gltf"), {"Green down (DirectX)", "directx"},
-              {"Decoded as 2c - 1", "gltf,biased"}, {"Two channels, orthographic", "gltf,orthographic"}})
+        for (const auto& [label, words] : {std::pair("Green up (glTF, OpenGL)", "gltf"),
+                                           {"Green down (DirectX)", "directx"},
+                                           {"Decoded as 2c - 1", "gltf,biased"},
+                                           {"Two channels, orthographic", "gltf,orthographic"}})
             e.add(label, "", before + "convention " + words, side.convention == words);
         e.add("The model's own map", "", before + "normal-map ", side.normalMap.empty());
         if (!side.normalMap.empty())
@@ -171,8 +177,10 @@ void addShowEntries(Entries& e, const State& s)
     e.add("Settings", "s", "toggle settings", s.settingsShown);
     e.add("Keys", "h", "toggle help", s.cheatSheet);
     e.add("Dark", "", "toggle look", s.dark);
-    for (const auto& [label, value] : {std::pair("Text as the screen asks for", 0.0f), {"Text of 100 %", 1.0f},
-                                       {"Text of 150 %", 1.5f}, {"Text of 200 %", 2.0f}})
+    for (const auto& [label, value] : {std::pair("Text as the screen asks for", 0.0f),
+                                       {"Text of 100 %", 1.0f},
+                                       {"Text of 150 %", 1.5f},
+                                       {"Text of 200 %", 2.0f}})
         e.add(label, "", fmt::format("scale {}", value), s.scale == value);
 }
 
@@ -192,8 +200,13 @@ void addLightEntries(Entries& e, const State& s)
     e.line();
     e.flag("Shadows", "", "no-shadows", true);
     e.add("Ground", "", s.picture.ground == "on" ? "set ground off" : "set ground on", s.picture.ground == "on");
-    e.choose("background", {{"Background as usual", ""}, {"Paper", "paper"}, {"Surroundings, blurred", "blur"},
-                            {"Surroundings", "environment"}, {"Gradient", "gradient"}, {"No background", "none"}});
+    e.choose("background",
+             {{"Background as usual", ""},
+              {"Paper", "paper"},
+              {"Surroundings, blurred", "blur"},
+              {"Surroundings", "environment"},
+              {"Gradient", "gradient"},
+              {"No background", "none"}});
     e.line();
     e.add("Exposure by the picture", "e", "set exposure auto", s.picture.exposure == "auto");
     const float now = s.picture.exposure == "auto" ? s.metered : std::stof("0" + s.picture.exposure);
@@ -374,9 +387,12 @@ Interface interfaceOf(const State& s)
         i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable});
         addToSheet(entry, i.sheet);
     }
-    for (const auto& [keys, what] : {std::pair("left drag", "turn"), {"middle, right drag", "move"},
-                                     {"wheel", "zoom to the pointer"}, {"click", "pivot"},
-                                     {"shift drag", "turn the light"}, {"w a s d q e + right", "fly"}})
+    for (const auto& [keys, what] : {std::pair("left drag", "turn"),
+                                     {"middle, right drag", "move"},
+                                     {"wheel", "zoom to the pointer"},
+                                     {"click", "pivot"},
+                                     {"shift drag", "turn the light"},
+                                     {"w a s d q e + right", "fly"}})
         i.sheet.emplace_back(keys, what);
     i.sliders = slidersOf(s);
     i.status = statusOf(s);

@@ -177,8 +177,8 @@ private:
 
     bool idle() const
     {
-        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_)) && !dialog_.open()
-            && !probing_.valid();
+        return !loader_->busy() && !artist_->busy() && state_.wishes.empty() && (!state_.model || key_ == keyOf(state_))
+            && !dialog_.open() && !probing_.valid();
     }
 
     // The next of the played events, unless one waits.
@@ -300,8 +300,9 @@ private:
             break;
         case Wish::Kind::paste: {
             const std::string path = pathOf(window_->clipboard());
-            return path.empty() ? Status(usageError("paste: expected the path of a file to have been copied; found none"))
-                                : perform(state_, "drop " + path);
+            return path.empty()
+                ? Status(usageError("paste: expected the path of a file to have been copied; found none"))
+                : perform(state_, "drop " + path);
         }
         case Wish::Kind::chooseFile: return dialog_.ask(state_.picture.model);
         case Wish::Kind::resize: window_->resize(w.size.x, w.size.y); break;
@@ -445,9 +446,9 @@ private:
         }
         if (other)
             watch_.on(loaded.options.model);
-        window_->setTitle(fmt::format("{} - cotan view", loaded.options.model.empty()
-                                                             ? std::string("cotan")
-                                                             : fs::path(loaded.options.model).filename().string()));
+        window_->setTitle(fmt::format(
+            "{} - cotan view",
+            loaded.options.model.empty() ? std::string("cotan") : fs::path(loaded.options.model).filename().string()));
         for (const std::string& line : loaded.model->scene.warnings)
             app::warn(options_.common, line);
         if (!loaded.model->scene.warnings.empty())
@@ -495,21 +496,24 @@ private:
             return;
         }
         const Side& side = sideOf(state_, state_.compare == Compare::flip && state_.second);
-        const std::string key = fmt::format("{} {} {} {} {} {}", state_.pointer.x, state_.pointer.y,
-                                            cameraWords(state_.camera), state_.model->number, side.frame, side.tangents);
+        const std::string key =
+            fmt::format("{} {} {} {} {} {}", state_.pointer.x, state_.pointer.y, cameraWords(state_.camera),
+                        state_.model->number, side.frame, side.tangents);
         if (key != probeKey_) {
             probeKey_ = key;
-            probing_ = std::async(std::launch::async, [this, model = state_.model, camera = state_.camera,
-                                                       size = state_.size, pointer = state_.pointer, side] {
-                Probe probe;
-                probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
-                if (probe.hit)
-                    probe.surface = prober_.at(model->scene, model->number, *probe.hit, *app::parseFrame(side.frame),
-                                               side.tangents == "generated" ? TangentOrigin::generated
-                                                                            : TangentOrigin::stored);
-                wake();
-                return probe;
-            });
+            probing_ =
+                std::async(std::launch::async,
+                           [this, model = state_.model, camera = state_.camera, size = state_.size,
+                            pointer = state_.pointer, side] {
+                               Probe probe;
+                               probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
+                               if (probe.hit)
+                                   probe.surface = prober_.at(
+                                       model->scene, model->number, *probe.hit, *app::parseFrame(side.frame),
+                                       side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+                               wake();
+                               return probe;
+                           });
         }
         const glm::ivec2 at(state_.pointer);
         const bool inside = at.x >= 0 && at.y >= 0 && at.x < figures_.size.x && at.y < figures_.size.y;
@@ -526,7 +530,9 @@ private:
                 {"loads", state_.loads},
                 {"failed_loads", state_.failedLoads},
                 {"seconds",
-                 {{"window", windowSeconds_}, {"load", loadSeconds_}, {"first_picture", firstPicture_},
+                 {{"window", windowSeconds_},
+                  {"load", loadSeconds_},
+                  {"first_picture", firstPicture_},
                   {"first_shown", firstShown_}}}};
     }
 
@@ -573,9 +579,6 @@ private:
 
 } // namespace
 
-Status runSession(State state, const SessionOptions& options)
-{
-    return Session(std::move(state), options).run();
-}
+Status runSession(State state, const SessionOptions& options) { return Session(std::move(state), options).run(); }
 
 } // namespace cotan::viewer

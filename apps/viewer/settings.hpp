@@ -15,9 +15,9 @@ struct Setting {
     const char* name; // of the option, without --
     std::variant<std::string Options::*, double Options::*, float Options::*, int Options::*, bool Options::*> field;
     std::vector<std::string> words{}; // that it may have; empty: any
-    double low = 0, high = 0;       // of numbers
-    bool meters = false;            // the exposure is found again
-    bool loads = false;             // the model is read again
+    double low = 0, high = 0;         // of numbers
+    bool meters = false;              // the exposure is found again
+    bool loads = false;               // the model is read again
 };
 
 std::span<const Setting> settings();

@@ -19,7 +19,8 @@ namespace {
 std::string quoted(const std::string& word)
 {
     const bool safe = !word.empty()
-        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,") == std::string::npos;
+        && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:@%,")
+            == std::string::npos;
     if (safe)
         return word;
     std::string text = "'";
@@ -36,7 +37,10 @@ std::string compareName(Compare compare)
                                        : "off";
 }
 
-std::string textOf(const glm::vec3& v) { return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f); }
+std::string textOf(const glm::vec3& v)
+{
+    return fmt::format("{:.4f} {:.4f} {:.4f}", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
+}
 
 } // namespace
 
@@ -81,9 +85,12 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     const bool second = state.compare == Compare::flip && state.second;
     const app::PictureOptions o = optionsOf(state, second), usual;
     const Side& side = sideOf(state, second);
-    std::string text = state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
+    std::string text =
+        state.compare == Compare::angle || state.compare == Compare::divider ? "cotan compare" : "cotan render";
     const bool compares = text == "cotan compare";
-    const auto add = [&](const std::string& name, const std::string& value) { text += " --" + name + " " + quoted(value); };
+    const auto add = [&](const std::string& name, const std::string& value) {
+        text += " --" + name + " " + quoted(value);
+    };
     if (!o.model.empty())
         text += " " + quoted(o.model);
     text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
@@ -121,9 +128,10 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         if (value != valueOf(setting, usual))
             add(setting.name, value);
     }
-    for (const auto& [name, value, other] :
-         {std::tuple("device", o.device, usual.device), {"lighting", o.lighting, usual.lighting}, {"rows", o.rows, usual.rows},
-          {"normal-mapping", o.normalMapping, usual.normalMapping}})
+    for (const auto& [name, value, other] : {std::tuple("device", o.device, usual.device),
+                                             {"lighting", o.lighting, usual.lighting},
+                                             {"rows", o.rows, usual.rows},
+                                             {"normal-mapping", o.normalMapping, usual.normalMapping}})
         if (value != other)
             add(name, value);
     return text;
@@ -133,8 +141,10 @@ std::string reportOf(const State& state)
 {
     std::string text;
     const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
-    add("model", !state.picture.model.empty() ? std::filesystem::path(state.picture.model).filename().string()
-                                              : !state.picture.shape.empty() ? state.picture.shape : "built-in");
+    add("model",
+        !state.picture.model.empty()       ? std::filesystem::path(state.picture.model).filename().string()
+            : !state.picture.shape.empty() ? state.picture.shape
+                                           : "built-in");
     add("triangles", state.model ? fmt::format("{}", trianglesDrawn(state.model->scene)) : "none");
     add("size", fmt::format("{}x{}", state.size.x, state.size.y));
     add("view", state.show);
@@ -150,8 +160,9 @@ std::string reportOf(const State& state)
     add("camera moved", state.cameraMoved ? "yes" : "no");
     add("eye", textOf(state.camera.eye));
     add("pivot", textOf(state.camera.target));
-    add("lens", state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
-                                          : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
+    add("lens",
+        state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
+                                  : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
     for (const Setting& setting : settings())
         add(setting.name, valueOf(setting, state.picture));
     add("metered", fmt::format("{:.4f}", state.metered));
@@ -162,7 +173,8 @@ std::string reportOf(const State& state)
     add("degrees", state.statisticsOf.empty() ? "none" : state.statisticsOf + ": " + toText(state.statistics));
     if (const auto& hit = state.probe.hit) {
         const Probed& p = state.probe.surface;
-        add("under the pointer", fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
+        add("under the pointer",
+            fmt::format("mesh {} triangle {} at {}", hit->mesh, hit->triangle, textOf(hit->position)));
         add("uv", fmt::format("{:.4f} {:.4f} texel {} {}", p.uv.x, p.uv.y, p.texel.x, p.texel.y));
         add("t", textOf(p.t));
         add("b", textOf(p.b));

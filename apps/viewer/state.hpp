@@ -1,5 +1,5 @@
-// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the artist draws it (artist.hpp); the
-// window shows it.
+// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the artist draws it (artist.hpp);
+// the window shows it.
 #pragma once
 
 #include <filesystem>
@@ -81,16 +81,16 @@ struct State {
     Camera camera;
     bool cameraMoved = false;    // from where a reset puts it
     float metered = 0;           // exposure that "auto" has found; 0: not yet
-    std::string meteredFrom;        // camera that "auto" looks from, in words; empty: where a reset puts it
+    std::string meteredFrom;     // camera that "auto" looks from, in words; empty: where a reset puts it
     bool lightPinned = false;    // the light turns with the camera
     float pinnedAt = 0;          // azimuth of the camera when it was pinned, degrees
     bool moving = false;         // the camera is in someone's hand
     float rate = 1, speed = 0.5; // of the animation; of flying, model sizes a second
     bool playing = false;
 
-    std::shared_ptr<const Model> model; // null until the first one is read
+    std::shared_ptr<const Model> model;           // null until the first one is read
     std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
-    std::vector<std::string> recent;   // files, the latest first
+    std::vector<std::string> recent;              // files, the latest first
 
     bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, hotSpotsShown = false;
     bool cardShown = true, statisticsShown = true;
@@ -98,9 +98,9 @@ struct State {
 
     // Input.
     glm::vec2 pointer{-1, -1}, pressedAt{0, 0};
-    std::string held;         // the button that is down, with what was held: "shift+left"; empty: none
+    std::string held; // the button that is down, with what was held: "shift+left"; empty: none
     bool holdsDivider = false;
-    bool dragged = false;     // since the button went down
+    bool dragged = false;              // since the button went down
     std::vector<std::string> keysDown; // of flying
 
     // What came back.

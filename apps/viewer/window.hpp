@@ -51,7 +51,7 @@ public:
     virtual void loseSurface() = 0; // for tests: the next show() makes it anew
     virtual std::string device() const = 0;
     virtual const std::vector<std::string>& messages() const = 0; // of the validation layer
-    virtual void wake() = 0; // ends a poll() that waits; from any thread
+    virtual void wake() = 0;                                      // ends a poll() that waits; from any thread
 };
 
 // Errors: ErrorKind::unavailable without the module, a display, or a device that can present.

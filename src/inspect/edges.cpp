@@ -71,7 +71,7 @@ void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, 
                 edges.push_back({placed(v[a]), placed(v[b]), EdgeKind::border});
             } else if (half.triangles == 1) {
                 const bool goesOn = half.uvA == uvOf(a) && half.uvB == uvOf(b) && half.positive == positive;
-                edges[half.edge].kind = goesOn ? EdgeKind::inner
+                edges[half.edge].kind = goesOn  ? EdgeKind::inner
                     : half.positive != positive ? EdgeKind::mirroredSeam
                                                 : EdgeKind::seam;
             }
@@ -109,8 +109,8 @@ dvec3 seenBy(const Eye& e, const dvec3& v)
     return {e.width / 2 + v.x * scale, e.height / 2 - v.y * scale, e.orthographic ? v.z : 1 / v.z};
 }
 
-void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdge& edge, const std::array<int, 3>& color,
-              double strength)
+void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdge& edge,
+              const std::array<int, 3>& color, double strength)
 {
     constexpr double kNear = 1e-6, kSlack = 1.003;
     const auto inEye = [&](const glm::vec3& p) {

@@ -69,8 +69,7 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
         if (instance == scene.instances.end())
             continue;
         const Material& material = scene.materials[std::size_t(mesh.material)];
-        const MappedSurface surface =
-            makeSurface(mesh, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)));
+        const MappedSurface surface = makeSurface(mesh, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)));
         if (surface.uv.empty())
             continue;
         std::array<Worst, 4> worst;

@@ -17,10 +17,12 @@ namespace cotan {
 namespace {
 
 constexpr std::array<std::string_view, 17> kNames = {
-    "checker",    "density",        "stretch",          "shear",           "mirrored",  "w",        "facing",    "base-color", "alpha",
-    "normal-map", "normal-map-red", "normal-map-green", "normal-map-blue", "roughness", "metallic", "occlusion", "emissive"};
+    "checker",         "density",    "stretch",  "shear",      "mirrored",       "w",
+    "facing",          "base-color", "alpha",    "normal-map", "normal-map-red", "normal-map-green",
+    "normal-map-blue", "roughness",  "metallic", "occlusion",  "emissive"};
 
-constexpr glm::vec3 kBlue{0.20f, 0.45f, 0.85f}, kOrange{0.95f, 0.55f, 0.15f}, kRed{0.85f, 0.15f, 0.15f}, kGrey{0.5f}; // sRGB
+constexpr glm::vec3 kBlue{0.20f, 0.45f, 0.85f}, kOrange{0.95f, 0.55f, 0.15f}, kRed{0.85f, 0.15f, 0.15f},
+    kGrey{0.5f}; // sRGB
 
 glm::vec3 linear(glm::vec3 shown)
 {
@@ -48,7 +50,8 @@ float asDegrees(double value, const std::array<double, 6>& places)
     for (std::size_t i = 1; i < places.size(); ++i)
         if (value < places[i])
             return float(kDegrees[i - 1]
-                         + (kDegrees[i] - kDegrees[i - 1]) * std::max(0.0, value - places[i - 1]) / (places[i] - places[i - 1]));
+                         + (kDegrees[i] - kDegrees[i - 1]) * std::max(0.0, value - places[i - 1])
+                             / (places[i] - places[i - 1]));
     return 45;
 }
 
@@ -277,7 +280,8 @@ Image checkerImage()
             for (int c = 0; c < 3; ++c) {
                 const float tint = 0.5f + 0.5f * std::cos(hue - float(c) * 2.0943951f);
                 const float fade = 0.35f + 0.65f * float(row) / 7;
-                p[c] = std::uint8_t(255 * std::clamp(bright * (1 - 0.6f * fade + 0.6f * fade * tint), 0.0f, 1.0f) + 0.5f);
+                p[c] =
+                    std::uint8_t(255 * std::clamp(bright * (1 - 0.6f * fade + 0.6f * fade * tint), 0.0f, 1.0f) + 0.5f);
             }
             p[3] = 255;
         }

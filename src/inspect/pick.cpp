@@ -22,13 +22,15 @@ Ray rayAt(const Camera& camera, glm::ivec2 size, glm::vec2 place)
     const dvec3 right = glm::normalize(glm::cross(forward, dvec3(camera.up))), up = glm::cross(right, forward);
     const double height =
         camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2);
-    const double x = (double(place.x) - size.x * 0.5) * height / size.y, y = (size.y * 0.5 - double(place.y)) * height / size.y;
+    const double x = (double(place.x) - size.x * 0.5) * height / size.y,
+                 y = (size.y * 0.5 - double(place.y)) * height / size.y;
     const dvec3 aside = right * x + up * y;
     return camera.orthographic ? Ray{eye + aside, forward} : Ray{eye, forward + aside};
 }
 
 // Moeller and Trumbore. positive determinants: the front is seen.
-bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool bothSides, double& t, glm::dvec2& weights)
+bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool bothSides, double& t,
+           glm::dvec2& weights)
 {
     const dvec3 e1 = b - a, e2 = c - a, p = glm::cross(ray.along, e2);
     const double determinant = glm::dot(e1, p);
@@ -66,8 +68,12 @@ std::optional<Hit> pick(const Scene& scene, const Camera& camera, glm::ivec2 siz
             if (!meets(local, corner(0), corner(1), corner(2), bothSides, t, weights) || !(t > 0) || !(t < best))
                 continue;
             best = t;
-            nearest = Hit{int(i), instance.mesh, triangle, {1 - weights.x - weights.y, weights.x, weights.y},
-                          glm::vec3(ray.from + ray.along * t), float(t)};
+            nearest = Hit{int(i),
+                          instance.mesh,
+                          triangle,
+                          {1 - weights.x - weights.y, weights.x, weights.y},
+                          glm::vec3(ray.from + ray.along * t),
+                          float(t)};
         }
     }
     return nearest;

@@ -195,8 +195,8 @@ public:
             default: break;
             }
             const ImGuiIO& io = ImGui::GetIO();
-            const bool pointer = event.kind == EventKind::move || event.kind == EventKind::press
-                || event.kind == EventKind::scroll;
+            const bool pointer =
+                event.kind == EventKind::move || event.kind == EventKind::press || event.kind == EventKind::scroll;
             const bool keys = event.kind == EventKind::key || event.kind == EventKind::text;
             if (!(pointer && io.WantCaptureMouse) && !(keys && io.WantTextInput))
                 others.push_back(event);
@@ -275,9 +275,8 @@ private:
                 of(w).add(action == GLFW_PRESS ? EventKind::press : EventKind::release, 0, 0,
                           heldWords(mods) + kButtons[std::size_t(button)]);
         });
-        glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-            of(w).add(EventKind::scroll, float(x), float(y), {});
-        });
+        glfwSetScrollCallback(
+            window_, [](GLFWwindow* w, double x, double y) { of(w).add(EventKind::scroll, float(x), float(y), {}); });
         glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
             const std::string name = nameOfKey(key, scancode);
             if (!name.empty())

@@ -95,8 +95,8 @@ Presenter::~Presenter()
 void Presenter::openInstance(const std::vector<const char*>& needed, bool validation)
 {
     constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-    const auto layers = listOf<VkLayerProperties>(
-        [](auto* count, auto* list) { vkEnumerateInstanceLayerProperties(count, list); });
+    const auto layers =
+        listOf<VkLayerProperties>([](auto* count, auto* list) { vkEnumerateInstanceLayerProperties(count, list); });
     const bool validate =
         validation && std::ranges::any_of(layers, [&](const auto& l) { return !std::strcmp(l.layerName, kLayer); });
     if (validation && !validate)
@@ -131,15 +131,14 @@ void Presenter::openInstance(const std::vector<const char*>& needed, bool valida
 // The device that the renderer draws on where it can present; else a real one, else any.
 void Presenter::openDevice(const std::string& wanted)
 {
-    const auto devices = listOf<VkPhysicalDevice>(
-        [&](auto* count, auto* list) { vkEnumeratePhysicalDevices(instance_, count, list); });
+    const auto devices =
+        listOf<VkPhysicalDevice>([&](auto* count, auto* list) { vkEnumeratePhysicalDevices(instance_, count, list); });
     int best = -1;
     for (VkPhysicalDevice candidate : devices) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(candidate, &properties);
-        const auto known = listOf<VkExtensionProperties>([&](auto* count, auto* list) {
-            vkEnumerateDeviceExtensionProperties(candidate, nullptr, count, list);
-        });
+        const auto known = listOf<VkExtensionProperties>(
+            [&](auto* count, auto* list) { vkEnumerateDeviceExtensionProperties(candidate, nullptr, count, list); });
         if (std::ranges::none_of(
                 known, [](const auto& e) { return !std::strcmp(e.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME); }))
             continue;
@@ -150,12 +149,11 @@ void Presenter::openDevice(const std::string& wanted)
             if (vkGetPhysicalDeviceSurfaceSupportKHR(candidate, f, surface_, &presents) != VK_SUCCESS || !presents
                 || !(families[f].queueFlags & VK_QUEUE_GRAPHICS_BIT))
                 continue;
-            const bool named =
-                !wanted.empty() && lower(properties.deviceName).find(lower(wanted)) != std::string::npos;
-            const int worth = named ? 3
+            const bool named = !wanted.empty() && lower(properties.deviceName).find(lower(wanted)) != std::string::npos;
+            const int worth = named                                             ? 3
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ? 2
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU          ? 0
-                                                                                 : 1;
+                                                                                : 1;
             if (worth > best) {
                 best = worth;
                 physical_ = candidate;
@@ -281,8 +279,8 @@ void Presenter::makeSwapchain(int width, int height)
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
     info.clipped = VK_TRUE;
     COTAN_CHECK(vkCreateSwapchainKHR(device_, &info, nullptr, &swapchain_));
-    images_ = listOf<VkImage>(
-        [&](auto* count, auto* list) { vkGetSwapchainImagesKHR(device_, swapchain_, count, list); });
+    images_ =
+        listOf<VkImage>([&](auto* count, auto* list) { vkGetSwapchainImagesKHR(device_, swapchain_, count, list); });
     for (VkImage image : images_) {
         auto view = made<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
         view.image = image;
@@ -301,7 +299,8 @@ void Presenter::makeSwapchain(int width, int height)
         auto semaphore = made<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
         COTAN_CHECK(vkCreateSemaphore(device_, &semaphore, nullptr, &drawn_.emplace_back()));
     }
-    read_ = makeBuffer(VkDeviceSize(4) * extent_.width * extent_.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT, read_memory_);
+    read_ =
+        makeBuffer(VkDeviceSize(4) * extent_.width * extent_.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT, read_memory_);
     if (!interface_started_)
         startInterface();
 }

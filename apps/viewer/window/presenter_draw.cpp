@@ -38,8 +38,8 @@ VkBuffer Presenter::makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage, VkD
     vkGetBufferMemoryRequirements(device_, buffer, &needs);
     auto allocate = made<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     allocate.allocationSize = needs.size;
-    allocate.memoryTypeIndex = memoryType(needs.memoryTypeBits,
-                                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    allocate.memoryTypeIndex =
+        memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     check(vkAllocateMemory(device_, &allocate, nullptr, &memory), "vkAllocateMemory");
     check(vkBindBufferMemory(device_, buffer, memory, 0), "vkBindBufferMemory");
     return buffer;

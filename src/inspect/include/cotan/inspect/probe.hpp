@@ -13,7 +13,7 @@ struct Probed {
     glm::vec3 normal{0};        // world, as interpolated, unit
     glm::vec3 t{0}, b{0};       // of the frame, world; zero where there is none
     glm::vec3 storedTangent{0}; // world, unit, along +u; zero where the mesh has none
-    int w = 0;                  // as glTF stores it: +1 where -b, up the picture, is along cross(n, t); -1; 0 without a frame
+    int w = 0; // as glTF stores it: +1 where -b, up the picture, is along cross(n, t); -1; 0 without a frame
     bool hasUv = false;
     glm::vec2 uv{0};      // of the normal map
     glm::ivec2 texel{-1}; // of the normal map, from its top left corner; -1: there is none
