@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <ranges>
 #include <sstream>
 #include <string_view>
 
@@ -167,7 +166,10 @@ Status toggle(State& state, const std::string& name)
             wish(state, Wish::Kind::findHotSpots);
         return Done{};
     }
-    return expected("toggle", fmt::format("one of {}", fmt::join(std::views::keys(switches), ", ")), name);
+    std::string names;
+    for (const auto& [word, field] : switches)
+        names += (names.empty() ? "one of " : ", ") + word;
+    return expected("toggle", names, name);
 }
 
 Status setCompare(State& state, const std::string& mode)
