@@ -206,7 +206,8 @@ TEST(Help, standardOutputThatCannotBeWrittenIsExitCodeFour)
             const int status = std::system(("cd " + folder.path().string() + " && " + shell).c_str());
             EXPECT_EQ(WEXITSTATUS(status), 4) << line << sink;
             const std::string err = readWhole(folder / "err");
-            EXPECT_NE(err.find(sink == ">/dev/full" ? "no space left" : "broken pipe"), std::string::npos) << line << err;
+            EXPECT_NE(err.find(sink == ">/dev/full" ? "no space left" : "broken pipe"), std::string::npos)
+                << line << err;
         }
 }
 
