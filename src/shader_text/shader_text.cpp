@@ -89,8 +89,8 @@ Result<Form> formOf(const Choice& choice)
 
 std::string_view name(Set set)
 {
-    constexpr std::string_view kNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
-    return kNames[int(set)];
+    constexpr std::string_view kSetNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
+    return kSetNames[int(set)];
 }
 
 bool hasFusedForm(Frame frame) { return info(frame).fused; }
