@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::array<const char*, 5> kKeptSettings = {"environment", "tone-mapping", "ground", "background",
                                                       "shadow-softness"};
-constexpr std::size_t kMostRecent = 10;
 
 struct Switch {
     const char* name;

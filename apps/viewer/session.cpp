@@ -30,7 +30,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostRecent = 10;
 constexpr double kPatience = 120; // seconds that a played session waits for one picture
 
 double secondsNow()

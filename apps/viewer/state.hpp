@@ -69,6 +69,8 @@ struct Probe {
     float degrees = -1; // in the picture of angles; below 0: none
 };
 
+inline constexpr std::size_t kMostRecent = 10; // files that are kept
+
 struct State {
     PictureOptions picture; // of the first picture; its camera: the words that a reset goes back to
     std::string show = "shaded";

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFiner = 16;       // samples along a side of a pixel, in the truth
 constexpr int kEnlarged = 3;     // pixels of a panel along a side of one that was drawn
-constexpr int kMostPixels = 160; // that are drawn, a side: the truth takes 256 times as much memory
+constexpr int kMostDrawn = 160;  // pixels that are drawn, a side: the truth takes 256 times as much memory
 
 // Slopes without order, of 11 degrees (root mean square), as wide as three texels.
 Image grain()
@@ -111,7 +111,7 @@ void addRow(Studio& studio, Figure& figure, const std::string& name, Image map)
 {
     const Scene scene = sparkling(std::move(map));
     studio.show(scene);
-    const int side = std::clamp(studio.height() / kEnlarged, 8, kMostPixels);
+    const int side = std::clamp(studio.height() / kEnlarged, 8, kMostDrawn);
     View fine = sparklingView(side * kFiner);
     fine.pointSampled = true; // smaller levels would have lost what is looked for
     const Image truth = averaged(studio.drawReference(fine));

@@ -13,7 +13,7 @@ namespace cotan {
 namespace {
 
 // VkFormat of Vulkan 1.3, sRGB beside linear: values stay as they are stored.
-constexpr std::array<Ktx2Format, 38> kFormats = {{{9, 1, 1},
+constexpr std::array<Ktx2Format, 38> kVulkanFormats = {{{9, 1, 1},
                                                   {15, 1, 1},
                                                   {16, 2, 1},
                                                   {22, 2, 1},
@@ -116,8 +116,8 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     const std::uint64_t format = file.at(12, 4), width = file.at(20, 4), height = file.at(24, 4),
                         depth = file.at(28, 4), layers = file.at(32, 4), faces = file.at(36, 4),
                         levels = file.at(40, 4);
-    const auto known = std::ranges::find(kFormats, format, &Ktx2Format::number);
-    if (known == kFormats.end())
+    const auto known = std::ranges::find(kVulkanFormats, format, &Ktx2Format::number);
+    if (known == kVulkanFormats.end())
         return inputError(fmt::format("its format {} (VkFormat) is not read here", format));
     if (width == 0 || height == 0 || depth > 1 || layers > 1 || faces != 1)
         return inputError(fmt::format("expected one flat picture, found {} x {} x {}, {} layers, {} faces", width,
