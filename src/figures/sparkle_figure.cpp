@@ -14,9 +14,9 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kFiner = 16;       // samples along a side of a pixel, in the truth
-constexpr int kEnlarged = 3;     // pixels of a panel along a side of one that was drawn
-constexpr int kMostDrawn = 160;  // pixels that are drawn, a side: the truth takes 256 times as much memory
+constexpr int kFiner = 16;      // samples along a side of a pixel, in the truth
+constexpr int kEnlarged = 3;    // pixels of a panel along a side of one that was drawn
+constexpr int kMostDrawn = 160; // pixels that are drawn, a side: the truth takes 256 times as much memory
 
 // Slopes without order, of 11 degrees (root mean square), as wide as three texels.
 Image grain()
