@@ -11,36 +11,12 @@
 #include "cotan/portable.hpp"
 #include "cotan/reference/render.hpp"
 #include "cotan/shapes/shapes.hpp"
-#include "cotan/truth/random.hpp"
+#include "cotan/truth/grain.hpp"
 
 namespace cotan::test {
 namespace {
 
 constexpr int kSide = 64, kFiner = 16; // pixels, and samples a side of one
-
-// Normals without order, as wide as a texel and its neighbours: slopes of some 20 degrees.
-Image grain()
-{
-    constexpr int side = 256;
-    Random random(7);
-    std::vector<glm::vec2> slopes(std::size_t(side * side));
-    for (glm::vec2& s : slopes)
-        for (int i = 0; i < 6; ++i)
-            s += glm::vec2(random.range(-0.45, 0.45), random.range(-0.45, 0.45));
-    Image image = makeImage(side, side, PixelType::unorm8);
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            glm::vec2 sum(0);
-            for (int k = 0; k < 9; ++k)
-                sum += slopes[std::size_t((y + k / 3) % side * side + (x + k % 3) % side)] / 3.0f;
-            const glm::vec3 n = glm::normalize(glm::vec3(sum, 1));
-            std::uint8_t* const p = image.bytes8() + 4 * (y * side + x);
-            for (int c = 0; c < 3; ++c)
-                p[c] = std::uint8_t(std::lround(n[c] * 127 + 128));
-            p[3] = 255;
-        }
-    return image;
-}
 
 Scene shiny(Mesh mesh, float roughness, bool mapped)
 {
@@ -50,7 +26,7 @@ Scene shiny(Mesh mesh, float roughness, bool mapped)
     scene.materials[0].roughness = roughness;
     scene.materials[0].baseColor = {0.9f, 0.9f, 0.9f, 1};
     if (mapped) {
-        scene.images.push_back(grain());
+        scene.images.push_back(makeGrain(0.45));
         scene.materials[0].normalMap.image = 0;
     }
     scene.meshes.push_back(std::move(mesh));

@@ -26,7 +26,7 @@ State withModel()
 {
     State state;
     auto model = std::make_shared<Model>();
-    auto scene = app::openModel(state.picture, {});
+    auto scene = openModel(state.picture);
     model->scene = std::move(*scene);
     model->box = bounds(model->scene);
     model->number = 1;

@@ -64,12 +64,16 @@ Result<Scene> loadTold(const CommonOptions& common, const LoadLimits& limits, co
     return loadSceneWithin(limits, file);
 }
 
-Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)
+Result<std::unique_ptr<Painter>> told(Result<std::unique_ptr<Painter>> painter, const CommonOptions& common)
 {
-    auto painter = openPainter(device, common.threads);
     if (painter && !(*painter)->note.empty())
         warn(common, (*painter)->note);
     return painter;
+}
+
+Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)
+{
+    return told(openPainter(device, common.threads), common);
 }
 
 } // namespace cotan::app

@@ -33,6 +33,9 @@ Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
 // loadSceneWithin under a line of progress.
 Result<Scene> loadTold(const CommonOptions& common, const LoadLimits& limits, const std::string& file);
 
+// Warns of a painter's note.
+Result<std::unique_ptr<Painter>> told(Result<std::unique_ptr<Painter>> painter, const CommonOptions& common);
+
 // Opens the device of that name, as openPainter does; where "auto" falls back to the reference renderer, a warning
 // says why. Errors: those of openPainter.
 Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common);

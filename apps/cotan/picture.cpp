@@ -141,13 +141,6 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 
-Result<Scene> openModel(const PictureOptions& options, const CommonOptions& common)
-{
-    const ProgressLine loading(common.quiet || options.model.empty(), 0, "loading " + options.model);
-    auto scene = cotan::openModel(options);
-    return scene ? std::move(scene) : Result<Scene>(inWords(scene.error()));
-}
-
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames, const View* like)
 {
@@ -168,10 +161,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture)
 {
-    auto painter = cotan::openPicturePainter(options, common.threads, picture);
-    if (painter && !(*painter)->note.empty())
-        warn(common, (*painter)->note);
-    return painter;
+    return told(cotan::openPicturePainter(options, common.threads, picture), common);
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)

@@ -16,7 +16,6 @@ void addShowOption(Arguments& a, std::string& show);
 void addOwnNormalMap(Arguments& a, OwnMaps& maps);
 
 // The same of the part, under a line of progress; warnings are printed, errors are in words.
-Result<Scene> openModel(const PictureOptions& options, const CommonOptions& common);
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames, const View* like = nullptr);
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,

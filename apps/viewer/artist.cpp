@@ -86,12 +86,11 @@ public:
     {
         Drawn drawn;
         drawn.number = order.number;
-        const app::Stopwatch watch;
-        app::Stopwatch lap = watch;
+        app::Stopwatch watch;
         const Status done = drawInto(order, drawn, false);
         if (!done)
-            drawn.problem = done.error().message;
-        drawn.seconds = lap.lap();
+            drawn.problem = app::inWords(done.error()).message;
+        drawn.seconds = watch.lap();
         if (!drawn.draft)
             seconds_ = drawn.seconds;
         return drawn;
@@ -147,11 +146,9 @@ private:
             drawn.picture = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
             return Done{};
         }
-        auto image = drawShow(*(*first)->painter, *(*first)->scene, *view, order.show, floats);
+        auto image = drawSide(order, **first, *view, order.first, floats);
         if (!image)
             return image.error();
-        if (Status laid = layEdgesOn(order, **first, *view, order.first, *image); !laid)
-            return laid;
         drawn.picture = std::make_shared<Image>(std::move(*image));
         if (order.compare != Compare::divider)
             return Done{};
@@ -163,13 +160,20 @@ private:
             return otherView.error();
         if (drawn.draft)
             *otherView = smaller(*otherView);
-        image = drawShow(*(*other)->painter, *(*other)->scene, *otherView, order.show, floats);
+        image = drawSide(order, **other, *otherView, order.second, floats);
         if (!image)
             return image.error();
-        if (Status laid = layEdgesOn(order, **other, *otherView, order.second, *image); !laid)
-            return laid;
         drawn.other = std::make_shared<Image>(std::move(*image));
         return Done{};
+    }
+
+    Result<Image> drawSide(const Order& order, Stage& s, const View& view, const PictureOptions& o, bool floats)
+    {
+        auto image = drawShow(*s.painter, *s.scene, view, order.show, floats);
+        if (image)
+            if (Status laid = layEdgesOn(order, s, view, o, *image); !laid)
+                return laid.error();
+        return image;
     }
 
     Status layEdgesOn(const Order& order, Stage& s, const View& view, const PictureOptions& o, Image& picture)
@@ -339,7 +343,7 @@ struct Artist::Work {
                 more = guarded(
                     [&] {
                         if (const Status made = studio.drawFigures(order, more); !made)
-                            more.problem = made.error().message;
+                            more.problem = app::inWords(made.error()).message;
                         return more;
                     },
                     order.number);

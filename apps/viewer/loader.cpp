@@ -15,13 +15,13 @@ struct Task {
     std::shared_ptr<const Model> look; // for hot spots; null: read the options' model
 };
 
-Loaded readModel(const PictureOptions& options, const app::CommonOptions& common, std::uint64_t number)
+Loaded readModel(const PictureOptions& options, std::uint64_t number)
 {
     Loaded loaded;
     loaded.options = options;
-    auto scene = openModel(options, common);
+    auto scene = openModel(options);
     if (!scene) {
-        loaded.problem = scene.error().message;
+        loaded.problem = app::inWords(scene.error()).message;
         return loaded;
     }
     auto model = std::make_shared<Model>();
@@ -35,10 +35,7 @@ Loaded readModel(const PictureOptions& options, const app::CommonOptions& common
 } // namespace
 
 struct Loader::Work {
-    Work(app::CommonOptions options, std::function<void()> tell)
-        : common(std::move(options)), done(std::move(tell)), thread([this] { run(); })
-    {
-    }
+    explicit Work(std::function<void()> tell) : done(std::move(tell)), thread([this] { run(); }) {}
 
     void run()
     {
@@ -69,7 +66,7 @@ struct Loader::Work {
         failed.options = task.options;
         try {
             if (!task.look)
-                return readModel(task.options, common, ++number);
+                return readModel(task.options, ++number);
             failed.hotSpots = hotSpots(task.look->scene);
         } catch (const std::bad_alloc&) {
             failed.problem = "not enough memory";
@@ -79,7 +76,6 @@ struct Loader::Work {
         return failed;
     }
 
-    app::CommonOptions common;
     std::function<void()> done;
     std::mutex mutex;
     std::condition_variable changed;
@@ -90,10 +86,7 @@ struct Loader::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Loader::Loader(app::CommonOptions common, std::function<void()> done)
-    : work_(std::make_unique<Work>(std::move(common), std::move(done)))
-{
-}
+Loader::Loader(std::function<void()> done) : work_(std::make_unique<Work>(std::move(done))) {}
 
 Loader::~Loader()
 {

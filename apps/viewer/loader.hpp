@@ -20,7 +20,7 @@ struct Loaded {
 class Loader {
 public:
     // done: called on the loader's thread where something can be taken.
-    Loader(app::CommonOptions common, std::function<void()> done);
+    explicit Loader(std::function<void()> done);
     ~Loader();
 
     // Reads this next; what waits is dropped, what is being read goes on and is forgotten.

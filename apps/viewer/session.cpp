@@ -79,7 +79,7 @@ public:
         begun_ = secondsNow();
         app::CommonOptions quiet = options_.common;
         quiet.quiet = true; // what is to be said is said in the window
-        loader_.emplace(quiet, [this] { wake(); });
+        loader_.emplace([this] { wake(); });
         artist_.emplace(quiet, optionsOf(state_, false), [this] { wake(); });
         state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
         loadWished();
@@ -284,7 +284,7 @@ private:
             if (const Status shown = window_->show(interface(), shownNow()); !shown)
                 return shown;
             const auto picture = window_->read();
-            return picture ? write(w.text, *picture) : Status(picture.error());
+            return picture ? writeImage(w.text, *picture) : Status(picture.error());
         }
         case Wish::Kind::writeReport: {
             std::ofstream file(w.text, std::ios::binary);
@@ -316,8 +316,6 @@ private:
         return Done{};
     }
 
-    static Status write(const std::string& file, const Image& picture) { return writeImage(file, picture); }
-
     Status writePicture(const Wish& w)
     {
         if (!state_.model)
@@ -335,7 +333,7 @@ private:
             order.first.use = order.second.use = PictureUse::radiance;
         const auto image = artist_->drawNow(order, floats);
         if (!image)
-            return image.error();
+            return app::inWords(image.error());
         if (Status done = writeImage(file, *image); !done)
             return done;
         const std::string command = commandLine(wanted, file.string(), wanted.size);
@@ -370,7 +368,7 @@ private:
                 state_.drawSeconds = options_.plays ? 0 : drawn->seconds; // played sessions look the same every time
                 state_.metered = drawn->exposure > 0 ? drawn->exposure : state_.metered;
             }
-            if (!drawn->hasFigures && !drawn->draft && state_.statisticsOf.empty() == false && drawn->degrees.empty()
+            if (!drawn->hasFigures && !drawn->draft && !state_.statisticsOf.empty() && drawn->degrees.empty()
                 && inspectionFromName(state_.show))
                 state_.statisticsOf.clear();
             if (drawn->hasFigures) {
@@ -410,7 +408,7 @@ private:
         if (!loaded.model) { // the last one stays
             ++state_.failedLoads;
             state_.problem = loaded.problem;
-            if (options_.common.quiet == false)
+            if (!options_.common.quiet)
                 app::warn(options_.common, loaded.problem);
             return;
         }

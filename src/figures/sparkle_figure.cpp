@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/picture_text.hpp"
-#include "cotan/truth/random.hpp"
+#include "cotan/truth/grain.hpp"
 #include "figure.hpp"
 #include "stage.hpp"
 
@@ -17,30 +17,6 @@ namespace {
 constexpr int kFiner = 16;      // samples along a side of a pixel, in the truth
 constexpr int kEnlarged = 3;    // pixels of a panel along a side of one that was drawn
 constexpr int kMostDrawn = 160; // pixels that are drawn, a side: the truth takes 256 times as much memory
-
-// Slopes without order, of 11 degrees (root mean square), as wide as three texels.
-Image grain()
-{
-    constexpr int side = 256;
-    Random random(7);
-    std::vector<glm::vec2> slopes(std::size_t(side * side));
-    for (glm::vec2& s : slopes)
-        for (int i = 0; i < 6; ++i)
-            s += glm::vec2(random.range(-0.135, 0.135), random.range(-0.135, 0.135));
-    Image image = makeImage(side, side, PixelType::unorm8, "grain");
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            glm::vec2 sum(0);
-            for (int k = 0; k < 9; ++k)
-                sum += slopes[std::size_t((y + k / 3) % side * side + (x + k % 3) % side)] / 3.0f;
-            const glm::vec3 n = glm::normalize(glm::vec3(sum, 1));
-            std::uint8_t* const p = image.bytes8() + 4 * (y * side + x);
-            for (int c = 0; c < 3; ++c)
-                p[c] = std::uint8_t(std::lround(n[c] * 127 + 128));
-            p[3] = 255;
-        }
-    return image;
-}
 
 Scene sparkling(Image map)
 {
@@ -139,7 +115,7 @@ Figure makeSparkleFigure(Studio& studio)
                    "enlarged. Averaged normals have too few highlights and these too bright. With specular "
                    "antialiasing sixteen places in the pixel are lit, each as rough as the lost length of its normal "
                    "says. Errors are root mean squares of what is shown. All by the reference renderer."};
-    addRow(studio, figure, "grain", grain());
+    addRow(studio, figure, "grain", makeGrain(0.135));
     addRow(studio, figure, "domes", makeReliefMap(Relief::domes, 256));
     figure.sliders = {{0, 1}, {3, 4}};
     figure.overview = {0, 1};
