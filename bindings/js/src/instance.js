@@ -2,6 +2,7 @@
 
 const kCodes = ['ok', 'usage', 'input', 'unavailable', 'output', 'limit', 'stopped'];
 const kMessageBytes = 1024;
+const kNoSystem = 52; // ENOSYS of WASI; of other calls any number but 0 is a failure
 
 /** What went wrong: `code` is one of usage, input, unavailable, output, limit, stopped. */
 export class CotanError extends Error {
@@ -96,16 +97,14 @@ export class Library {
   #module;
   #imports;
   #instance;
+  generation = 0; // what is held over calls is gone when it changes
 
   async load(bytes, imports = {}) {
     this.#module = await WebAssembly.compile(await bytes);
-    this.#imports = {
-      ...imports,
-      env: { emscripten_notify_memory_growth() {}, ...imports.env },
-      wasi_snapshot_preview1: new Proxy({}, {
-        get: () => () => { throw new Error('the library asked for the system'); },
-      }),
-    };
+    this.#imports = { ...imports };
+    for (const { module, name } of WebAssembly.Module.imports(this.#module)) // of the system: there is none
+      (this.#imports[module] ??= {})[name] ??= name === 'proc_exit' ? () => { throw new Error('the library ended'); }
+        : name === 'emscripten_notify_memory_growth' ? () => {} : () => kNoSystem;
     await this.#start();
   }
 
@@ -124,6 +123,7 @@ export class Library {
       return result;
     } catch (error) {
       if (error instanceof WebAssembly.RuntimeError || error instanceof WebAssembly.Exception) {
+        ++this.generation;
         this.#instance = new WebAssembly.Instance(this.#module, this.#imports);
         this.#instance.exports._initialize();
         throw new CotanError('unavailable', `the library stopped: ${error.message}`);
