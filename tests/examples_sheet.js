@@ -2,8 +2,11 @@
 // its texels unfiltered. Right-handed axes, the eye in the origin looking along -z; the sheet is turned about y by
 // `angle`, moved to `place` and scaled by `scaleX` in x. pixels: RGBA floats, the first row at the picture's bottom;
 // up: -1 where that row is the top; zoom: 1 / tan(half the field of view). expected: in place of the analytic sheet's,
-// normals laid out like `pixels`. above: what is lower than this in y is left out. Degrees, the largest and the mean.
-function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, up, zoom, expected, above = -Infinity }) {
+// normals laid out like `pixels`. above: what is lower than this in y is left out. chart: u = chart[0] |x| + chart[1] y +
+// chart[2], v likewise with the next three; green points along v. frame: 'cotangent', or 'orthonormal' (tangent first).
+// Degrees, the largest and the mean.
+function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, up, zoom, expected, above = -Infinity,
+                       chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent' }) {
   const c = Math.cos(angle), s = Math.sin(angle);
   const along = [c * scaleX, 0, -s * scaleX], normal = [s, 0, c];
   let worst = 0, sum = 0, count = 0;
@@ -17,22 +20,36 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
       // More than the 2x2 pixels that differences are taken over, and the snapping of corners to 1/16 of a pixel.
       if (!(Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && Math.abs(x) > 0.03)) continue;
       if (y + place[1] < above + 0.03) continue;
-      const u = Math.abs(x) * texelCount, v = (y + 1) % 1 * texelCount;
+      const turns = f => f - Math.floor(f);
+      const u = turns(chart[0] * Math.abs(x) + chart[1] * y + chart[2]) * texelCount;
+      const v = turns(chart[3] * Math.abs(x) + chart[4] * y + chart[5]) * texelCount;
       const near = f => Math.abs(f - Math.round(f)) < 0.2;
       if (near(u) || near(v)) continue;
       const at = (Math.floor(v) * texelCount + Math.floor(u)) * 4;
       const m = [0, 1, 2].map(i => texels[at + i] / 127.5 - 1);
       const side = facing < 0 ? 1 : -1; // a thin sheet: the back's normal is the front's, negated
+      const [t, b] = chartFrame(chart, Math.sign(x), frame);
       const n = expected ? expected.subarray((row * size + column) * 4, (row * size + column) * 4 + 3)
-        : [0, 1, 2].map(i => side * (m[0] * Math.sign(x) * along[i] + m[1] * (i === 1) + m[2] * normal[i]));
+        : [0, 1, 2].map(i => side * ((m[0] * t[0] + m[1] * b[0]) * along[i] + (m[0] * t[1] + m[1] * b[1]) * (i === 1) + m[2] * normal[i]));
       const got = pixels.subarray((row * size + column) * 4, (row * size + column) * 4 + 3);
       const cross = Math.hypot(n[1] * got[2] - n[2] * got[1], n[2] * got[0] - n[0] * got[2], n[0] * got[1] - n[1] * got[0]);
-      const lengths = [n, got].map(a => Math.hypot(...a));
-      const unit = lengths.every(length => Math.abs(length - 1) < 0.02); // 8-bit texels are a little off
+      const unit = Math.abs(Math.hypot(...got) - 1) < 0.02;
       const degrees = unit ? Math.atan2(cross, dot(n, got)) * 180 / Math.PI : NaN;
       worst = degrees <= worst ? worst : degrees; // a NaN stays
       sum += degrees;
       ++count;
     }
   return { worst, mean: sum / count, count };
+}
+
+// The two covectors of a chart in the sheet's plane, where x has this sign.
+function chartFrame(chart, sign, frame) {
+  const u = [chart[0] * sign, chart[1]], v = [chart[3] * sign, chart[4]];
+  if (frame === 'cotangent') {
+    const longest = Math.max(Math.hypot(...u), Math.hypot(...v));
+    return [u.map(c => c / longest), v.map(c => c / longest)];
+  }
+  const turned = Math.sign(u[0] * v[1] - u[1] * v[0]); // dP/du is at right angles to the gradient of v
+  const t = [v[1], -v[0]].map(c => turned * c / Math.hypot(...v));
+  return [t, [-t[1] * turned, t[0] * turned]];
 }
