@@ -136,22 +136,3 @@ function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) 
   }
   return result;
 }
-
-// What is said when the frame is replaced in a mesh that keeps its tangents, and when they are removed.
-function watched(THREE, untangle, replaceFrame, draw) {
-  const said = [];
-  const warn = console.warn;
-  console.warn = text => said.push(text);
-  const scene = new THREE.Scene();
-  const material = new THREE.MeshStandardMaterial({ normalMap: sheetMap(THREE), name: 'bumps' });
-  const mesh = new THREE.Mesh(sheetGeometry(THREE, sheetCharts.square, 1), material);
-  mesh.position.z = -3;
-  scene.add(mesh);
-  replaceFrame(material);
-  draw(scene, new THREE.PerspectiveCamera(40, 1, 0.1, 100));
-  const before = said.length;
-  untangle(scene);
-  draw(scene, new THREE.PerspectiveCamera(40, 1, 0.1, 100));
-  console.warn = warn;
-  return { before, after: said.length, text: said[0] };
-}

@@ -15,29 +15,25 @@ export const untangled = options => () => ({
   async afterRoot(gltf) { untangle(gltf, options); },
 });
 
-const frames = new WeakMap();  // of the materials that are patched
+const patched = new WeakMap();  // frame and hooks of the materials that are
 
 // Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned.
-export function replaceFrame(material, { frame = 'cotangent', against = false } = {}) {
-  const patched = frames.has(material);
-  frames.set(material, { frame, against });
+// from: the material that this is a clone of, since clones have no hooks.
+export function replaceFrame(material, { frame = 'cotangent', against = false, from = material } = {}) {
+  const { before, key } = patched.get(material) ?? patched.get(from) ?? { before: from.onBeforeCompile, key: from.customProgramCacheKey };
+  patched.set(material, { frame, against, before, key });
   material.needsUpdate = true;
-  if (patched) return material;
-  const before = material.onBeforeCompile, key = material.customProgramCacheKey;
   material.onBeforeCompile = (shader, renderer) => {
     before.call(material, shader, renderer);
     if (shader.vertexTangents)
       console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
         + 'frame: call untangle() on it');
-    const wanted = frames.get(material);
-    patchFragment(shader, material, wanted);
-    if (wanted.frame === 'triangle') patchVertex(shader, material);
+    patchFragment(shader, material, { frame, against });
+    if (frame === 'triangle') patchVertex(shader, material);
   };
-  material.customProgramCacheKey = () => {
-    const { frame, against } = frames.get(material);
-    // three's own key is the text of onBeforeCompile, which is ours now.
-    return ['cotan', frame, against, before.toString(), key === Object.getPrototypeOf(material).customProgramCacheKey ? '' : key.call(material)].join();
-  };
+  // three's own key is the text of onBeforeCompile, which is ours now.
+  const own = key !== Object.getPrototypeOf(material).customProgramCacheKey;
+  material.customProgramCacheKey = () => ['cotan', frame, against, before, own ? key.call(material) : ''].join();
   return material;
 }
 

@@ -62,7 +62,7 @@ function copyFor(material, found, turned, copies, replace) {
       if (turned) entry.copy[name].y = -entry.copy[name].y;
     }
     known.set(entry.copy, found);
-    replace(entry.copy, found);
+    replace(entry.copy, { ...found, from: material });
   }
   return entry.copy;
 }

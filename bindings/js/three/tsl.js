@@ -25,13 +25,19 @@ export const untangled = options => () => ({
   async afterRoot(gltf) { untangle(gltf, options); },
 });
 
-// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned.
+const ours = new WeakSet();  // nodes
+
+// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Nodes of the user's
+// own in its place stay.
 export function replaceFrame(material, { frame = 'cotangent', against = false } = {}) {
   const { normalMap, clearcoatNormalMap } = material;
-  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap)
-    material.normalNode = perturbedNormal(normalMap, materialReference('normalScale', 'vec2'), frame);
-  if (clearcoatNormalMap)
-    material.clearcoatNormalNode = perturbedNormal(clearcoatNormalMap, materialReference('clearcoatNormalScale', 'vec2'), frame);
+  const put = (name, map, scale) => {
+    if (material[name] && !ours.has(material[name])) return;
+    material[name] = perturbedNormal(map, materialReference(scale, 'vec2'), frame);
+    ours.add(material[name]);
+  };
+  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', normalMap, 'normalScale');
+  if (clearcoatNormalMap) put('clearcoatNormalNode', clearcoatNormalMap, 'clearcoatNormalScale');
   if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap, against);
   material.needsUpdate = true;
   return material;
