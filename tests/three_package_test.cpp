@@ -52,8 +52,8 @@ std::string writePackagePage(const TemporaryFolder& folder, const std::string& n
     put(page, "TESTS_URL", "file://" + kSourceFolder + "/tests");
     const std::string models = std::string("file://") + COTAN_SHARED_DATA + "/models/";
     put(page, "MODELS",
-        json({{"mirrored", models + "NormalTangentMirrorTest/NormalTangentMirrorTest.glb"},
-              {"coats", models + "ClearCoatTest/ClearCoatTest.glb"}})
+        json::array({json::array({"mirrored", models + "NormalTangentMirrorTest/NormalTangentMirrorTest.glb"}),
+                     json::array({"coats", models + "ClearCoatTest/ClearCoatTest.glb"})})
             .dump());
     put(page, "FOLDER_URL", "file://" + folder.path().string());
     write(folder / (name + ".html"), page);
