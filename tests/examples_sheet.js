@@ -4,9 +4,9 @@
 // up: -1 where that row is the top; zoom: 1 / tan(half the field of view). expected: in place of the analytic sheet's,
 // normals laid out like `pixels`. above: what is lower than this in y is left out. chart: u = chart[0] |x| + chart[1] y +
 // chart[2], v likewise with the next three; green points along v. frame: 'cotangent', or 'orthonormal' (tangent first).
-// Degrees, the largest and the mean.
+// oneSided: back faces keep the front's normal. Degrees, the largest and the mean.
 function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, up, zoom, expected, above = -Infinity,
-                       chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent' }) {
+                       chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent', oneSided }) {
   const c = Math.cos(angle), s = Math.sin(angle);
   const along = [c * scaleX, 0, -s * scaleX], normal = [s, 0, c];
   let worst = 0, sum = 0, count = 0;
@@ -27,7 +27,7 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
       if (near(u) || near(v)) continue;
       const at = (Math.floor(v) * texelCount + Math.floor(u)) * 4;
       const m = [0, 1, 2].map(i => texels[at + i] / 127.5 - 1);
-      const side = facing < 0 ? 1 : -1; // a thin sheet: the back's normal is the front's, negated
+      const side = facing < 0 || oneSided ? 1 : -1; // a thin sheet: the back's normal is the front's, negated
       const [t, b] = chartFrame(chart, Math.sign(x), frame);
       const n = expected ? expected.subarray((row * size + column) * 4, (row * size + column) * 4 + 3)
         : [0, 1, 2].map(i => side * ((m[0] * t[0] + m[1] * b[0]) * along[i] + (m[0] * t[1] + m[1] * b[1]) * (i === 1) + m[2] * normal[i]));
