@@ -4,9 +4,10 @@
 // up: -1 where that row is the top; zoom: 1 / tan(half the field of view). expected: in place of the analytic sheet's,
 // normals laid out like `pixels`. above: what is lower than this in y is left out. chart: u = chart[0] |x| + chart[1] y +
 // chart[2], v likewise with the next three; green points along v. frame: 'cotangent', or 'orthonormal' (tangent first).
-// oneSided: back faces keep the front's normal. Degrees, the largest and the mean.
+// oneSided: back faces keep the front's normal. half: 1 for the plain half only, -1 for the mirrored. Degrees, the largest
+// and the mean.
 function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, up, zoom, expected, above = -Infinity,
-                       chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent', oneSided }) {
+                       chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent', oneSided, half = 0 }) {
   const c = Math.cos(angle), s = Math.sin(angle);
   const along = [c * scaleX, 0, -s * scaleX], normal = [s, 0, c];
   let worst = 0, sum = 0, count = 0;
@@ -18,7 +19,7 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
       const hit = ray.map((r, i) => r * depth - place[i]);
       const x = dot(hit, along), y = hit[1];
       // More than the 2x2 pixels that differences are taken over, and the snapping of corners to 1/16 of a pixel.
-      if (!(Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && Math.abs(x) > 0.03)) continue;
+      if (!(Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && Math.abs(x) > 0.03 && x * half >= 0)) continue;
       if (y + place[1] < above + 0.03) continue;
       const turns = f => f - Math.floor(f);
       const u = turns(chart[0] * Math.abs(x) + chart[1] * y + chart[2]) * texelCount;
@@ -42,14 +43,14 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
   return { worst, mean: sum / count, count };
 }
 
-// The two covectors of a chart in the sheet's plane, where x has this sign.
+// The two covectors of a chart in the sheet's plane, where x has this sign; zeros where it is constant.
 function chartFrame(chart, sign, frame) {
   const u = [chart[0] * sign, chart[1]], v = [chart[3] * sign, chart[4]];
   if (frame === 'cotangent') {
-    const longest = Math.max(Math.hypot(...u), Math.hypot(...v));
+    const longest = Math.max(Math.hypot(...u), Math.hypot(...v)) || 1;
     return [u.map(c => c / longest), v.map(c => c / longest)];
   }
   const turned = Math.sign(u[0] * v[1] - u[1] * v[0]); // dP/du is at right angles to the gradient of v
-  const t = [v[1], -v[0]].map(c => turned * c / Math.hypot(...v));
+  const t = [v[1], -v[0]].map(c => turned * c / (Math.hypot(...v) || 1));
   return [t, [-t[1] * turned, t[0] * turned]];
 }
