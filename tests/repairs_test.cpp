@@ -124,6 +124,8 @@ TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
     // unit lengths are where uv is stretched; y down turns t and b round.
     expectRepair("pex", page["pex stock"], page["pex mended"],
                  {{"plain half", 1},
+                  {"plain half, back", 0.5},
+                  {"plain half, y down", 30},
                   {"mirrored half", 0.5},
                   {"mirrored transform", 0.5},
                   {"back", 0.5},

@@ -10,27 +10,30 @@ export const kTriangleAttribute = 'cotanTriangle';
 export function withTriangles(geometry, uvName, turn, provoking) {
   const { position, normal, [uvName]: uv } = geometry.attributes;
   const count = geometry.index ? geometry.index.count : position.count;
-  const corners = Uint32Array.from({ length: count - count % 3 }, (_, k) => geometry.index ? geometry.index.getX(k) : k);
+  const corners = Uint32Array.from({ length: count - count % 3 }, geometry.index ? (_, k) => geometry.index.getX(k) : (_, k) => k);
+  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), turn);
   const sources = Array.from({ length: position.count }, (_, k) => k);  // of each new vertex
-  const words = [], own = new Set();
+  const provoked = [];  // by each new vertex, the triangle
   for (let k = 0; k < corners.length; k += 3) {
-    const [a, b, c] = corners.subarray(k, k + 3);
-    let turns = [a, b, c].findIndex(vertex => !own.has(vertex));
-    if (turns < 0) {  // all three provoke others
+    let turns = 0;
+    while (turns < 3 && provoked[corners[k + turns]] !== undefined) ++turns;
+    if (turns === 3) {  // all three provoke others
       turns = 0;
-      sources.push(a);
+      sources.push(corners[k]);
       corners[k] = sources.length - 1;
     }
-    const [p, q, r] = [0, 1, 2].map(i => corners[k + (turns + i) % 3]);
-    own.add(p);
-    corners.set(provoking === 'first' ? [p, q, r] : [q, r, p], k);
-    words[p] = wordsOf(vectors(position, normal, uv, a, b, c), turn);
+    const p = corners[k + turns], q = corners[k + (turns + 1) % 3], r = corners[k + (turns + 2) % 3];
+    provoked[p] = k / 3;
+    const first = provoking === 'first';
+    corners[k] = first ? p : q;
+    corners[k + 1] = first ? q : r;
+    corners[k + 2] = first ? r : p;
   }
   const made = new BufferGeometry().copy(geometry);
   made.deleteAttribute('tangent');
   for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
   const packed = new Uint32Array(sources.length * 3);
-  words.forEach((word, vertex) => packed.set(word, vertex * 3));
+  provoked.forEach((triangle, vertex) => packed.set(words.subarray(triangle * 3, triangle * 3 + 3), vertex * 3));
   const attribute = new BufferAttribute(packed, 3);
   attribute.gpuType = IntType;
   made.setAttribute(kTriangleAttribute, attribute);
@@ -38,27 +41,42 @@ export function withTriangles(geometry, uvName, turn, provoking) {
   return made;
 }
 
-function vectors(position, normal, uv, a, b, c) {
-  const xyz = (attribute, k) => [attribute.getX(k), attribute.getY(k), attribute.getZ(k)];
-  const [p0, p1, p2] = [a, b, c].map(k => xyz(position, k));
-  const e1 = p1.map((x, i) => x - p0[i]), e2 = p2.map((x, i) => x - p0[i]);
-  const along = get => {
-    const d1 = uv[get](b) - uv[get](a), d2 = uv[get](c) - uv[get](a);
-    return e1.map((x, i) => x * d2 - e2[i] * d1);
-  };
-  const face = [0, 1, 2].map(i => e1[(i + 1) % 3] * e2[(i + 2) % 3] - e1[(i + 2) % 3] * e2[(i + 1) % 3]);
-  // The side that the normals point to is the outside; the winding's, where there are none.
-  const side = !normal ? 1
-    : Math.sign([a, b, c].map(k => xyz(normal, k)).reduce((sum, n) => sum + n[0] * face[0] + n[1] * face[1] + n[2] * face[2], 0));
-  return [along('getX').map(x => x * side), along('getY').map(x => x * side)];
+// As numbers, whatever the attribute is stored as.
+function numbersOf(attribute, width) {
+  const values = new Float64Array(attribute.count * width);
+  for (let k = 0; k < attribute.count; ++k)
+    for (let i = 0; i < width; ++i) values[k * width + i] = attribute.getComponent(k, i);
+  return values;
 }
 
-// Three words of two halfs; the longer vector has length one. Zeros where there is no frame.
-function wordsOf([u, v], [m00, m01, m10, m11]) {
-  const six = [...u.map((x, i) => m00 * x + m01 * v[i]), ...u.map((x, i) => m10 * x + m11 * v[i])];
-  const longest = Math.max(Math.hypot(...six.slice(0, 3)), Math.hypot(...six.slice(3)));
-  const halfs = six.map(x => longest > 0 && longest < Infinity ? DataUtils.toHalfFloat(x / longest) : 0);
-  return [0, 2, 4].map(i => halfs[i] + halfs[i + 1] * 65536);
+// Three words of two halfs for each triangle, whose longer vector has length one. Zeros where there is no frame.
+function wordsOf(corners, position, normal, uv, [m00, m01, m10, m11]) {
+  const words = new Uint32Array(corners.length), e1 = [0, 0, 0], e2 = [0, 0, 0], u = [0, 0, 0], v = [0, 0, 0];
+  for (let k = 0; k < corners.length; k += 3) {
+    const a = corners[k], b = corners[k + 1], c = corners[k + 2];
+    for (let i = 0; i < 3; ++i) {
+      e1[i] = position[b * 3 + i] - position[a * 3 + i];
+      e2[i] = position[c * 3 + i] - position[a * 3 + i];
+    }
+    const u1 = uv[b * 2] - uv[a * 2], u2 = uv[c * 2] - uv[a * 2], v1 = uv[b * 2 + 1] - uv[a * 2 + 1], v2 = uv[c * 2 + 1] - uv[a * 2 + 1];
+    let facing = normal ? 0 : 1;  // the side that the normals point to is the outside; the winding's, where there are none
+    for (let i = 0; normal && i < 3; ++i) {
+      const j = (i + 1) % 3, l = (i + 2) % 3;
+      facing += (e1[j] * e2[l] - e1[l] * e2[j]) * (normal[a * 3 + i] + normal[b * 3 + i] + normal[c * 3 + i]);
+    }
+    for (let i = 0; i < 3; ++i) {
+      const alongU = e1[i] * u2 - e2[i] * u1, alongV = e1[i] * v2 - e2[i] * v1;
+      u[i] = m00 * alongU + m01 * alongV;
+      v[i] = m10 * alongU + m11 * alongV;
+    }
+    const longest = Math.sqrt(Math.max(u[0] * u[0] + u[1] * u[1] + u[2] * u[2], v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    const scale = longest > 0 && longest < Infinity ? Math.sign(facing) / longest : 0;
+    const half = x => DataUtils.toHalfFloat(scale ? x * scale : 0);
+    words[k] = half(u[0]) + half(u[1]) * 65536;
+    words[k + 1] = half(u[2]) + half(v[0]) * 65536;
+    words[k + 2] = half(v[1]) + half(v[2]) * 65536;
+  }
+  return words;
 }
 
 function gathered(attribute, sources) {
