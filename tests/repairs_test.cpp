@@ -1,5 +1,5 @@
-// The repairs of examples/ for engines of the web, in headless Chromium beside the engines' own text, which comes from their npm
-// packages.
+// The repairs of examples/ for engines of the web, in headless Chromium beside the engines' own text, which comes from
+// their npm packages.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -30,13 +30,14 @@ void applyPatch(const TemporaryFolder& folder, const std::string& patch)
         std::filesystem::create_directories(copy.parent_path());
         std::filesystem::copy_file(kModules / file, copy);
     }
-    const std::string line =
-        "patch --batch --silent -p1 -d '" + folder.path().string() + "' < '" + patch + "' > '" + (folder / "said").string() + "'";
+    const std::string line = "patch --batch --silent -p1 -d '" + folder.path().string() + "' < '" + patch + "' > '"
+        + (folder / "said").string() + "'";
     ASSERT_EQ(std::system(line.c_str()), 0) << patch << ": " << readWhole(folder / "said");
 }
 
 // What tests/NAME.html.in reports; a string that says why where it cannot run.
-json repairPage(const std::string& name, const std::vector<std::string>& packages, const std::vector<std::string>& patches)
+json repairPage(const std::string& name, const std::vector<std::string>& packages,
+                const std::vector<std::string>& patches)
 {
     for (const std::string& package : packages)
         if (!std::filesystem::exists(kModules / package))
@@ -56,10 +57,10 @@ json repairPage(const std::string& name, const std::vector<std::string>& package
     return found.value(name, found);
 }
 
-// stock is wrong in the scenes of `wrong`, by at least so many degrees in the mean (0: not finite), and right in the others;
-// mended is right in all but those of `left`.
-void expectRepair(const std::string& label, const json& stock, const json& mended, const std::map<std::string, double>& wrong,
-                  const std::set<std::string>& left = {})
+// stock is wrong in the scenes of `wrong`, by at least so many degrees in the mean (0: not finite), and right in the
+// others; mended is right in all but those of `left`.
+void expectRepair(const std::string& label, const json& stock, const json& mended,
+                  const std::map<std::string, double>& wrong, const std::set<std::string>& left = {})
 {
     ASSERT_FALSE(stock.empty()) << label;
     ASSERT_EQ(stock.size(), mended.size()) << label;
@@ -106,9 +107,9 @@ TEST(Repairs, playCanvasIsRightInMirroringProjectionsAndOnOneSidedBackFaces)
 
 TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
 {
-    const json page =
-        repairPage("repair_functions", {"@cesium/engine", "@luma.gl/shadertools", "pex-renderer"},
-                   {"cesium/@cesium+engine+26.3.0.patch", "luma/@luma.gl+shadertools+9.4.2.patch", "pex/pex-renderer+3.0.0-44.patch"});
+    const json page = repairPage("repair_functions", {"@cesium/engine", "@luma.gl/shadertools", "pex-renderer"},
+                                 {"cesium/@cesium+engine+26.3.0.patch", "luma/@luma.gl+shadertools+9.4.2.patch",
+                                  "pex/pex-renderer+3.0.0-44.patch"});
     if (page.is_string())
         GTEST_SKIP() << page.get<std::string>();
     ASSERT_TRUE(page.contains("cesium stock")) << page;
@@ -116,13 +117,18 @@ TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
     const std::map<std::string, double> mirrored = {
         {"mirrored half", 20}, {"mirrored transform", 10}, {"back", 10},   {"stretched", 10},
         {"sheared", 10},       {"seen at 60 degrees", 10}, {"y down", 10}, {"constant texture coordinates", 0}};
-    expectRepair("cesium", page["cesium stock"], page["cesium mended"], mirrored);
-    expectRepair("luma", page["luma stock"], page["luma mended"], mirrored);
+    const auto repaired = [&](const std::string& what, const std::map<std::string, double>& wrong) {
+        ASSERT_TRUE(page.contains(what + " stock")) << page;
+        expectRepair(what, page[what + " stock"], page[what + " mended"], wrong);
+    };
+    for (const char* what : {"cesium", "cesium, anisotropy", "cesium, clear coat", "luma"})
+        repaired(what, mirrored);
     if (page.contains("luma on WebGPU stock"))
-        expectRepair("luma on WebGPU", page["luma on WebGPU stock"], page["luma on WebGPU mended"], mirrored);
-    // The view vector is normalised before its differences are taken, which is wrong everywhere, and more so at grazing angles;
-    // unit lengths are where uv is stretched; y down turns t and b round.
-    expectRepair("pex", page["pex stock"], page["pex mended"],
+        repaired("luma on WebGPU", mirrored);
+    // The view vector is normalised before its differences are taken, which is wrong everywhere, and more so at grazing
+    // angles; unit lengths are where uv is stretched; y down turns t and b round.
+    for (const char* what : {"pex", "pex, clear coat"})
+        repaired(what,
                  {{"plain half", 1},
                   {"plain half, back", 0.5},
                   {"plain half, y down", 30},

@@ -81,6 +81,9 @@ const sheetCases = {
   'anisotropy across, tangents against v': { what: 'b', stored: -1 },
 };
 
+// A few of each kind, for ways whose parts other ways have been through already.
+const someCases = ['front', 'back', 'stretched', 'sheared', 'tangents, stretched', 'y down', 'y down, wound for it', 'coat', 'uv set 1', 'anisotropy across'];
+
 // Texels that stand for the direction of u, of v, or against v.
 const directionTexels = (what, sign) =>
   new Float32Array(sheetTexels * sheetTexels * 4).map((_, i) => (i % 4 === (what === 't' ? 0 : 1) ? 127.5 * (1 + sign) : 127.5));

@@ -31,5 +31,5 @@ function webglSheets(THREE) {
     const key = material.customProgramCacheKey;
     material.customProgramCacheKey = () => what + broken + (Object.hasOwn(material, 'customProgramCacheKey') ? key.call(material) : '');
   };
-  return { size, draw, write, renderer };
+  return { size, draw, write };
 }
