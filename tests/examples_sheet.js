@@ -54,3 +54,36 @@ function chartFrame(chart, sign, frame) {
   const t = [v[1], -v[0]].map(c => turned * c / (Math.hypot(...v) || 1));
   return [t, [-t[1] * turned, t[0] * turned]];
 }
+
+// Texels of four by four domes, RGBA of 8 bits, read as 2c - 1, green along v.
+function domeTexels(count) {
+  const texels = new Uint8Array(count * count * 4);
+  for (let row = 0; row < count; ++row)
+    for (let column = 0; column < count; ++column) {
+      const x = (column + 0.5) / count * 4 % 2 - 1, y = (row + 0.5) / count * 4 % 2 - 1;
+      const n = Math.hypot(x, y) < 0.8 ? [x, y, Math.sqrt(1 - x * x - y * y)] : [0, 0, 1];
+      texels.set([...n.map(c => Math.round(127.5 * c + 127.5)), 255], (row * count + column) * 4);
+    }
+  return texels;
+}
+
+const greenTurned = texels => texels.map((x, i) => (i % 4 === 1 ? 255 - x : x));
+
+// x, y, u and v of the sheet's four triangles, corner by corner; the first six are the mirrored half.
+function sheetCorners(chart) {
+  const halves = [[[-1, 1], [-1, -1], [0, 1], [0, 1], [-1, -1], [0, -1]], [[0, 1], [0, -1], [1, 1], [1, 1], [0, -1], [1, -1]]];
+  return halves.flat().map(([x, y]) =>
+    [x, y, chart[0] * Math.abs(x) + chart[1] * y + chart[2], chart[3] * Math.abs(x) + chart[4] * y + chart[5]]);
+}
+
+// A file from the disk, which fetch() does not read. type: 'text' or 'arraybuffer'.
+function loadFile(url, type) {
+  const request = new XMLHttpRequest();
+  return new Promise((done, fail) => {
+    request.open('GET', url);
+    request.responseType = type;
+    request.onload = () => done(request.response);
+    request.onerror = () => fail(new Error(url));
+    request.send();
+  });
+}

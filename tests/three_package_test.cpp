@@ -197,6 +197,8 @@ TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotrop
         << "along v, against v, and none, of one material; then again";
     EXPECT_EQ(page["sharing"]["materials"], 3);
     EXPECT_EQ(page["sharing"]["own"], 3) << "what the user did in onBeforeCompile stays";
+    // A mesh that comes later gets the triangles of the material that it shares.
+    EXPECT_EQ(page["sharing"]["triangles"], json::parse("[[false, false], [true, true], [true, true]]"));
     expectDrawnRight("loaded", page["loaded"]["cotan"]);
     EXPECT_GT(page["loaded"]["stock"]["mean"].get<double>(), 179)
         << "three's bitangents run along v, glTF's against it";

@@ -3,14 +3,7 @@
 const sheetTexels = 128;
 
 function sheetMap(THREE) {
-  const texels = new Uint8Array(sheetTexels * sheetTexels * 4);
-  for (let row = 0; row < sheetTexels; ++row)
-    for (let column = 0; column < sheetTexels; ++column) {
-      const x = (column + 0.5) / sheetTexels * 4 % 2 - 1, y = (row + 0.5) / sheetTexels * 4 % 2 - 1;
-      const n = Math.hypot(x, y) < 0.8 ? [x, y, Math.sqrt(1 - x * x - y * y)] : [0, 0, 1];
-      texels.set([...n.map(c => Math.round(127.5 * c + 127.5)), 255], (row * sheetTexels + column) * 4); // three reads 2c - 1
-    }
-  const map = new THREE.DataTexture(texels, sheetTexels, sheetTexels);
+  const map = new THREE.DataTexture(domeTexels(sheetTexels), sheetTexels, sheetTexels);
   map.wrapS = map.wrapT = THREE.RepeatWrapping;
   map.needsUpdate = true;
   return map;
@@ -20,16 +13,14 @@ function sheetMap(THREE) {
 // bitangents run along v (1) or against it (-1).
 function sheetGeometry(THREE, chart, stored) {
   const position = [], normal = [], uv = [], uv1 = [], tangent = [];
-  for (const half of [-1, 1])
-    for (const [x, y] of half < 0 ? [[-1, 1], [-1, -1], [0, 1], [0, 1], [-1, -1], [0, -1]] : [[0, 1], [0, -1], [1, 1], [1, 1], [0, -1], [1, -1]]) {
-      position.push(x, y, 0);
-      normal.push(0, 0, 1);
-      const u = chart[0] * Math.abs(x) + chart[1] * y + chart[2], v = chart[3] * Math.abs(x) + chart[4] * y + chart[5];
-      uv.push(u, v);
-      uv1.push(-v, u);
-      const [t, b] = chartFrame(chart, half, 'orthonormal');
-      tangent.push(t[0], t[1], 0, Math.sign(t[0] * b[1] - t[1] * b[0]) * stored);
-    }
+  sheetCorners(chart).forEach(([x, y, u, v], corner) => {
+    position.push(x, y, 0);
+    normal.push(0, 0, 1);
+    uv.push(u, v);
+    uv1.push(-v, u);
+    const [t, b] = chartFrame(chart, corner < 6 ? -1 : 1, 'orthonormal');
+    tangent.push(t[0], t[1], 0, Math.sign(t[0] * b[1] - t[1] * b[0]) * stored);
+  });
   const geometry = new THREE.BufferGeometry();
   const set = (name, values, width) => geometry.setAttribute(name, new THREE.Float32BufferAttribute(values, width));
   set('position', position, 3);
@@ -132,7 +123,8 @@ function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) 
     const finish = pixels => {
       const directions = what === 't' || what === 'b';  // do not depend on the texel
       return sheetErrors({ pixels, size, texels: directions ? directionTexels(what, what === 'b' && stored || 1) : map.image.data, texelCount: sheetTexels,
-                           place, angle, scaleX, up, zoom, chart, frame: directions || frame === 'orthonormal' || !frame && stored ? 'orthonormal' : 'cotangent' });
+                           place, angle, scaleX, up, zoom, chart,
+                           frame: directions || frame === 'orthonormal' || !frame && stored ? 'orthonormal' : 'cotangent' });
     };
     const pixels = draw(scene, camera, what, up);
     result[name] = pixels.then ? pixels.then(finish) : finish(pixels);

@@ -1,6 +1,6 @@
 // What both renderers of three.js need before a frame is replaced: meshes without tangents, materials that mean the same
 // without them, and, for the frame `triangle`, geometries that carry it.
-import { withTriangles } from './triangles.js';
+import { kTriangleAttribute, withTriangles } from './triangles.js';
 
 // Which frame a material has from us, and whether bitangents run against v there.
 const known = new WeakMap();
@@ -25,7 +25,9 @@ export function untangleMeshes(target, { frame, provoking = 'last', instances = 
     const had = stored.has(mesh.geometry), against = stored.get(mesh.geometry);
     const all = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
     if (!all.some(material => material.normalScale)) continue;
-    const wished = frame === 'triangle' ? onTriangles(mesh, all, provoking, instances, triangles) : frame;
+    // A material that has triangles already needs them in every mesh.
+    const missing = !mesh.geometry.attributes[kTriangleAttribute] && all.some(material => known.get(material)?.frame === 'triangle');
+    const wished = frame === 'triangle' || frame === undefined && missing ? onTriangles(mesh, all, provoking, instances, triangles) : frame;
     const materials = all.map(material => {
       if (!material.normalScale) return material;
       if (!earlier.has(material)) earlier.set(material, known.get(material));
@@ -46,25 +48,21 @@ export function untangleMeshes(target, { frame, provoking = 'last', instances = 
 
 // The material for meshes that want the same of it: itself for the first of them, copies for others.
 function copyFor(material, found, turned, copies, replace) {
+  const scales = ['normalScale', 'clearcoatNormalScale'].filter(name => material[name]);
+  if (!copies.has(material)) copies.set(material, { made: new Map(), scales: scales.map(name => material[name].clone()) });
+  const { made, scales: asFound } = copies.get(material);
   const wants = [found.frame, found.against, turned].join();
-  if (!copies.has(material)) copies.set(material, new Map());
-  const made = copies.get(material);
-  if (!made.has(wants)) made.set(wants, { copy: made.size === 0 ? material : material.clone(), original: made.size === 0, found, turned });
-  const entry = made.get(wants);
-  if (!entry.done) {
-    entry.done = true;
-    // A copy of a copy that was turned already would be turned twice: each is made from the scales that were found.
-    const first = made.values().next().value;
-    for (const name of ['normalScale', 'clearcoatNormalScale']) {
-      if (!entry.copy[name]) continue;
-      first[name] ??= material[name].clone();
-      entry.copy[name].copy(first[name]);
-      if (turned) entry.copy[name].y = -entry.copy[name].y;
-    }
-    known.set(entry.copy, found);
-    replace(entry.copy, { ...found, from: material });
+  if (!made.has(wants)) {
+    const copy = made.size === 0 ? material : material.clone();
+    made.set(wants, copy);
+    scales.forEach((name, k) => {
+      copy[name].copy(asFound[k]);
+      if (turned) copy[name].y = -copy[name].y;
+    });
+    known.set(copy, found);
+    replace(copy, { ...found, from: material });
   }
-  return entry.copy;
+  return made.get(wants);
 }
 
 // Gives the mesh a geometry with the vectors of its triangles where that can be; the frame that it gets.
