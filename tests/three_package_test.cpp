@@ -181,6 +181,7 @@ TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
             }
         }
     }
+    EXPECT_EQ(page["plugin"], json({{"tangents", false}, {"node", true}, {"scale", -1}}));
     EXPECT_NE(page["refused"].get<std::string>().find("needs the option renderer"), std::string::npos);
 }
 
