@@ -93,15 +93,20 @@ cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t n
     return conversion->pictures[number];
 }
 
-// The bytes of an added view changed; readers of it follow.
-void replaceAdded(GltfDocument& document, const Bytes& old, const Bytes& with)
+// The same document with all that it needs inside, so that the caller's functions are asked no more.
+GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limits)
 {
-    for (std::size_t k = 0; k < document.added.size(); ++k)
-        if (document.added[k] == old) {
-            document.added[k] = with;
-            auto& views = document.root["bufferViews"];
-            views[views.size() - document.added.size() + k]["byteLength"] = with.size();
-        }
+    LoadLimits inside = limits;
+    inside.readFile = [bytes = valueOf(glbBytes(document, limits))](const std::string&) { return Result<Bytes>(bytes); };
+    inside.decode = {};
+    return valueOf(openGltfDocument("model.glb", inside));
+}
+
+void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const Bytes& png)
+{
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+        if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == placeholder)
+            replaceGltfImage(document, i, png, "image/png");
 }
 
 // Those that have new pictures, in their order.
@@ -155,6 +160,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
         };
         made->document = valueOf(openGltfDocument(source.name(), convert.limits));
         made->report = valueOf(convertModel(made->document, convert));
+        made->document = closedDocument(made->document, convert.limits);
         if (result)
             fill(made->report, *result);
         *conversion = made.release();
@@ -179,7 +185,7 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
         cotan_conversion::Picture& picture = pictureAt(conversion, number);
         require(png && png_size > 0, "png: expected bytes, found none");
         require(!picture.given, "number: expected a picture that has no PNG file yet");
-        replaceAdded(conversion->document, picture.placeholder, copied(png, png_size));
+        replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
         convertedMaps(conversion->report)[number]->bytesAfter = png_size;
         picture.given = true;
     });

@@ -58,18 +58,30 @@ const cases = {
       assert.deepEqual(Object.keys(a), Object.keys(b), where);
       for (const key of Object.keys(a)) if (key !== 'bytes_after') close(a[key], b[key], `${where}.${key}`);
     };
+    let compared = 0;
     for (const file of [path.join(data, 'bad/made/ok_quad.glb'), ...filesUnder(path.join(data, 'models')).filter((name) =>
-      name.endsWith('.glb') && fs.statSync(name).size < 2e6).slice(0, 2)]) {
+      name.endsWith('.glb') && fs.statSync(name).size < 2e6).slice(0, 4)]) {
       const place = emptyFolder(), model = fs.readFileSync(file);
       fs.writeFileSync(path.join(place, 'model.glb'), model);
       native('model', place);
       const json = (name) => JSON.parse(fs.readFileSync(path.join(place, name), 'utf8'));
+      try {
+        await cotan.lint(model);
+      } catch (error) {
+        assert.match(error.message, /need the package sharp/);
+        continue; // a map in JPEG, which each library rounds in its own way
+      }
+      ++compared;
       close(await cotan.lint(model), json('lint.json'), 'lint');
       const made = await cotan.convert(model);
       close(made.report, json('converted.json'), 'convert');
       const ours = parseGlb(made.glb), theirs = parseGlb(fs.readFileSync(path.join(place, 'converted.glb')));
       assert.deepEqual(ours.json.accessors, theirs.json.accessors);
       for (let i = 0; i < (theirs.json.images ?? []).length; ++i) {
+        if (theirs.json.images[i].uri) {
+          assert.equal(ours.json.images[i].uri, theirs.json.images[i].uri);
+          continue;
+        }
         const [a, b] = [imageOf(ours, i), imageOf(theirs, i)];
         if (Buffer.from(a).equals(Buffer.from(b))) continue; // as it was
         const [x, y] = [await cotan.decodePng(a), await cotan.decodePng(b)];
@@ -77,6 +89,7 @@ const cases = {
         assert.ok(Buffer.from(x.data.buffer).equals(Buffer.from(y.data.buffer)), `${file}: image ${i}`);
       }
     }
+    assert.ok(compared > 1, `${compared} models`);
   },
 
   async pngFilesLoseNothing() {

@@ -12,6 +12,8 @@ const bytesOf = (value, name) => {
 };
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
+// In the place of pictures that are no normal maps: nobody looks at their pixels.
+const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
 
 export function modelFunctions(library, host) {
@@ -23,7 +25,7 @@ export function modelFunctions(library, host) {
       decode: (name, bytes) => {
         const found = known.find((picture) => same(picture.bytes, bytes));
         if (found?.error) throw found.error;
-        return found?.picture;
+        return found?.picture ?? kUnread;
       },
       progress,
     };
@@ -35,12 +37,12 @@ export function modelFunctions(library, host) {
     }
   });
 
-  /** The pictures of a model, decoded by the caller's function; what fails is told where it is needed. */
-  async function decoded(model, o, mapsOnly) {
+  /** The normal maps of a model, decoded by the caller's function; what fails is told where it is needed. */
+  async function decoded(model, o) {
     const known = [];
     withModel(model, o.files, known, undefined, (s, at, files) => {
       host.now.takeFile = (name, bytes) => { known.push({ name, bytes }); };
-      s.call('cotan_gltf_pictures', at, model.length, files, mapsOnly ? 1 : 0, s.wasm.cotan_js_function(kFunction.takeFile), 0);
+      s.call('cotan_gltf_pictures', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0);
     });
     for (const picture of known) {
       try {
@@ -65,7 +67,7 @@ export function modelFunctions(library, host) {
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
     const o = options(more, { ...kCommon, distance: 0 });
-    const known = await decoded(model, o, false);
+    const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
       const report = s.put(new Uint32Array(1)), settings = s.room(24);
       s.view(Uint32Array, settings, 6).set([24, 0, 0, 0, progressOf(s, o.progress), 0]);
@@ -80,7 +82,7 @@ export function modelFunctions(library, host) {
     const o = options(more, {
       ...kCommon, from: 'mikktspace', to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng,
     });
-    const known = await decoded(model, o, true);
+    const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
       const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
