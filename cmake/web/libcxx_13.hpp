@@ -17,10 +17,7 @@
 
 namespace std {
 
-template<class To, class From> constexpr To bit_cast(const From& from) noexcept
-{
-    return __builtin_bit_cast(To, from);
-}
+template<class To, class From> constexpr To bit_cast(const From& from) noexcept { return __builtin_bit_cast(To, from); }
 
 // Numbers that fill the text, as callers here want; shorter than 64 characters.
 template<class Real>

@@ -64,9 +64,9 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
 {
     require(o.threads >= 0, "options.threads: expected 0 or more");
     ConvertModelOptions convert;
-    convert.frames = {
-        frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
-        o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored, TangentOrigin::generated};
+    convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
+                      o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored,
+                      TangentOrigin::generated};
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
     convert.threads = o.threads;
@@ -97,7 +97,9 @@ cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t n
 GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limits)
 {
     LoadLimits inside = limits;
-    inside.readFile = [bytes = valueOf(glbBytes(document, limits))](const std::string&) { return Result<Bytes>(bytes); };
+    inside.readFile = [bytes = valueOf(glbBytes(document, limits))](const std::string&) {
+        return Result<Bytes>(bytes);
+    };
     inside.decode = {};
     return valueOf(openGltfDocument("model.glb", inside));
 }
@@ -167,7 +169,10 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
     });
 }
 
-size_t cotan_conversion_count(const cotan_conversion* conversion) { return conversion ? conversion->pictures.size() : 0; }
+size_t cotan_conversion_count(const cotan_conversion* conversion)
+{
+    return conversion ? conversion->pictures.size() : 0;
+}
 
 cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
                                       char* message, size_t message_size)
@@ -196,7 +201,8 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
 {
     return call(message, message_size, [&] {
         require(conversion && glb, "conversion and glb: expected both, found null");
-        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(), [](const auto& p) { return p.given; }),
+        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(),
+                            [](const auto& p) { return p.given; }),
                 "conversion: expected the PNG files of all pictures");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
         giveText(convertJson(conversion->report), json);

@@ -43,8 +43,8 @@ void put(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t*
 } // namespace
 
 cotan_status cotan_split_vertices(size_t vertex_count, size_t index_count, const uint32_t* indices,
-                                  const float* corners, uint32_t* split_indices, uint32_t* sources,
-                                  size_t* split_count, char* message, size_t message_size)
+                                  const float* corners, uint32_t* split_indices, uint32_t* sources, size_t* split_count,
+                                  char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         checkIndices("", vertex_count, index_count, indices);
@@ -58,9 +58,7 @@ cotan_status cotan_split_vertices(size_t vertex_count, size_t index_count, const
 cotan_status cotan_split_mirrored(const cotan_mesh* mesh, uint32_t* split_indices, uint32_t* sources,
                                   size_t* split_count, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        put(splitMirrored(viewOf(mesh)), split_indices, sources, split_count);
-    });
+    return call(message, message_size, [&] { put(splitMirrored(viewOf(mesh)), split_indices, sources, split_count); });
 }
 
 cotan_status cotan_triangle_vectors(const cotan_mesh* mesh, int threads, float* u, float* v, char* message,

@@ -119,12 +119,12 @@ cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v,
 
 /* The same triangles over more vertices, so that what is made for corners can be stored at vertices: a vertex is copied
  * where the corners that share it have different values (4 floats each, as of cotan_tangents), or where mirrored and
- * unmirrored triangles share it, as cotan_smooth_cotangents wants it. split_indices: index_count, into the new vertices.
- * sources: for each new vertex the old one that it is a copy of, the old ones first; room for vertex_count + index_count.
- * split_count: how many there are. Since version 2. */
+ * unmirrored triangles share it, as cotan_smooth_cotangents wants it. split_indices: index_count, into the new
+ * vertices. sources: for each new vertex the old one that it is a copy of, the old ones first; room for vertex_count +
+ * index_count. split_count: how many there are. Since version 2. */
 cotan_status cotan_split_vertices(size_t vertex_count, size_t index_count, const uint32_t* indices,
-                                  const float* corners, uint32_t* split_indices, uint32_t* sources,
-                                  size_t* split_count, char* message, size_t message_size);
+                                  const float* corners, uint32_t* split_indices, uint32_t* sources, size_t* split_count,
+                                  char* message, size_t message_size);
 cotan_status cotan_split_mirrored(const cotan_mesh* mesh, uint32_t* split_indices, uint32_t* sources,
                                   size_t* split_count, char* message, size_t message_size);
 
