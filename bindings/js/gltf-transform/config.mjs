@@ -1,5 +1,5 @@
 // The transforms on glTF-Transform's command line:
-//   gltf-transform --config node_modules/cotan/gltf-transform/config.mjs untangent in.glb out.glb --to cotangent
+//   gltf-transform untangent in.glb out.glb --to cotangent --config node_modules/cotan/gltf-transform/config.mjs
 import { lintNormals, provoking, tangents, untangent } from './index.js';
 
 const both = (program, name, description) => program.command(name, description)
@@ -13,7 +13,6 @@ const run = (io, makeTransform) => async ({ args, options, logger }) => {
 };
 
 export default {
-  extensions: [],
   onProgramReady: ({ program, io }) => {
     both(program, 'cotan-tangents', 'Give primitives tangents, indexed ones too')
       .option('--kind <kind>', 'mikktspace or vertex', { default: 'mikktspace' })
