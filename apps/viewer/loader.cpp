@@ -1,5 +1,6 @@
 #include "loader.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -33,6 +34,49 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number)
 }
 
 } // namespace
+
+void take(State& state, const Loaded& loaded)
+{
+    if (loaded.hotSpots) {
+        state.hotSpots = loaded.hotSpots;
+        return;
+    }
+    if (!loaded.model) {
+        ++state.failedLoads;
+        state.problem = loaded.problem;
+        return;
+    }
+    ++state.loads;
+    const bool other =
+        !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
+    state.picture.model = loaded.options.model;
+    state.picture.shape = loaded.options.shape;
+    state.picture.variant = loaded.options.variant;
+    state.picture.animation = loaded.options.animation;
+    if (!state.playing)
+        state.picture.time = loaded.options.time;
+    state.model = loaded.model;
+    state.hotSpots.reset();
+    if (state.hotSpotsShown)
+        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+    state.statisticsOf.clear();
+    if (other || !state.cameraMoved) {
+        if (state.loads > 1 && other) {
+            state.picture.camera.clear();
+            state.meteredFrom.clear();
+            state.metered = 0;
+        }
+        resetCamera(state);
+    }
+    if (other && !loaded.options.model.empty()) {
+        const std::string file = std::filesystem::absolute(loaded.options.model).lexically_normal().string();
+        std::erase(state.recent, file);
+        state.recent.insert(state.recent.begin(), file);
+        state.recent.resize(std::min(state.recent.size(), kMostRecent));
+    }
+    if (!loaded.model->scene.warnings.empty())
+        state.said = loaded.model->scene.warnings[0];
+}
 
 struct Loader::Work {
     explicit Work(std::function<void()> tell) : done(std::move(tell)), thread([this] { run(); }) {}

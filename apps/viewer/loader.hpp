@@ -17,6 +17,9 @@ struct Loaded {
     double seconds = 0;
 };
 
+// Puts what was read into the state. A model that could not be read leaves the last one, and says why.
+void take(State& state, const Loaded& loaded);
+
 class Loader {
 public:
     // done: called on the loader's thread where something can be taken.

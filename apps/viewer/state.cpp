@@ -9,6 +9,7 @@
 #include "camera.hpp"
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "files.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {
@@ -142,7 +143,7 @@ std::string reportOf(const State& state)
     std::string text;
     const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
     add("model",
-        !state.picture.model.empty()       ? std::filesystem::path(state.picture.model).filename().string()
+        !state.picture.model.empty()       ? fileName(state.picture.model)
             : !state.picture.shape.empty() ? state.picture.shape
                                            : "built-in");
     add("triangles", state.model ? fmt::format("{}", trianglesDrawn(state.model->scene)) : "none");
@@ -152,7 +153,7 @@ std::string reportOf(const State& state)
         const Side& side = sideOf(state, second);
         add(second ? "second" : "first",
             fmt::format("{} {} {} {}", side.frame, side.tangents,
-                        side.normalMap.empty() ? "-" : std::filesystem::path(side.normalMap).filename().string(),
+                        side.normalMap.empty() ? "-" : fileName(side.normalMap),
                         side.convention.empty() ? "-" : side.convention));
     }
     add("compare", compareName(state.compare) + (state.second ? " second" : ""));

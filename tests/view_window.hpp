@@ -1,0 +1,107 @@
+// Played sessions of `cotan view`, on a display in memory.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cotan/image/file.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+
+// Xvfb on a free display.
+class Display {
+public:
+    Display()
+    {
+        int ends[2];
+        if (::pipe(ends) != 0)
+            return;
+        child_ = ::fork();
+        if (child_ == 0) {
+            ::close(ends[0]);
+            const std::string number = std::to_string(ends[1]);
+            ::dup2(::open("/dev/null", O_WRONLY), 2);
+            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1600x1000x24", "-nolisten", "tcp",
+                     nullptr);
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        for (char c; ::read(ends[0], &c, 1) == 1 && c != '\n';)
+            name_ += c;
+        ::close(ends[0]);
+        if (!name_.empty())
+            name_ = ":" + name_;
+    }
+    ~Display()
+    {
+        if (child_ > 0) {
+            ::kill(child_, SIGTERM);
+            ::waitpid(child_, nullptr, 0);
+        }
+    }
+    const std::string& name() const { return name_; } // empty: there is no Xvfb
+
+private:
+    pid_t child_ = -1;
+    std::string name_;
+};
+
+inline const std::string& display()
+{
+    static const Display one;
+    return one.name();
+}
+
+// Plays a session; words: of the command line before --play.
+inline ToolRun play(const TemporaryFolder& folder, const std::string& session, std::vector<std::string> words = {})
+{
+    std::ofstream(folder / "session.txt") << session;
+    words.insert(words.begin(), "view");
+    words.insert(words.end(), {"--play", "session.txt", "--validate"});
+    ::setenv("DISPLAY", display().c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+    return runTool(words, folder.path(), 120);
+}
+
+#define COTAN_NEEDS_DISPLAY()                                                                                          \
+    if (display().empty())                                                                                             \
+    GTEST_SKIP() << "no Xvfb to open a window on"
+
+inline Image readPicture(const std::filesystem::path& file)
+{
+    auto image = readImage(file);
+    EXPECT_TRUE(image) << image.error().message;
+    return image ? *image : Image();
+}
+
+// Of red, green and blue; a window has no alpha.
+inline std::size_t differentPixels(const Image& a, const Image& b)
+{
+    if (a.width != b.width || a.height != b.height)
+        return std::max(a.pixelCount(), b.pixelCount());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.pixelCount(); ++i)
+        different += !std::equal(a.bytes8() + 4 * i, a.bytes8() + 4 * i + 3, b.bytes8() + 4 * i);
+    return different;
+}
+
+inline std::string lineOf(const std::string& report, const std::string& name)
+{
+    const std::size_t start = ("\n" + report).find("\n" + name + ": ");
+    if (start == std::string::npos)
+        return "no such line";
+    const std::size_t from = start + name.size() + 2;
+    return report.substr(from, report.find('\n', from) - from);
+}
+
+} // namespace cotan::test
