@@ -86,6 +86,7 @@ Status toggle(State& state, const std::string& name)
                                                            {"card", &State::cardShown},
                                                            {"statistics", &State::statisticsShown},
                                                            {"look", &State::dark},
+                                                           {"loop", &State::loops},
                                                            {"pin-light", &State::lightPinned}};
     const auto known = switches.find(name);
     if (known != switches.end()) {
@@ -154,9 +155,15 @@ Status flip(State& state)
 
 Status play(State& state)
 {
+    if (state.picture.animation.empty() && state.model && !state.model->animations.empty())
+        state.picture.animation = "0";
     if (state.picture.animation.empty())
-        return expected("play", "an animation", "none");
+        return expected("play", "a model with animations", "none");
     state.playing = !state.playing;
+    const GltfAnimation* animation = animationOf(state);
+    if (state.playing && animation && state.picture.time >= animation->seconds)
+        state.picture.time = 0;
+    wish(state, Wish::Kind::pose);
     return Done{};
 }
 
@@ -189,8 +196,14 @@ Status performSet(State& state, Words& words)
         state.metered = 0;
     if (name == "exposure")
         state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
+    if (name == "animation")
+        state.picture.time = 0;
+    if (state.picture.animation.empty())
+        state.playing = false;
     if (setting->loads)
         wish(state, Wish::Kind::load, state.picture.model);
+    if (setting->poses)
+        wish(state, Wish::Kind::pose);
     return Done{};
 }
 

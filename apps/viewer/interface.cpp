@@ -54,8 +54,8 @@ std::vector<Slider> slidersOf(const State& s)
         sliders.back().value = s.picture.environment == "evening" ? 3 : 10;
     if (s.compare == Compare::divider)
         sliders.push_back({"divider", "divider", "", s.divider, 0, 1});
-    if (!s.picture.animation.empty())
-        sliders.push_back({"time", "set time", "s", s.picture.time, 0, 10});
+    if (const GltfAnimation* animation = animationOf(s); animation && animation->seconds > 0)
+        sliders.push_back({"time", "set time", "s", s.picture.time, 0, animation->seconds});
     return sliders;
 }
 

@@ -218,12 +218,19 @@ void addLightEntries(Entries& e, const State& s)
 void addAnimationEntries(Entries& e, const State& s)
 {
     e.menu("Animation");
+    const std::size_t count = s.model ? s.model->animations.size() : 0;
+    const GltfAnimation* const now = animationOf(s);
     e.add("The file's pose", "", "set animation ", s.picture.animation.empty());
-    for (int i = 0; i < 8; ++i)
-        e.add(fmt::format("Animation {}", i), "", fmt::format("set animation {}", i),
-              s.picture.animation == fmt::format("{}", i), !s.picture.model.empty());
-    e.add("Play", "space", "play", s.playing, !s.picture.animation.empty());
-    e.add("Start", "home", "set time 0", false, !s.picture.animation.empty());
+    for (std::size_t i = 0; i < count; ++i) {
+        const GltfAnimation& a = s.model->animations[i];
+        e.add(fmt::format("{}: {}, {:.3g} s", i, a.name.empty() ? "without a name" : a.name, a.seconds), "",
+              fmt::format("set animation {}", i), &a == now);
+    }
+    e.line();
+    e.add("Play", "space", "play", s.playing, count > 0);
+    e.add("Over and over", "", "toggle loop", s.loops, count > 0);
+    e.add("Start", "home", "set time 0", false, now != nullptr);
+    e.add("End", "end", fmt::format("set time {}", now ? now->seconds : 0), false, now != nullptr);
 }
 
 } // namespace

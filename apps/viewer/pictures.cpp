@@ -16,6 +16,8 @@ std::string keyOf(const State& s)
     State other = s;
     other.metered = 0;
     other.compare = Compare::flip;
+    other.picture.animation.clear(); // the model that is drawn has its pose
+    other.picture.time = 0;
     std::string key;
     for (const bool second : {false, true}) {
         other.second = second;

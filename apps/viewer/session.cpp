@@ -119,7 +119,7 @@ private:
             fitWindow();
             if (const Status done = fulfil(parts_); !done && written_)
                 player_.blame(done.error().message);
-            if (auto loaded = parts_.loader.take())
+            while (auto loaded = parts_.loader.take())
                 takeLoaded(std::move(*loaded));
             parts_.pictures.receive(state_, !options_.plays); // played sessions look the same every time
             parts_.pictures.ask(state_);
@@ -197,18 +197,17 @@ private:
     void takeLoaded(Loaded loaded)
     {
         loadSeconds_ = loadSeconds_ > 0 ? loadSeconds_ : loaded.seconds;
-        if (!parts_.loader.busy()) {
+        if (!parts_.loader.reading()) {
             state_.loading.clear();
             state_.progress = -1;
         }
         const std::string before = state_.picture.model;
         const std::size_t loads = state_.loads;
         take(state_, loaded);
-        if (!loaded.model) { // hot spots, or a problem
-            if (!loaded.problem.empty())
-                app::warn(options_.common, loaded.problem);
+        if (loaded.error)
+            app::warn(options_.common, loaded.error->message);
+        if (!loaded.model || loaded.posed)
             return;
-        }
         if (loads == 0 || before != state_.picture.model)
             parts_.watch.on(state_.picture.model);
         const std::string& file = state_.picture.model;

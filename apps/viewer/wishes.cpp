@@ -93,7 +93,8 @@ Status fulfilOne(Parts& parts, const Wish& w)
             parts.loader.findHotSpots(state.model);
         break;
     case Wish::Kind::quit: parts.quits = true; break;
-    case Wish::Kind::load: break;
+    case Wish::Kind::load:
+    case Wish::Kind::pose: break; // loadWished
     }
     return Done{};
 }
@@ -105,6 +106,11 @@ void loadWished(Parts& parts)
     State& state = parts.state;
     std::vector<Wish> others;
     for (Wish& w : state.wishes) {
+        if (w.kind == Wish::Kind::pose) {
+            if (state.model)
+                parts.loader.pose(state.picture);
+            continue;
+        }
         if (w.kind != Wish::Kind::load) {
             others.push_back(std::move(w));
             continue;
