@@ -80,6 +80,27 @@ TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
     EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
 }
 
+TEST(ViewWindow, aFirstModelThatCannotBeReadEndsWhatIsPlayedAndWhatHasNoWindow)
+{
+    TemporaryFolder folder;
+    std::ofstream(folder / "bad.glb") << "glTF nonsense";
+    std::ofstream(folder / "session.txt") << "0 do report r.txt\n";
+    for (const std::string& on : {display(), std::string()}) {
+        for (const char* model : {"bad.glb", "missing.obj"}) {
+            ::setenv("DISPLAY", on.c_str(), 1);
+            ::unsetenv("WAYLAND_DISPLAY");
+            std::vector<std::string> words = {"view", model, "--forget"};
+            if (!on.empty())
+                words.insert(words.end(), {"--play", "session.txt"});
+            const ToolRun run = runTool(words, folder.path());
+            EXPECT_EQ(run.code, 2) << model << run.err;
+            EXPECT_EQ(lines(run.err), 1) << run.err;
+            EXPECT_NE(run.err.find(model), std::string::npos) << run.err;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "r.txt"));
+}
+
 TEST(ViewWindow, wrongWordsEndAtOnce)
 {
     COTAN_NEEDS_DISPLAY();

@@ -18,21 +18,25 @@
 
 namespace cotan::test {
 
-// Xvfb on a free display.
+// Xvfb on a free display; options: more words of its command line.
 class Display {
 public:
-    Display()
+    explicit Display(std::vector<std::string> options = {})
     {
+        options.insert(options.begin(), {"Xvfb", "-nolisten", "tcp", "-screen", "0", "1600x1000x24"});
         int ends[2];
         if (::pipe(ends) != 0)
             return;
         child_ = ::fork();
         if (child_ == 0) {
             ::close(ends[0]);
-            const std::string number = std::to_string(ends[1]);
             ::dup2(::open("/dev/null", O_WRONLY), 2);
-            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1600x1000x24", "-nolisten", "tcp",
-                     nullptr);
+            options.insert(options.end(), {"-displayfd", std::to_string(ends[1])});
+            std::vector<char*> words;
+            for (std::string& option : options)
+                words.push_back(option.data());
+            words.push_back(nullptr);
+            ::execvp(words[0], words.data());
             ::_exit(127);
         }
         ::close(ends[1]);
@@ -56,6 +60,7 @@ private:
     std::string name_;
 };
 
+// What those tests share that say nothing of theirs.
 inline const std::string& display()
 {
     static const Display one;
@@ -63,12 +68,13 @@ inline const std::string& display()
 }
 
 // Plays a session; words: of the command line before --play.
-inline ToolRun play(const TemporaryFolder& folder, const std::string& session, std::vector<std::string> words = {})
+inline ToolRun play(const TemporaryFolder& folder, const std::string& session, std::vector<std::string> words = {},
+                    const std::string& on = display())
 {
     std::ofstream(folder / "session.txt") << session;
     words.insert(words.begin(), "view");
     words.insert(words.end(), {"--play", "session.txt", "--validate"});
-    ::setenv("DISPLAY", display().c_str(), 1);
+    ::setenv("DISPLAY", on.c_str(), 1);
     ::unsetenv("WAYLAND_DISPLAY");
     return runTool(words, folder.path(), 120);
 }

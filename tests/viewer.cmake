@@ -7,7 +7,7 @@ if(TARGET cotan_viewer)
   add_dependencies(viewer_test cotan)
   if(TARGET cotan_window)
     cotan_test(view_window_test
-      SOURCES view_animation_test.cpp view_files_test.cpp view_random_test.cpp view_window_test.cpp
+      SOURCES view_animation_test.cpp view_display_test.cpp view_files_test.cpp view_random_test.cpp view_window_test.cpp
       LIBRARIES cotan_model cotan_image cotan_shapes fmt::fmt)
     target_compile_definitions(view_window_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
     add_dependencies(view_window_test cotan)

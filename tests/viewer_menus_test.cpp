@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "player.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {
@@ -74,6 +75,34 @@ TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
         other.cameraMoved = false; // the other projection and back is a motion
         EXPECT_EQ(keyLike(other), keyLike(state)) << key;
     }
+}
+
+// ---- played events -----------------------------------------------------------------------------
+
+TEST(ViewerPlayer, beginsWithTheFirstPictureAndWaitsWhereItIsTold)
+{
+    const std::vector<Event> events = {{0.5, EventKind::key, 0, 0, "3"},
+                                       {1, EventKind::wait, 0, 0, ""},
+                                       {2, EventKind::key, 0, 0, "4"},
+                                       {2, EventKind::command, 0, 0, "window a.png"}};
+    Player player(events);
+    double now = 0;
+    const auto step = [&](bool idle) {
+        const auto done = player.step(idle, now++);
+        return done && done->event ? toText(*done->event) : std::string("-");
+    };
+    EXPECT_EQ(step(false), "-");
+    EXPECT_EQ(step(true), "0.500 key 3");
+    EXPECT_EQ(step(false), "-"); // to wait
+    EXPECT_EQ(step(false), "-");
+    EXPECT_EQ(step(true), "2.000 key 4");
+    EXPECT_EQ(step(false), "-"); // what is written is what is drawn by then
+    EXPECT_FALSE(player.ended());
+    EXPECT_EQ(step(true), "2.000 do window a.png");
+    EXPECT_TRUE(player.ended());
+    EXPECT_EQ(step(false), "-");
+    now += 1000;
+    EXPECT_FALSE(player.step(false, now)); // not for ever
 }
 
 // ---- animations --------------------------------------------------------------------------------

@@ -10,8 +10,9 @@
 namespace cotan::viewer {
 
 struct Artist::Work {
-    Work(app::CommonOptions common, PictureOptions first, std::function<void()> tell)
-        : studio(std::move(common)), done(std::move(tell)), thread([this, first = std::move(first)] { run(first); })
+    Work(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> tell)
+        : studio(std::move(common), validation), done(std::move(tell)),
+          thread([this, first = std::move(first)] { run(first); })
     {
     }
 
@@ -96,12 +97,14 @@ struct Artist::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Artist::Artist(app::CommonOptions common, PictureOptions first, std::function<void()> done)
-    : work_(std::make_unique<Work>(std::move(common), std::move(first), std::move(done)))
+Artist::Artist(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
+    : work_(std::make_unique<Work>(std::move(common), std::move(first), validation, std::move(done)))
 {
 }
 
-Artist::~Artist()
+Artist::~Artist() { finish(); }
+
+std::vector<std::string> Artist::finish()
 {
     {
         const std::lock_guard lock(work_->mutex);
@@ -109,7 +112,9 @@ Artist::~Artist()
         work_->done = nullptr;
     }
     work_->changed.notify_all();
-    work_->thread.join();
+    if (work_->thread.joinable())
+        work_->thread.join();
+    return work_->studio.messages();
 }
 
 void Artist::ask(Order order)

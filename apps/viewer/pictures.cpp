@@ -30,8 +30,8 @@ std::string keyOf(const State& s)
 
 } // namespace
 
-Pictures::Pictures(app::CommonOptions common, PictureOptions first, std::function<void()> done)
-    : artist_(std::move(common), std::move(first), std::move(done))
+Pictures::Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
+    : artist_(std::move(common), std::move(first), validation, std::move(done))
 {
 }
 

@@ -14,7 +14,7 @@ namespace cotan::viewer {
 class Pictures {
 public:
     // As for Artist.
-    Pictures(app::CommonOptions common, PictureOptions first, std::function<void()> done);
+    Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
 
     // Orders a picture where the state shows something else than the last order.
     void ask(const State& state);
@@ -30,6 +30,8 @@ public:
     float degreesAtPointer(const State& state) const;
     // A picture for a file, whatever is drawn meanwhile; waits for it.
     Result<Image> drawNow(const Order& order, bool floats) { return artist_.drawNow(order, floats); }
+
+    std::vector<std::string> finish() { return artist_.finish(); }
 
     bool any() const { return drawn_.picture != nullptr; }
     double firstSeconds() const { return firstSeconds_; } // that the first picture took

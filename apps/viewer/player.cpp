@@ -18,8 +18,9 @@ bool writes(const Event& event)
 Result<Player::Step> Player::step(bool idle, double now)
 {
     if (waits_) {
+        waitsSince_ = waitsSince_.value_or(now);
         if (!idle)
-            return now - waitsSince_ > kPatience
+            return now - *waitsSince_ > kPatience
                 ? Result<Step>(unavailableError("view: a played session waited too long for a picture"))
                 : Step{};
         waits_ = false;

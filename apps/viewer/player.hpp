@@ -31,8 +31,9 @@ public:
 private:
     const std::vector<Event>& events_;
     std::size_t next_ = 0;
-    double playedTo_ = 0, waitsSince_ = 0; // seconds
-    bool waits_ = false;
+    double playedTo_ = 0;                // seconds
+    std::optional<double> waitsSince_{}; // likewise
+    bool waits_ = true;                  // for the first picture: what is done before it would be done to nothing
     std::string blamed_;
 };
 

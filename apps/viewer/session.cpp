@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -33,7 +35,8 @@ app::CommonOptions quiet(app::CommonOptions common)
 
 Parts::Parts(State first, const SessionOptions& o)
     : state(std::move(first)), options(o), loader([this] { waker.wake(); }),
-      pictures(quiet(o.common), optionsOf(state, false), [this] { waker.wake(); }), probe([this] { waker.wake(); })
+      pictures(quiet(o.common), optionsOf(state, false), o.validation, [this] { waker.wake(); }),
+      probe([this] { waker.wake(); })
 {
 }
 
@@ -58,8 +61,9 @@ public:
     {
         state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
         loadWished(parts_);
+        parts_.watch.on(state_.picture.model);
         if (const Status opened = open(); !opened)
-            return opened;
+            return withoutWindow(opened);
         if (const Status recording = beginRecording(); !recording)
             return recording;
         start_ = last_ = secondsNow();
@@ -71,9 +75,7 @@ public:
         keepState();
         if (done)
             done = writeReport(options_.common, reportOfTimes());
-        if (done && options_.validation && !parts_.window->messages().empty())
-            return unavailableError("validation: " + parts_.window->messages()[0]);
-        return done;
+        return done ? checkValidation() : done;
     }
 
 private:
@@ -95,6 +97,17 @@ private:
         if (options_.plays)
             parts_.window->resize(state_.size.x, state_.size.y);
         return Done{};
+    }
+
+    // A model that cannot be read is the first thing to be said, with a window or without.
+    Status withoutWindow(Status why)
+    {
+        while (parts_.loader.busy())
+            if (const auto loaded = parts_.loader.take())
+                return loaded->error ? Status(*loaded->error) : why;
+            else
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return why;
     }
 
     Status beginRecording()
@@ -121,6 +134,8 @@ private:
                 player_.blame(done.error().message);
             while (auto loaded = parts_.loader.take())
                 takeLoaded(std::move(*loaded));
+            if (options_.plays && !state_.model && refused_) // there is nothing to play with
+                return *refused_;
             parts_.pictures.receive(state_, !options_.plays); // played sessions look the same every time
             parts_.pictures.ask(state_);
             parts_.probe.follow(state_);
@@ -202,18 +217,28 @@ private:
             state_.progress = -1;
         }
         const std::string before = state_.picture.model;
-        const std::size_t loads = state_.loads;
         take(state_, loaded);
-        if (loaded.error)
+        if (loaded.error && options_.plays && !state_.model)
+            refused_ = loaded.error;
+        else if (loaded.error)
             app::warn(options_.common, loaded.error->message);
         if (!loaded.model || loaded.posed)
             return;
-        if (loads == 0 || before != state_.picture.model)
+        if (before != state_.picture.model)
             parts_.watch.on(state_.picture.model);
         const std::string& file = state_.picture.model;
         parts_.window->setTitle(fmt::format("{} - cotan view", file.empty() ? std::string("cotan") : fileName(file)));
         for (const std::string& line : state_.model->scene.warnings)
             app::warn(options_.common, line);
+    }
+
+    Status checkValidation()
+    {
+        std::vector<std::string> messages = parts_.window->messages();
+        for (std::string& message : parts_.pictures.finish())
+            messages.push_back(std::move(message));
+        return !options_.validation || messages.empty() ? Status(Done{})
+                                                        : Status(unavailableError("validation: " + messages[0]));
     }
 
     Json reportOfTimes() const
@@ -246,7 +271,8 @@ private:
     Player player_;
     std::ofstream recording_;
     double start_ = 0, last_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstShown_ = 0;
-    bool written_ = false; // what happens now was written as a command
+    std::optional<Error> refused_; // why there is no first model
+    bool written_ = false;         // what happens now was written as a command
 };
 
 } // namespace

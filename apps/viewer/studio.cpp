@@ -53,7 +53,7 @@ View smaller(View view)
 
 void Studio::open(const PictureOptions& o)
 {
-    if (auto painter = app::openDevice(deviceOf(o), common_))
+    if (auto painter = app::openDevice(deviceOf(o), common_, validation_))
         stages_[0].painter = std::move(*painter);
     if (auto opened = openSurroundings(o))
         surroundings_ = {lightKey(o), *opened};
@@ -98,6 +98,16 @@ Result<Image> Studio::drawForFile(const Order& order, bool floats)
     if (Status done = drawInto(order, drawn, floats); !done)
         return done.error();
     return *drawn.picture;
+}
+
+std::vector<std::string> Studio::messages() const
+{
+    std::vector<std::string> all;
+    for (const Stage& stage : stages_)
+        if (stage.painter)
+            for (std::string& message : stage.painter->messages())
+                all.push_back(std::move(message));
+    return all;
 }
 
 Status Studio::drawInto(const Order& order, Drawn& drawn, bool floats)
@@ -204,7 +214,7 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
     Stage& s = stages_[index];
     s.key.clear();
     if (!s.painter) {
-        auto painter = app::openDevice(deviceOf(o), common_);
+        auto painter = app::openDevice(deviceOf(o), common_, validation_);
         if (!painter)
             return painter.error();
         s.painter = std::move(*painter);

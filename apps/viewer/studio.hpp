@@ -30,7 +30,7 @@ struct Stage {
 // Touched by one thread alone.
 class Studio {
 public:
-    explicit Studio(app::CommonOptions common) : common_(std::move(common)) {}
+    Studio(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
 
     // What can be had before there is a model. What fails fails again, and is said, when it is needed.
     void open(const PictureOptions& o);
@@ -39,6 +39,8 @@ public:
     Status drawFigures(const Order& order, Drawn& drawn);
     // floats: as for a file that keeps them.
     Result<Image> drawForFile(const Order& order, bool floats);
+    // Of the validation layer, on all devices.
+    std::vector<std::string> messages() const;
 
 private:
     Status drawInto(const Order& order, Drawn& drawn, bool floats);
@@ -54,6 +56,7 @@ private:
     Result<View> viewFor(const Order& order, Stage& s, bool second, float exposure);
 
     app::CommonOptions common_;
+    bool validation_ = false;
     std::array<Stage, 2> stages_;
     Kept<std::shared_ptr<const EnvironmentMap>> surroundings_;
     Kept<std::shared_ptr<const GroundMap>> ground_;

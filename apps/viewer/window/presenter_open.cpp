@@ -48,7 +48,10 @@ void Presenter::openInstance(const std::vector<const char*>& needed, bool valida
     info.ppEnabledLayerNames = &kLayer;
     info.enabledExtensionCount = std::uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    COTAN_CHECK(vkCreateInstance(&info, nullptr, &instance_));
+    const VkResult code = vkCreateInstance(&info, nullptr, &instance_);
+    if (code == VK_ERROR_INCOMPATIBLE_DRIVER)
+        throw std::runtime_error("no Vulkan driver is installed (the loader found none that it can use)");
+    check(code, "vkCreateInstance");
     if (!validate)
         return;
     auto messenger = made<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
