@@ -80,6 +80,26 @@ TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
     EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
 }
 
+TEST(ViewWindow, itsHotSpotsAreThoseOfLintAndTheCameraGoesThere)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const ToolRun run = play(folder,
+                             "0 do toggle hot-spots\n0 wait\n0 do hot-spot 0\n0 wait\n0 do copy camera\n"
+                             "0 do report r.txt\n",
+                             {"quad.gltf", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const ToolRun lint = runTool({"lint", "quad.gltf", "--json", "lint.json"}, folder.path());
+    ASSERT_EQ(lint.code, 0) << lint.err;
+    const json spots = json::parse(readWhole(folder / "lint.json"))["hot_spots"];
+    ASSERT_FALSE(spots.empty());
+    const std::string report = readWhole(folder / "r.txt");
+    EXPECT_EQ(lineOf(report, "hot spots"), std::to_string(spots.size()));
+    EXPECT_EQ(lineOf(report, "hot spot"), spots[0]["text"]);
+    EXPECT_NE(run.out.find(spots[0]["camera"].get<std::string>()), std::string::npos) << run.out;
+}
+
 TEST(ViewWindow, aFirstModelThatCannotBeReadEndsWhatIsPlayedAndWhatHasNoWindow)
 {
     TemporaryFolder folder;
