@@ -18,6 +18,10 @@
 
 namespace cotan::test {
 
+// No dialog of the desktop that the tests run on.
+inline constexpr const char* kNoBus = "unix:path=/nowhere";
+inline const bool kBusIsHidden = ::setenv("DBUS_SESSION_BUS_ADDRESS", kNoBus, 1) == 0;
+
 // Xvfb on a free display; options: more words of its command line.
 class Display {
 public:

@@ -79,7 +79,7 @@ Status fulfilOne(Parts& parts, const Wish& w)
     case Wish::Kind::writeWindow: return writeWindow(parts, w.text);
     case Wish::Kind::writeReport: return writeState(state, w.text);
     case Wish::Kind::paste: return paste(parts);
-    case Wish::Kind::chooseFile: return parts.dialog.ask(state.picture.model);
+    case Wish::Kind::chooseFile: parts.dialog.ask(*parts.window, state.picture.model); break;
     case Wish::Kind::copy:
         parts.window->setClipboard(w.text);
         state.said = "copied: " + w.text;
@@ -140,8 +140,10 @@ Status fulfil(Parts& parts)
             parts.state.problem = done.error().message;
             first = first ? done : first;
         }
-    if (const std::string chosen = parts.dialog.take(); !chosen.empty())
-        apply(parts.state, {0, EventKind::drop, 0, 0, chosen});
+    if (const auto chosen = parts.dialog.take(*parts.window); !chosen)
+        parts.state.problem = chosen.error().message;
+    else if (!chosen->empty())
+        apply(parts.state, {0, EventKind::drop, 0, 0, *chosen});
     if (parts.watch.changed(secondsNow()) && !parts.state.picture.model.empty())
         parts.state.wishes.push_back({Wish::Kind::load, parts.state.picture.model, {}});
     return first;
