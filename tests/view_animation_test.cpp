@@ -32,8 +32,8 @@ TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
     TemporaryFolder folder;
     write(movingQuad(), folder.path());
     const ToolRun run = play(folder,
-                             "0 wait\n0 do toggle interface\n0 key space\n0 wait\n0 do window a.png\n1.5 wait\n"
-                             "1.5 do window b.png\n1.5 key space\n9 wait\n9 do window c.png\n9 do report r.txt\n",
+                             "0 wait\n0 do toggle interface\n0 do window a.png\n0 key space\n1.5 wait\n1.5 key space\n1.5 wait\n"
+                             "1.5 do window b.png\n9 wait\n9 do window c.png\n9 do report r.txt\n",
                              {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0", "--ground", "off"});
     ASSERT_EQ(run.code, 0) << run.err;
     const Image a = readPicture(folder / "a.png"), b = readPicture(folder / "b.png");

@@ -175,8 +175,8 @@ Order orderOf(const State& state)
     order.model = state.model;
     order.exposure = state.metered;
     order.meteredFrom = state.meteredFrom.empty() ? state.picture.camera : state.meteredFrom;
-    order.draft = state.moving;
-    order.figures = state.statisticsShown && !state.moving && !inspectionFromName(state.show);
+    order.draft = state.moving || state.playing;
+    order.figures = state.statisticsShown && !order.draft && !inspectionFromName(state.show);
     return order;
 }
 

@@ -111,6 +111,8 @@ void take(State& state, const Loaded& loaded)
     ++state.loads;
     const bool other =
         !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
+    if (other && state.model)
+        state.playing = false;
     state.picture.model = loaded.options.model;
     state.picture.shape = loaded.options.shape;
     state.picture.variant = loaded.options.variant;
@@ -122,8 +124,6 @@ void take(State& state, const Loaded& loaded)
     if (state.hotSpotsShown)
         state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
     state.statisticsOf.clear();
-    if (other)
-        state.playing = false;
     if (other || !state.cameraMoved) {
         if (state.loads > 1 && other) {
             state.picture.camera.clear();

@@ -24,7 +24,7 @@ std::string keyOf(const State& s)
         key += commandLine(other, "", s.size) + "\n";
     }
     return key
-        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show, s.moving,
+        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show, s.moving || s.playing,
                       s.statisticsShown, s.model ? s.model->number : 0);
 }
 

@@ -32,7 +32,7 @@ Status writePicture(Parts& parts, const Wish& w)
     const fs::path file = named ? fs::path(w.text) : freeName("cotan-picture", w.text == ".exr" ? ".exr" : ".png");
     State wanted = state;
     wanted.size = w.size.x > 0 ? w.size : state.size;
-    wanted.moving = false;
+    wanted.moving = wanted.playing = false;
     if (wanted.compare == Compare::divider)
         wanted.compare = Compare::off;
     const bool floats = keepsFloats(file);

@@ -57,25 +57,21 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh,
     return camera;
 }
 
-// What lint counts, in its words. {}: the value at the worst triangle.
+// What lint counts, in its words.
 struct Kind {
-    const char* words;
-    double bad = 0; // of a value of one
+    std::string words;
+    const char* here; // the value at the worst triangle; empty: it has none
+    double bad = 0;   // of a value of one
 };
 
 const std::array<Kind, 5>& kinds()
 {
-    static const std::string stretched = fmt::format("stretched over {:.1f}", kStretched)
-        + " on {:.1f} % of the area, here {:.3g}",
-                             sheared = fmt::format("sheared over {:.0f} degrees", kSheared)
-        + " on {:.1f} % of the area, here {:.0f}",
-                             turned = fmt::format("stored tangents turned over {:.0f} degrees", kTurned)
-        + " on {:.1f} % of the area, here {:.0f}";
-    static const std::array<Kind, 5> all = {{{"uv without area on {:.1f} % of the area", 3},
-                                             {stretched.c_str(), 0.5},
-                                             {sheared.c_str(), 1 / 45.0},
-                                             {"stored tangents: w against the uv on {:.1f} % of the area", 3},
-                                             {turned.c_str(), 1 / 45.0}}};
+    static const std::array<Kind, 5> all = {
+        {{"uv without area", "", 3},
+         {fmt::format("stretched over {:.1f}", kStretched), ", here {:.3g}", 0.5},
+         {fmt::format("sheared over {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0},
+         {"stored w against the uv", "", 3},
+         {fmt::format("stored tangents turned over {:.0f} degrees", kTurned), ", here {:.0f}", 1 / 45.0}}};
     return all;
 }
 
@@ -138,9 +134,11 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
             if (share < 0.001)
                 continue;
             const std::string name = mesh.name.empty() ? fmt::format("mesh {}", m) : mesh.name;
-            const std::string what = fmt::format(fmt::runtime(kinds()[k].words), share * 100, worst.value);
-            spots.push_back({name + ": " + what, m, share, kinds()[k].bad * worst.value * share,
-                             lookingAt(scene, *instance, mesh, worst.triangle)});
+            const Kind& kind = kinds()[k];
+            const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
+                + fmt::format(fmt::runtime(kind.here), worst.value);
+            spots.push_back(
+                {text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, mesh, worst.triangle)});
         }
     }
     std::ranges::stable_sort(spots, std::greater(), &HotSpot::badness);

@@ -176,8 +176,8 @@ void drawHotSpots(const Interface& interface, Commands& chosen)
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Appearing, {1, 0});
-    ImGui::SetNextWindowSize({std::min(20 * line, size.x * 0.5f), size.y * 0.4f}, ImGuiCond_Appearing);
-    if (ImGui::Begin("Hot spots", nullptr, kPanel)) {
+    ImGui::SetNextWindowSize({std::min(24 * line, size.x * 0.5f), size.y * 0.4f}, ImGuiCond_Appearing);
+    if (ImGui::Begin("Hot spots", nullptr, kPanel | ImGuiWindowFlags_HorizontalScrollbar)) {
         if (interface.hotSpots.empty())
             ImGui::TextWrapped("nothing found, or not looked yet");
         int number = 0;

@@ -9,7 +9,7 @@
 namespace cotan {
 
 struct HotSpot {
-    std::string text; // "body: sheared over 10 degrees on 12.3 % of the area, here 63"
+    std::string text; // "sheared over 10 degrees: 12.3 % of body, here 63"
     std::size_t mesh = 0;
     double share = 0;   // of the mesh's area, as lint has it
     double badness = 0; // what the list is sorted by
