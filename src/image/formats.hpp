@@ -55,5 +55,5 @@ bool writableImage(const std::filesystem::path& file);
 
 } // namespace cotan
 
-// The module's only symbol.
-extern "C" const cotan::ImageFormats* cotanImageFormats();
+// The module's only symbol: its ImageFormats, of the type that loadModule calls.
+extern "C" const void* cotanImageFormats();

@@ -273,4 +273,4 @@ constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOii
 } // namespace
 } // namespace cotan
 
-extern "C" const cotan::ImageFormats* cotanImageFormats() { return &cotan::kFormats; }
+extern "C" const void* cotanImageFormats() { return &cotan::kFormats; }

@@ -375,7 +375,7 @@ Result<std::unique_ptr<Window>> open(const WindowOptions& options)
 
 } // namespace cotan::viewer
 
-extern "C" const cotan::viewer::WindowModule* cotanWindowModule()
+extern "C" const void* cotanWindowModule()
 {
     static const cotan::viewer::WindowModule module{COTAN_MODULE_VERSION, cotan::viewer::open};
     return &module;
