@@ -16,10 +16,10 @@ TEST(ViewAnimation, aMomentIsThePictureThatRenderWritesAndTheFileIsReadOnce)
                              "0 wait\n0 do toggle interface\n0 do set exposure 1\n0 do set animation high\n"
                              "0 do set time 3\n0 do set time 1\n0 do set time 2.5\n0 wait\n0 do window window.png\n"
                              "0 do report r.txt\n",
-                             {"quad.gltf", "--size", "160x120", "--camera", "fit"});
+                             {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "loads"), "1 failed 0");
-    const ToolRun drawn = runTool({"render", "quad.gltf", "-o", "r.png", "--size", "160x120", "--camera", "fit",
+    const ToolRun drawn = runTool({"render", "quad.gltf", "-o", "r.png", "--size", "160x120", "--camera", "0,1,6,0,1,0",
                                    "--exposure", "1", "--animation", "high", "--time", "2.5"},
                                   folder.path());
     ASSERT_EQ(drawn.code, 0) << drawn.err;
@@ -31,10 +31,11 @@ TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
     write(movingQuad(), folder.path());
-    const ToolRun run = play(folder,
-                             "0 wait\n0 do toggle interface\n0 do window a.png\n0 key space\n1.5 wait\n1.5 key space\n1.5 wait\n"
-                             "1.5 do window b.png\n9 wait\n9 do window c.png\n9 do report r.txt\n",
-                             {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0", "--ground", "off"});
+    const ToolRun run =
+        play(folder,
+             "0 wait\n0 do toggle interface\n0 do window a.png\n0 key space\n1.5 wait\n1.5 key space\n1.5 wait\n"
+             "1.5 do window b.png\n9 wait\n9 do window c.png\n9 do report r.txt\n",
+             {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0", "--ground", "off"});
     ASSERT_EQ(run.code, 0) << run.err;
     const Image a = readPicture(folder / "a.png"), b = readPicture(folder / "b.png");
     EXPECT_GT(differentPixels(a, b), 100u);
@@ -43,6 +44,27 @@ TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
     EXPECT_EQ(lineOf(report, "time"), "1.5");
     EXPECT_EQ(lineOf(report, "playing"), "no");
     EXPECT_EQ(lineOf(report, "loads"), "1 failed 0");
+}
+
+// Front would frame the bounds of each moment: the picture would wobble, and the command would draw another one.
+TEST(ViewAnimation, theCameraStaysWhileTheModelMoves)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do report a.txt\n0 do set animation high\n0 do set time 3\n0 wait\n"
+                             "0 do report b.txt\n0 do picture a.png\n",
+                             {"quad.gltf", "--size", "160x120"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "eye"), lineOf(readWhole(folder / "b.txt"), "eye"));
+    std::filesystem::rename(folder / "a.png", folder / "window.png");
+    const std::size_t start = run.out.find("cotan render ");
+    ASSERT_NE(start, std::string::npos) << run.out;
+    const std::string command = run.out.substr(start + 6, run.out.find('\n', start) - start - 6);
+    ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " COTAN_TOOL " " + command + " > /dev/null").c_str()),
+              0);
+    EXPECT_TRUE(readWhole(folder / "a.png") == readWhole(folder / "window.png")) << command;
 }
 
 TEST(ViewAnimation, oneThatIsNotThereIsSaidAndTheModelStays)

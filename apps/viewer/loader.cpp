@@ -87,7 +87,8 @@ void giveUp(State& state, const Loaded& loaded)
 void takePosed(State& state, const Loaded& loaded)
 {
     state.model = loaded.model;
-    if (state.playing) // the moment has gone on
+    state.cameraMoved = true; // it stays where it is, and does not go with the model's bounds
+    if (state.playing)        // the moment has gone on
         return;
     state.hotSpots.reset();
     if (state.hotSpotsShown)
