@@ -83,6 +83,19 @@ inline ToolRun play(const TemporaryFolder& folder, const std::string& session, s
     return runTool(words, folder.path(), 120);
 }
 
+// Does the command for that file which a session has said. Returns the command; empty where it failed, or was not said.
+inline std::string doWritten(const TemporaryFolder& folder, const std::string& said, const std::string& file)
+{
+    for (std::size_t start = 0; (start = said.find("cotan render ", start)) != std::string::npos; ++start) {
+        const std::string command = said.substr(start + 6, said.find('\n', start) - start - 6);
+        if (command.find("-o " + file) == std::string::npos)
+            continue;
+        const std::string shell = "cd " + folder.path().string() + " && " COTAN_TOOL " " + command + " > /dev/null";
+        return std::system(shell.c_str()) == 0 ? command : std::string();
+    }
+    return {};
+}
+
 #define COTAN_NEEDS_DISPLAY()                                                                                          \
     if (display().empty())                                                                                             \
     GTEST_SKIP() << "no Xvfb to open a window on"
