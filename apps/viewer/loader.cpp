@@ -11,15 +11,15 @@
 
 namespace cotan::viewer {
 
-namespace {
-
-// What was read last, and poses it where it moves.
-struct Kept {
+// The model that was read last, and what poses it; null where it does not move.
+struct LastRead {
     std::shared_ptr<const Model> model;
     std::unique_ptr<AnimatedGltf> animated;
 };
 
-Loaded readModel(const PictureOptions& options, std::uint64_t number, Kept& kept)
+namespace {
+
+Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& kept)
 {
     Loaded loaded;
     loaded.options = options;
@@ -40,7 +40,7 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number, Kept& kept
     return loaded;
 }
 
-Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, Kept& kept)
+Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& kept)
 {
     Loaded loaded;
     loaded.posed = true;
@@ -199,7 +199,7 @@ struct Loader::Work {
     std::optional<PictureOptions> read, pose;
     std::shared_ptr<const Model> look;
     std::deque<Loaded> ready;
-    Kept kept;                // of the thread
+    LastRead kept;            // of the thread
     std::uint64_t number = 0; // likewise
     bool working = false, reading = false, stop = false;
     std::thread thread; // last: it uses all the others
