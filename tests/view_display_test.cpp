@@ -72,5 +72,27 @@ TEST(ViewDisplay, aWindowIsMinimisedResizedAndQuitByItsKeys)
     EXPECT_TRUE(std::filesystem::exists(folder / "times.json"));
 }
 
+// In a window there is someone to read why, and to mend it: the file is read once it is there.
+TEST(ViewDisplay, aWindowStaysWithoutItsFirstModelAndShowsItOnceItIsThere)
+{
+    COTAN_NEEDS_DISPLAY();
+    if (std::system("command -v xdotool > /dev/null") != 0)
+        GTEST_SKIP() << "no xdotool to send keys with";
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    std::filesystem::rename(folder / "quad.gltf", folder / "later.gltf");
+    std::ofstream(folder / "session.sh")
+        << "export DISPLAY=" << display() << "\n"
+        << COTAN_TOOL << " view first.gltf --size 300x200 --forget --json times.json 2> said.txt &\n"
+        << "timeout 20 xdotool search --sync --onlyvisible --name '^cotan view$' > /dev/null\n"
+           "sleep 0.5; mv later.gltf first.gltf\n"
+           "timeout 20 xdotool search --sync --onlyvisible --name first.gltf mousemove 150 100 > /dev/null\n"
+           "xdotool key ctrl+q\n"
+           "wait $!\n";
+    EXPECT_EQ(std::system(("cd " + folder.path().string() + " && timeout 60 sh session.sh").c_str()), 0);
+    EXPECT_EQ(lines(readWhole(folder / "said.txt")), 1) << readWhole(folder / "said.txt");
+    EXPECT_NE(readWhole(folder / "times.json").find("\"loads\": 1"), std::string::npos);
+}
+
 } // namespace
 } // namespace cotan::test
