@@ -24,6 +24,24 @@ endfunction()
 function(cotan_library target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL ""
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
+  if(EMSCRIPTEN)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  endif()
+endfunction()
+
+# WebAssembly is compiled for size, but for the sources given, where time is spent. By source: the compiler's driver takes
+# one such option only.
+function(cotan_fast_sources target)
+  if(EMSCRIPTEN)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source ${sources})
+      set(level -Oz)
+      if(source IN_LIST ARGN)
+        set(level -O2)
+      endif()
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${level})
+    endforeach()
+  endif()
 endfunction()
 
 # Where headers of a part are found here and once installed, and what find_package(cotan COMPONENTS name) needs for it:
@@ -93,6 +111,9 @@ function(cotan_part name)
     target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC}
       PRIVATE ${PART_PRIVATE} $<BUILD_INTERFACE:cotan_warnings>)
     cotan_library(cotan_${name})
+    if(EMSCRIPTEN)
+      target_compile_options(cotan_${name} PRIVATE -Oz)
+    endif()
     cotan_unity(cotan_${name} 8)
   else()
     add_library(cotan_${name} INTERFACE)

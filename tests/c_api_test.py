@@ -111,9 +111,9 @@ def call(name, *arguments, expect=0):
 # What is exported is what is written down, no more and no less.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
-exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1"}
+exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 1 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 2 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
@@ -202,6 +202,35 @@ for frame, vertex in ((b"mikktspace", VertexPlaces(1, normals, tangents, None, N
     call("cotan_vertex_frame_encode", frame, c.byref(vertex), out, back)
     assert max(abs(a - b) for a, b in zip(back, texel)) < 1e-5, (frame, list(back))
 call("cotan_vertex_frame_apply", b"smooth", c.byref(VertexPlaces(1, normals, tangents, None, None)), texel, out, expect=1)
+
+# The plane in other forms. Split: three corners of one value share no vertex. U and V: t = cross(n, u) runs along +u, -x.
+split, sources, count = (c.c_uint32 * 3)(), (c.c_uint32 * 6)(), c.c_size_t()
+call("cotan_split_vertices", c.c_size_t(3), c.c_size_t(3), indices, tangents, split, sources, c.byref(count))
+assert (list(split), list(sources[:3]), count.value) == ([0, 1, 2], [0, 1, 2], 3)
+other = array([0, 1, 0, 1] + [1, 0, 0, 1] * 2)
+twice = (c.c_uint32 * 3)(0, 0, 1)
+call("cotan_split_vertices", c.c_size_t(2), c.c_size_t(3), twice, other, split, sources, c.byref(count))
+assert (list(split), list(sources[:3]), count.value) == ([0, 2, 1], [0, 1, 0], 3), list(split)
+call("cotan_split_mirrored", c.byref(mesh), split, sources, c.byref(count))
+assert list(split) == [0, 1, 2] and count.value == 3
+triangle_u, triangle_v = array([0] * 3), array([0] * 3)
+call("cotan_triangle_vectors", c.byref(mesh), 1, triangle_u, triangle_v)
+assert triangle_u[1] > 0 and abs(triangle_u[0]) < 1e-6, list(triangle_u)  # cross(z, y) = -x
+words = (c.c_uint32 * 3)()
+call("cotan_pack_triangles", c.c_size_t(1), triangle_u, triangle_v, words)
+halfs = struct.unpack("<6e", bytes(words))
+assert max(abs(a - b) for a, b in zip(halfs, list(triangle_u) + list(triangle_v))) < 2e-3, halfs
+up, packed8, packed4, packed2 = array([0, 0, 1] * 3), (c.c_int16 * 12)(), (c.c_uint32 * 3)(), (c.c_uint16 * 3)()
+call("cotan_pack_smooth8", c.c_size_t(3), up, u, v, packed8)
+call("cotan_pack_smooth4", c.c_size_t(3), up, u, v, packed4)
+call("cotan_pack_tangents", c.c_size_t(3), up, tangents, packed2)
+assert any(packed8) and packed4[0] == packed4[2] != 0 and packed2[0] == packed2[2] != 0
+assert "normals: expected an array" in call("cotan_pack_smooth8", c.c_size_t(3), None, u, v, packed8, expect=1)
+turned = (c.c_uint32 * 3)()
+for last, provokes in ((0, 0), (1, 2)):
+    call("cotan_provoking", c.c_size_t(3), c.c_size_t(3), indices, c.c_int(last), split, sources, c.byref(count), turned)
+    assert split[provokes] == 0 and count.value == 3 and sources[0] == turned[0], list(split)
+assert "indices[2]: expected less than 2, found 2" in call("cotan_provoking", c.c_size_t(2), c.c_size_t(3), indices, c.c_int(0), split, sources, c.byref(count), turned, expect=2)
 
 # A plane that rises by 0.1 towards +x, baked onto the unit square whose u runs along x and v against y.
 corners = [0, 0, 1, 0, 1, 1, 0, 1]
@@ -316,6 +345,27 @@ if lint_of(model) is not None:
     asked.clear()
     whole = take(glb)
     assert whole[:4] == b"glTF" and lint_of(whole) is not None and not asked  # all is inside
+    take(report)
+    # In two steps the same, but for where the picture lies in the file.
+    conversion, picture, number = c.c_void_p(), Picture(), len(encoded)
+    names = []
+    Take = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, c.c_size_t)
+    call("cotan_gltf_pictures", *arguments, c.c_int(1), Take(lambda user, name, data, size: names.append(size) or 0), None)
+    assert names == [len(PNG)]
+    call("cotan_convert_begin", *arguments, None, c.byref(convert), c.byref(conversion))
+    asked.clear()
+    cotan.cotan_conversion_count.restype = c.c_size_t
+    assert cotan.cotan_conversion_count(conversion) == 1 and len(encoded) == number and convert.maps_converted == 1
+    call("cotan_conversion_picture", conversion, c.c_size_t(0), c.byref(picture))
+    assert picture.width == picture.height == side and c.string_at(picture.pixels, 4) == encoded[0]
+    assert "PNG files of all" in call("cotan_convert_end", conversion, c.byref(glb), None, expect=1)
+    assert "expected less than 1, found 1" in call("cotan_conversion_set", conversion, c.c_size_t(1), PNG, c.c_size_t(len(PNG)), expect=1)
+    call("cotan_conversion_set", conversion, c.c_size_t(0), PNG[:-1] + b"\x01", c.c_size_t(len(PNG)))
+    call("cotan_convert_end", conversion, c.byref(glb), c.byref(how))
+    cotan.cotan_conversion_free(conversion)
+    assert json.loads(take(how))["maps"][0]["bytes_after"] == len(PNG) and not asked
+    steps = take(glb)
+    assert PNG[:-1] + b"\x01" in steps and len(steps) == len(whole) and lint_of(steps) is not None
     take(report)
     # Read as what it is for now, it is right: what the report measures is maps for MikkTSpace.
     back_again = ConvertOptions(b"cotangent", b"mikktspace", 0, 0, 0, 1, Progress(), None)

@@ -6,6 +6,13 @@ target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)
 
+# The package for three.js, and repairs for other engines of the web.
+cotan_test(web_engines_test FIXTURE npm
+  SOURCES three_package_test.cpp repairs_test.cpp browser_pages.cpp
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json)
+target_compile_definitions(web_engines_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
+add_dependencies(web_engines_test cotan)
+
 # Pictures of real models beside those of three.js.
 cotan_test(second_opinion_test FIXTURE npm
   SOURCES second_opinion_test.cpp browser_pages.cpp flip.cpp flip_test.cpp

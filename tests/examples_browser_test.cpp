@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "examples_browser.hpp"
-#include "examples_sheet_model.hpp"
 
 namespace cotan::test {
 namespace {
@@ -16,29 +15,6 @@ const std::string kSources = COTAN_SOURCE_DIR;
 // introduction promises 0.002 degrees at 1e-3; times five for the slopes of up to 53 degrees.
 constexpr double kDegrees = 0.01;
 
-// The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet
-// with stored tangents.
-void writeOwnNormals(const TemporaryFolder& folder)
-{
-    const Image map = makeReliefMap(Relief::domes, 128);
-    write(folder / "map.bytes", rowsFromTheBottom(map));
-    for (const auto& [side, angle] : {std::pair{"front", 0.4}, std::pair{"back", 3.14159265358979 - 0.4}}) {
-        const std::string name = side;
-        writeSheet(folder.path(), name, angle, map);
-        const ToolRun drawn =
-            runTool({"render", name + ".gltf", "-o", name + ".exr", "--view", "normal", "--size", "256x256", "--camera",
-                     "0", "--device", "reference", "--point-sampled", "--quiet"},
-                    folder.path());
-        ASSERT_EQ(drawn.code, 0) << drawn.err;
-        const ToolRun stored = runTool({"tangents", name + ".gltf", "-o", name + "_tangents.glb"}, folder.path());
-        ASSERT_EQ(stored.code, 0) << stored.err;
-        const Result<Image> normals = readImage(folder / (name + ".exr"));
-        ASSERT_TRUE(normals) << normals.error().message;
-        ASSERT_EQ(normals->type, PixelType::float32);
-        write(folder / (name + ".normals"), rowsFromTheBottom(*normals));
-    }
-}
-
 // tests/examples_NAME.html.in with its addresses put in, about an example that takes an npm package.
 void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const std::string& example,
                   const std::string& library)
@@ -46,10 +22,8 @@ void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const 
     std::string page = readWhole(kSources + "/tests/examples_" + name + ".html.in");
     put(page, "COTAN;", json(readWhole(kSources + "/examples/" + example + "/cotan.glsl")).dump() + ";");
     put(page, "LIBRARY_URL", "file://" + library);
-    put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
     put(page, "TESTS_URL", "file://" + kSources + "/tests");
     put(page, "EXAMPLE_URL", "file://" + kSources + "/examples/" + example);
-    put(page, "FOLDER_URL", "file://" + folder.path().string());
     write(folder / (name + ".html"), page);
 }
 
@@ -61,13 +35,6 @@ json measure()
           readWhole(kSources + "/examples/webgl2/index.html") + "<script>\n"
               + readWhole(kSources + "/tests/examples_webgl2.js") + "</script>\n");
     std::vector<std::string> pages = {"webgl2.html"};
-    const std::string three = COTAN_NPM "/node_modules/three/build/three.module.js";
-    if (std::filesystem::exists(three)) {
-        writeNpmPage(folder, "three", "three", three);
-        writeNpmPage(folder, "three_pictures", "three", three);
-        writeOwnNormals(folder);
-        pages.insert(pages.end(), {"three.html", "three_pictures.html"});
-    }
     const std::string babylon = COTAN_NPM "/node_modules/babylonjs/babylon.js";
     if (std::filesystem::exists(babylon)) {
         writeNpmPage(folder, "babylon", "babylon", babylon);
@@ -125,13 +92,6 @@ void expectPrintedToday(const std::string& example)
         << "cotan shader --lang essl --form total -o examples/" + example + "/cotan.glsl";
 }
 
-// A frame that is wrong on purpose shows: u reversed turns the domes' slopes, some twenty degrees in the mean, along u.
-void expectBroken(const std::string& label, const json& side)
-{
-    ASSERT_TRUE(side.contains("mean")) << label << ": " << side;
-    EXPECT_GT(side["mean"].get<double>(), 10) << label;
-}
-
 // Ours is right in every scene, the library's own in those that are not flipped.
 void expectRightWhereTheirsIsAndFlipped(const json& page)
 {
@@ -146,49 +106,6 @@ void expectRightWhereTheirsIsAndFlipped(const json& page)
             EXPECT_GT(stock["mean"].get<double>(), 20) << scene;
         else
             expectRight("their own frame, " + scene, stock);
-    }
-}
-
-TEST(ExampleThree, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("three"); }
-
-TEST(ExampleThree, cotansFrameIsRightWhereverThreesOwnIsAndInFlippedTargetsToo)
-{
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
-    if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
-        GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measured().contains("three")) << measured();
-    expectRightWhereTheirsIsAndFlipped(measured()["three"]);
-    for (const auto& [scene, side] : measured()["three"]["broken"].items()) // with tangents too
-        expectBroken("broken, " + scene, side);
-    EXPECT_EQ(measured()["three"]["broken"].size(), measured()["three"]["cotan"].size());
-}
-
-TEST(ExampleThree, picturesWithCotansFrameAreThreesOwnAndDoNotChangeInFlippedTargets)
-{
-    if (measured().is_string())
-        GTEST_SKIP() << measured().get<std::string>();
-    if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
-        GTEST_SKIP() << "three is not installed (see the test npm_packages)";
-    ASSERT_TRUE(measured().contains("three_pictures")) << measured();
-    for (const char* side : {"front", "back"}) {
-        const json& found = measured()["three_pictures"];
-        ASSERT_TRUE(found.contains(side)) << found;
-        const json& page = found[side];
-        const auto worst = [&](const char* what) { return page[what]["worst"].get<double>(); };
-        EXPECT_GT(page["stock and cotan"]["count"].get<int>(), 30000)
-            << side;                                    // the sheet covers more than half of 256 x 256
-        EXPECT_LE(worst("stock and cotan"), 1) << side; // a colour may lie at the edge between two steps
-        EXPECT_LE(worst("cotan upright and y down"), 2)
-            << side; // so may it in both; interpolation rounds otherwise there
-        // The domes are lit from the other side, or are dents; between them nothing changes.
-        EXPECT_GT(page["stock upright and y down"]["mean"].get<double>(), 15) << side;
-        EXPECT_GT(page["stock and broken"]["mean"].get<double>(), 3) << side; // less light falls on the back
-        expectRight(std::string("three and Cotan's own renderer, ") + side, page["normals"]);
-        // A model with tangents, through three's loader.
-        for (const char* loaded : {"loaded, stock", "loaded, cotan", "loaded, cotan, y down"})
-            expectRight(std::string(loaded) + ", " + side, page[loaded]);
-        expectBroken(std::string("loaded, broken, ") + side, page["loaded, broken"]);
     }
 }
 

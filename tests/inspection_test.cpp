@@ -169,8 +169,7 @@ TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
     scene.instances.push_back({"stretched", 1, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
     const std::vector<HotSpot> spots = hotSpots(scene);
     ASSERT_EQ(spots.size(), 1u);
-    EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos)
-        << spots[0].text;
+    EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
     EXPECT_TRUE(spots[0].text.ends_with(", here 3")) << spots[0].text;
     EXPECT_NEAR(spots[0].camera.target.x, 10, 0.5f);
     EXPECT_GT(spots[0].camera.eye.z, 0.1f);

@@ -16,9 +16,6 @@ using namespace cotan::c;
 
 namespace {
 
-static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float)
-              && sizeof(glm::vec4) == 4 * sizeof(float));
-
 glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], array[3 * i + 1], array[3 * i + 2]}; }
 
 Frame frameFromDifferences(const char* name)
@@ -83,15 +80,6 @@ private:
     const cotan_vertex_places& p_;
     Frame kind_ = Frame::smooth;
 };
-
-MeshView viewOf(const cotan_mesh* given)
-{
-    const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
-    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
-            {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
-            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
-            {m.indices, m.index_count}};
-}
 
 } // namespace
 

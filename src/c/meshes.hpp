@@ -1,9 +1,28 @@
 // Meshes of cotan.h, looked at before they are used.
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include "call.hpp"
+#include "cotan/tangents.hpp"
 
 namespace cotan::c {
+
+inline void checkIndices(const std::string& name, std::size_t vertexCount, std::size_t indexCount,
+                         const std::uint32_t* indices)
+{
+    if (indexCount % 3 != 0)
+        fail(ErrorKind::usage, name + "index_count: expected a multiple of 3");
+    if (indexCount != 0 && !indices)
+        fail(ErrorKind::usage, name + "indices: expected an array, found null");
+    for (std::size_t i = 0; i < indexCount; ++i)
+        if (indices[i] >= vertexCount)
+            fail(ErrorKind::input,
+                 name + "indices[" + std::to_string(i) + "]: expected less than " + std::to_string(vertexCount)
+                     + ", found " + std::to_string(indices[i]));
+}
 
 inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string& name, bool needsUv)
 {
@@ -11,16 +30,21 @@ inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string&
     if (m.vertex_count != 0 && !(m.positions && m.normals && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage,
              name + ": expected positions, normals" + (needsUv ? " and texcoords" : "") + ", found null");
-    if (m.index_count % 3 != 0)
-        fail(ErrorKind::usage, name + ".index_count: expected a multiple of 3");
-    if (m.index_count != 0 && !m.indices)
-        fail(ErrorKind::usage, name + ".indices: expected an array, found null");
-    for (std::size_t i = 0; i < m.index_count; ++i)
-        if (m.indices[i] >= m.vertex_count)
-            fail(ErrorKind::input,
-                 name + ".indices[" + std::to_string(i) + "]: expected less than " + std::to_string(m.vertex_count)
-                     + ", found " + std::to_string(m.indices[i]));
+    checkIndices(name + ".", m.vertex_count, m.index_count, m.indices);
     return m;
+}
+
+static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float)
+              && sizeof(glm::vec4) == 4 * sizeof(float));
+
+// A mesh with uv as the library takes it.
+inline MeshView viewOf(const cotan_mesh* given)
+{
+    const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
+    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
+            {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
+            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
+            {m.indices, m.index_count}};
 }
 
 } // namespace cotan::c

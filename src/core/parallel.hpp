@@ -13,10 +13,18 @@
 
 namespace cotan {
 
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+inline constexpr bool kHasThreads = false;
+#else
+inline constexpr bool kHasThreads = true;
+#endif
+
 // How many threads are worth starting for `count` items, of which one thread should get at least
 // `least`. wanted 0: all cores.
 inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted)
 {
+    if (!kHasThreads)
+        return 1;
     const std::size_t most = wanted > 0 ? std::size_t(wanted) : std::max(1u, std::thread::hardware_concurrency());
     return std::clamp<std::size_t>(count / least, 1, most);
 }
@@ -25,6 +33,11 @@ inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted)
 // be started the others do its work. Throws what a task has thrown, after all threads have ended.
 template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const Run& run)
 {
+    if constexpr (!kHasThreads) {
+        for (std::size_t i = 0; i < tasks; ++i)
+            run(i);
+        return;
+    }
     std::atomic<std::size_t> next{0};
     std::exception_ptr problem;
     std::mutex guard;

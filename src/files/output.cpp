@@ -198,7 +198,7 @@ Status writeBytes(const fs::path& file, std::span<const std::byte> bytes)
 
 Status writeFileWhole(const fs::path& file, std::string_view text)
 {
-    return writeBeside(file, [&](const fs::path& part) { return writeBytes(part, std::as_bytes(std::span(text))); });
+    return writeBeside(file, [&](const fs::path& part) { return writeBytes(part, std::as_bytes(std::span(text.data(), text.size()))); });
 }
 
 Status checkWritable(const fs::path& file, bool makesFolder)

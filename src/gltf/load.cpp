@@ -1,6 +1,7 @@
 // glTF 2.0 and GLB files to Scene.
 #include <map>
 #include <new>
+#include <tuple>
 
 #include "animate.hpp"
 #include "cotan/gltf/animated.hpp"
@@ -19,7 +20,10 @@ struct MeshUse {
     int mesh = -1;
     int skin = -1;
     std::vector<double> weights;
-    auto operator<=>(const MeshUse&) const = default;
+    bool operator<(const MeshUse& other) const
+    {
+        return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
+    }
 };
 
 class SceneBuilder {

@@ -1,7 +1,6 @@
 #include "cotan/report/measurements.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cotan/files/account.hpp"
+#include "cotan/parse_number.hpp"
 
 namespace cotan {
 
@@ -51,13 +51,6 @@ std::vector<std::string> readLine(std::string_view text, std::size_t& position)
         }
     }
     return fields;
-}
-
-template<class Number> bool parse(const std::string& field, Number& number)
-{
-    const char* end = field.data() + field.size();
-    const auto [stop, error] = std::from_chars(field.data(), end, number);
-    return error == std::errc() && stop == end;
 }
 
 auto key(const Measurement& m) { return std::tie(m.table, m.scene, m.setting, m.frame, m.truth, m.arithmetic); }
@@ -134,8 +127,8 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
         if (f.size() != kFields)
             return inputError(fmt::format("{}: line {}: expected {} fields; found {}", name, line, kFields, f.size()));
         Measurement m{f[0], f[1], f[2], f[3], f[4], f[5]};
-        if (!parse(f[6], m.samples) || !parse(f[7], m.mean) || !parse(f[8], m.percentile95) || !parse(f[9], m.maximum)
-            || !parse(f[10], m.invalid))
+        if (!parseNumber(f[6], m.samples) || !parseNumber(f[7], m.mean) || !parseNumber(f[8], m.percentile95) || !parseNumber(f[9], m.maximum)
+            || !parseNumber(f[10], m.invalid))
             return inputError(fmt::format("{}: line {}: expected numbers in columns 7 to 11", name, line));
         rows.push_back(std::move(m));
     }

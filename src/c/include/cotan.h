@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 1
+#define COTAN_API_VERSION 2
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) { sizeof(type) }
@@ -116,6 +116,42 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
 
 /* The cotangents of the frame "smooth", one pair for each vertex: u and v, 3 * vertex_count floats each. */
 cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v, char* message, size_t message_size);
+
+/* The same triangles over more vertices, so that what is made for corners can be stored at vertices: a vertex is copied
+ * where the corners that share it have different values (4 floats each, as of cotan_tangents), or where mirrored and
+ * unmirrored triangles share it, as cotan_smooth_cotangents wants it. split_indices: index_count, into the new vertices.
+ * sources: for each new vertex the old one that it is a copy of, the old ones first; room for vertex_count + index_count.
+ * split_count: how many there are. Since version 2. */
+cotan_status cotan_split_vertices(size_t vertex_count, size_t index_count, const uint32_t* indices,
+                                  const float* corners, uint32_t* split_indices, uint32_t* sources,
+                                  size_t* split_count, char* message, size_t message_size);
+cotan_status cotan_split_mirrored(const cotan_mesh* mesh, uint32_t* split_indices, uint32_t* sources,
+                                  size_t* split_count, char* message, size_t message_size);
+
+/* U and V of the frame "triangle", one pair for each triangle: index_count floats each. Since version 2. */
+cotan_status cotan_triangle_vectors(const cotan_mesh* mesh, int threads, float* u, float* v, char* message,
+                                    size_t message_size);
+
+/* Small forms of these, which shaders/cotan/triangle.h and pack.h unpack: of `triangle` 3 words each, of `smooth` four
+ * SNORM16 or one word each, of tangents (4 floats each) one short each. count: of triangles, or of vertices, whose unit
+ * normals are those that unpacking will see. Since version 2. */
+cotan_status cotan_pack_triangles(size_t count, const float* u, const float* v, uint32_t* words, char* message,
+                                  size_t message_size);
+cotan_status cotan_pack_smooth8(size_t count, const float* normals, const float* u, const float* v, int16_t* packed,
+                                char* message, size_t message_size);
+cotan_status cotan_pack_smooth4(size_t count, const float* normals, const float* u, const float* v, uint32_t* packed,
+                                char* message, size_t message_size);
+cotan_status cotan_pack_tangents(size_t count, const float* normals, const float* tangents, uint16_t* packed,
+                                 char* message, size_t message_size);
+
+/* The triangles over vertices numbered so that vertex k provokes triangle k: a vertex shader that is given k then makes
+ * what belongs to the triangle. last: 0 where the first of the three vertices provokes (Vulkan, Direct3D, Metal,
+ * WebGPU), else 1 (OpenGL, WebGL). made_indices: index_count, into the new vertices; sources and made_count as above;
+ * corners: index_count, into the old vertices, each triangle turned so that the provoking one comes first. Since
+ * version 2. */
+cotan_status cotan_provoking(size_t vertex_count, size_t index_count, const uint32_t* indices, int last,
+                             uint32_t* made_indices, uint32_t* sources, size_t* made_count, uint32_t* corners,
+                             char* message, size_t message_size);
 
 /* ---- normal maps ------------------------------------------------------------------------------------------------- */
 
@@ -236,6 +272,13 @@ typedef struct cotan_model_files {
     void (*done)(void* user);
 } cotan_model_files;
 
+/* Calls `take` for each picture in the model that is decoded to lint it, or, with maps_only, to convert it: what is not
+ * known of at once can so be decoded beforehand. bytes: gone when `take` returns. Another result than 0 stops
+ * (COTAN_STOPPED). Since version 2. */
+typedef int (*cotan_take_file)(void* user, const char* name, const void* bytes, size_t byte_count);
+cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
+                                 cotan_take_file take, void* user, char* message, size_t message_size);
+
 typedef struct cotan_lint_options {
     size_t size;
     double distance;         /* from eye to surface, units of the model; 0: where the whole model fills the picture */
@@ -289,6 +332,22 @@ typedef struct cotan_convert_result {
 cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
                                 const cotan_convert_options* options, cotan_convert_result* result, cotan_bytes** glb,
                                 cotan_bytes** json, char* message, size_t message_size);
+
+/* The same in two steps, for callers who cannot encode a picture while they wait: a conversion whose pictures, of 8 or
+ * 16 bits, are there to be encoded, and then the model with the PNG files of all of them. files->encode is not called.
+ * result and json as above; of json "bytes_after" is known in the second step. Since version 2. */
+typedef struct cotan_conversion cotan_conversion;
+cotan_status cotan_convert_begin(const void* model, size_t model_size, const cotan_model_files* files,
+                                 const cotan_convert_options* options, cotan_convert_result* result,
+                                 cotan_conversion** conversion, char* message, size_t message_size);
+size_t cotan_conversion_count(const cotan_conversion* conversion);
+cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
+                                      char* message, size_t message_size);
+cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, const void* png, size_t png_size,
+                                  char* message, size_t message_size);
+cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
+                               size_t message_size);
+void cotan_conversion_free(cotan_conversion* conversion); /* null is fine */
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,7 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
         return inputError(fmt::format("{}: {} x {} pixels take {} bytes, the limit is {}", name, width, height, bytes,
                                       limits.imageBytes));
     if (limits.expect)
-        limits.expect(bytes);
+        limits.expect(std::size_t(bytes));
     return std::nullopt;
 }
 

@@ -1,0 +1,89 @@
+// Puts the package together and packs it: node build.mjs WASM_FOLDER OUT_FOLDER VERSION. The folder then holds
+// package/, what is in the tarball, and cotan-VERSION.tgz.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
+
+const [wasmFolder, out, version] = process.argv.slice(2);
+if (!version) {
+  console.error('usage: node build.mjs WASM_FOLDER OUT_FOLDER VERSION');
+  process.exit(1);
+}
+const here = path.dirname(fileURLToPath(import.meta.url));
+const place = path.join(out, 'package');
+fs.rmSync(place, { recursive: true, force: true });
+fs.mkdirSync(path.join(place, 'wasm'), { recursive: true });
+
+// Comments are for readers of the repository; what users read is in the typings.
+const slim = (text) => text.split('\n').filter((line) => !/^\s*(\/\/.*|\/\*\*.*\*\/\s*)?$/.test(line)).join('\n') + '\n';
+const put = (name, text) => {
+  const file = path.join(place, name);
+  fs.mkdirSync(path.dirname(file), { recursive: true });
+  fs.writeFileSync(file, text);
+};
+for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.endsWith('.js')))
+  put(`src/${file}`, slim(fs.readFileSync(path.join(here, 'src', file), 'utf8')));
+
+for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm']]) {
+  const bytes = fs.readFileSync(path.join(wasmFolder, built));
+  fs.writeFileSync(path.join(place, `wasm/${name}.wasm`), bytes);
+  const text = deflateRawSync(bytes, { level: 9 }).toString('base64');
+  put(`wasm/${name}_inside.js`, `import { through } from '../src/streams.js';
+const text = '${text}';
+export const bytes = () => through(new DecompressionStream('deflate-raw'), Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
+`);
+  put(`wasm/${name}_beside.js`, `import { bytesAt } from '../src/bytes_beside.js';
+export const bytes = () => bytesAt(new URL('./${name}.wasm', import.meta.url));
+`);
+}
+
+const entries = {
+  tangents: (way) => `import { CotanError, Library } from './src/instance.js';
+import { tangentFunctions } from './src/tangents.js';
+import { bytes } from './wasm/tangents_${way}.js';
+const library = new Library();
+export const ready = library.load(bytes());
+ready.catch(() => {});
+export const { tangents, smooth, triangles, split, splitMirrored, packTriangles, packSmooth, packTangents } = tangentFunctions(library);
+export const version = () => library.version;
+export { CotanError };
+`,
+  cotan: (way) => `import { frameFunctions } from './src/frames.js';
+import { hostImports } from './src/host.js';
+import { CotanError, Library } from './src/instance.js';
+import { mapFunctions } from './src/maps.js';
+import { modelFunctions } from './src/models.js';
+import { tangentFunctions } from './src/tangents.js';
+import { bytes } from './wasm/cotan_${way}.js';
+const library = new Library(), host = hostImports();
+export const ready = library.load(bytes(), { cotan: host.imports });
+ready.catch(() => {});
+export const { tangents, smooth, triangles, split, splitMirrored, packTriangles, packSmooth, packTangents, provoking } = tangentFunctions(library);
+export const { detect, info, convertMap, blend, fromHeight, toHeight, mips } = mapFunctions(library, host);
+export const { apply, encode, frames, shader } = frameFunctions(library);
+export const { lint, convert } = modelFunctions(library, host);
+export const version = () => library.version;
+export { decodePng, encodePng } from './src/png.js';
+export { decodePicture } from './src/pictures.js';
+export { CotanError };
+`,
+};
+for (const [name, text] of Object.entries(entries)) {
+  put(`${name}.js`, text('inside'));
+  put(`${name}_beside.js`, text('beside'));
+  fs.copyFileSync(path.join(here, `types/${name}.d.ts`), path.join(place, `${name}.d.ts`));
+}
+for (const folder of ['three', 'gltf-transform'])
+  if (fs.existsSync(path.join(here, folder))) fs.cpSync(path.join(here, folder), path.join(place, folder), { recursive: true });
+
+const manifest = JSON.parse(fs.readFileSync(path.join(here, 'package.json'), 'utf8'));
+manifest.version = version;
+delete manifest.private;
+for (const [name, target] of Object.entries(manifest.exports))
+  if (!fs.existsSync(path.join(place, typeof target === 'string' ? target : target.default))) delete manifest.exports[name];
+put('package.json', JSON.stringify(manifest, null, 2) + '\n');
+fs.copyFileSync(path.join(here, 'README.md'), path.join(place, 'README.md'));
+fs.copyFileSync(path.join(here, '../../LICENSE'), path.join(place, 'LICENSE'));
+execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', path.resolve(out)], { cwd: place, stdio: ['ignore', 'ignore', 'inherit'] });

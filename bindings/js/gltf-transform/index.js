@@ -1,0 +1,215 @@
+// Transforms for glTF-Transform 4.5: see index.d.ts.
+import { Primitive, WebIO } from '@gltf-transform/core';
+import { convert, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
+
+const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
+const kTangentFrames = ['mikktspace', 'vertex'];
+
+function* primitivesOf(document) {
+  for (const mesh of document.getRoot().listMeshes())
+    for (const [number, primitive] of mesh.listPrimitives().entries())
+      yield { primitive, name: `${mesh.getName() || 'mesh'}/${number}` };
+}
+
+/** All elements as floats, whatever they are stored as. */
+function floatsOf(accessor, size) {
+  const out = new Float32Array(accessor.getCount() * size), element = [];
+  for (let i = 0; i < accessor.getCount(); ++i) out.set(accessor.getElement(i, element).slice(0, size), i * size);
+  return out;
+}
+
+/** The uv that the normal map of a primitive reads: its set, transformed. */
+function uvsOf(primitive) {
+  const info = primitive.getMaterial()?.getNormalTexture() ? primitive.getMaterial().getNormalTextureInfo() : null;
+  const transform = info?.getExtension('KHR_texture_transform');
+  const uv = primitive.getAttribute(`TEXCOORD_${transform?.getTexCoord() ?? info?.getTexCoord() ?? 0}`);
+  if (!uv) return null;
+  const uvs = floatsOf(uv, 2);
+  if (transform) {
+    const [x, y] = transform.getOffset(), [sx, sy] = transform.getScale(), angle = transform.getRotation();
+    const c = Math.cos(angle), s = Math.sin(angle);
+    for (let i = 0; i < uvs.length; i += 2) {
+      const u = uvs[i] * sx, v = uvs[i + 1] * sy;
+      [uvs[i], uvs[i + 1]] = [x + c * u + s * v, y - s * u + c * v];
+    }
+  }
+  return uvs;
+}
+
+const indicesOf = (primitive) => {
+  const indices = primitive.getIndices();
+  return indices ? Uint32Array.from(indices.getArray()) : Uint32Array.from({ length: primitive.getAttribute('POSITION').getCount() }, (_, i) => i);
+};
+
+const letGo = (property) => {
+  if (property && property.listParents().every((parent) => parent.propertyType === 'Root')) property.dispose();
+};
+
+/** The primitive's vertices anew: copies of the old ones. */
+function renumber(document, primitive, { sources, indices }) {
+  const gathered = (accessor) => {
+    const old = accessor.getArray(), size = accessor.getElementSize(), array = new old.constructor(sources.length * size);
+    sources.forEach((source, i) => array.set(old.subarray(source * size, (source + 1) * size), i * size));
+    return document.createAccessor(accessor.getName()).setType(accessor.getType()).setNormalized(accessor.getNormalized())
+      .setBuffer(accessor.getBuffer()).setArray(array);
+  };
+  for (const holder of [primitive, ...primitive.listTargets()])
+    for (const semantic of holder.listSemantics()) {
+      const old = holder.getAttribute(semantic);
+      holder.setAttribute(semantic, gathered(old));
+      letGo(old);
+    }
+  const old = primitive.getIndices();
+  const Type = sources.length <= 65535 ? Uint16Array : Uint32Array;
+  primitive.setIndices(document.createAccessor().setType('SCALAR').setArray(Type.from(indices))
+    .setBuffer(primitive.getAttribute('POSITION').getBuffer()));
+  letGo(old);
+}
+
+function dropTangents(primitive) {
+  for (const holder of [primitive, ...primitive.listTargets()]) {
+    const old = holder.getAttribute('TANGENT');
+    if (!old) continue;
+    holder.setAttribute('TANGENT', null);
+    letGo(old);
+  }
+}
+
+/** Why a primitive cannot have tangents, or null. */
+function lacks(primitive, uvs) {
+  if (primitive.getMode() !== Primitive.Mode.TRIANGLES) return 'is no list of triangles';
+  for (const semantic of ['POSITION', 'NORMAL']) if (!primitive.getAttribute(semantic)) return `has no ${semantic}`;
+  return uvs ? null : 'has no uv';
+}
+
+function giveTangents(document, primitive, uvs, kind) {
+  const position = primitive.getAttribute('POSITION'), indices = indicesOf(primitive), mesh = {
+    positions: floatsOf(position, 3), normals: floatsOf(primitive.getAttribute('NORMAL'), 3), uvs, indices,
+  };
+  const corners = tangentsOf(mesh, { kind }), apart = split(position.getCount(), indices, corners);
+  dropTangents(primitive);
+  renumber(document, primitive, apart);
+  const values = new Float32Array(apart.sources.length * 4).fill(0);
+  for (let i = 3; i < values.length; i += 4) values[i] = 1;
+  for (let i = 0; i < values.length; i += 4) values[i] = 1; // vertices without triangles
+  apart.indices.forEach((vertex, i) => values.set(corners.subarray(4 * i, 4 * i + 4), 4 * vertex));
+  primitive.setAttribute('TANGENT', document.createAccessor().setType('VEC4').setArray(values)
+    .setBuffer(primitive.getAttribute('POSITION').getBuffer()));
+}
+
+export function tangents({ kind = 'mikktspace', overwrite = false } = {}) {
+  return named('tangents', async (document) => {
+    await ready;
+    const logger = document.getLogger();
+    let given = 0;
+    for (const { primitive, name } of primitivesOf(document)) {
+      if (primitive.getAttribute('TANGENT') && !overwrite) continue;
+      const uvs = uvsOf(primitive), why = lacks(primitive, uvs);
+      if (why) {
+        logger.warn(`tangents: ${name} ${why}`);
+        continue;
+      }
+      giveTangents(document, primitive, uvs, kind);
+      ++given;
+    }
+    logger.debug(`tangents: ${given} primitives`);
+  });
+}
+
+export function provoking({ vertex = 'first' } = {}) {
+  return named('provoking', async (document) => {
+    await ready;
+    for (const { primitive, name } of primitivesOf(document)) {
+      if (primitive.getMode() !== Primitive.Mode.TRIANGLES) {
+        document.getLogger().warn(`provoking: ${name} is no list of triangles`);
+        continue;
+      }
+      renumber(document, primitive, provokingOf(primitive.getAttribute('POSITION').getCount(), indicesOf(primitive), { vertex }));
+    }
+  });
+}
+
+const kCompressions = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
+const kDecoded = ['image/webp', 'image/avif']; // by the platform, to PNG
+
+/** The document as plain glTF in memory. Compressions of geometry are set aside while it is written: they would need
+ * encoders. Normal maps in WebP and AVIF are written as PNG. */
+async function written(document, decode) {
+  const aside = document.getRoot().listExtensionsUsed().filter((extension) => kCompressions.includes(extension.extensionName))
+    .map((extension) => ({ Type: extension.constructor, required: extension.isRequired(), options: extension._encoderOptions }));
+  const pictures = new Map();
+  const normalMaps = new Set(document.getRoot().listMaterials().flatMap((material) =>
+    [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()]).filter(Boolean));
+  for (const texture of normalMaps)
+    if (kDecoded.includes(texture.getMimeType()) && texture.getImage())
+      pictures.set(texture, { image: texture.getImage(), mimeType: texture.getMimeType(), uri: texture.getURI(),
+        png: await encodePng(await decode(texture.getImage(), texture.getName())) });
+  for (const [texture, { png, uri }] of pictures) texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri}.png`);
+  for (const extension of document.getRoot().listExtensionsUsed())
+    if (kCompressions.includes(extension.extensionName)) extension.dispose();
+  try {
+    const { json, resources } = await new WebIO().registerExtensions(document.getRoot().listExtensionsUsed().map((e) => e.constructor))
+      .writeJSON(document);
+    return { model: new TextEncoder().encode(JSON.stringify(json)), files: resources };
+  } finally {
+    for (const { Type, required, options } of aside) {
+      const extension = document.createExtension(Type).setRequired(required);
+      if (options) extension._encoderOptions = options;
+    }
+    for (const [texture, { image, mimeType, uri }] of pictures) texture.setImage(image).setMimeType(mimeType).setURI(uri);
+  }
+}
+
+function replaceMap(document, map, png) {
+  const old = document.getRoot().listTextures()[map.image];
+  const readers = [];
+  for (const material of document.getRoot().listMaterials()) {
+    const coat = material.getExtension('KHR_materials_clearcoat');
+    if (material.getNormalTexture() === old) readers.push((texture) => material.setNormalTexture(texture));
+    if (coat?.getClearcoatNormalTexture() === old) readers.push((texture) => coat.setClearcoatNormalTexture(texture));
+  }
+  const elsewhere = document.getGraph().listParentEdges(old).filter((edge) => edge.getParent().propertyType !== 'Root').length > readers.length;
+  const texture = elsewhere ? old.clone() : old;
+  if (elsewhere) readers.forEach((read) => read(texture));
+  const uri = texture.getURI();
+  texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.png`);
+}
+
+export function untangent({ from = 'mikktspace', to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
+  decode = decodePicture, report } = {}) {
+  return named('untangent', async (document) => {
+    await ready;
+    const { model, files } = await written(document, decode), made = [];
+    const { glb, report: found } = await convert(model, {
+      files, from, to, bits, keepTangents, generateTangents, decode,
+      encode: async (picture) => {
+        made.push(await encodePng(picture));
+        return made.at(-1);
+      },
+    });
+    const maps = found.maps.filter((map) => !map.kept);
+    maps.forEach((map, k) => replaceMap(document, map, made[k]));
+    const view = new DataView(glb.buffer, glb.byteOffset), json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
+    document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
+      const has = 'TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {});
+      if (!has) dropTangents(primitive);
+      else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
+    }));
+    for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
+    document.getLogger().info(`untangent: ${maps.length} maps made for ${to}, ${found.maps.length - maps.length} kept`);
+    report?.(found);
+  });
+}
+
+export function lintNormals({ distance = 0, decode = decodePicture, report } = {}) {
+  return named('lintNormals', async (document) => {
+    await ready;
+    const { model, files } = await written(document, decode);
+    const found = await lint(model, { files, distance, decode });
+    document.getLogger().info(`lintNormals: ${found.recommendation}`);
+    for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);
+    report?.(found);
+  });
+}
+
+export { frames };

@@ -1,0 +1,30 @@
+// What the library asks of JavaScript while it works: files, pictures, levels, progress. The functions of the module
+// `cotan` are in src/host.js.
+#include "cotan.h"
+
+#define COTAN_FROM_HOST(name) __attribute__((import_module("cotan"), import_name(name)))
+
+extern "C" {
+COTAN_FROM_HOST("read") int hostRead(void* user, const char* uri, const void** bytes, size_t* byteCount);
+COTAN_FROM_HOST("decode")
+int hostDecode(void* user, const char* name, const void* bytes, size_t byteCount, cotan_picture* picture);
+COTAN_FROM_HOST("done") void hostDone(void* user);
+COTAN_FROM_HOST("progress") int hostProgress(void* user, double done);
+COTAN_FROM_HOST("take_level")
+int hostTakeLevel(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
+COTAN_FROM_HOST("take_file") int hostTakeFile(void* user, const char* name, const void* bytes, size_t byteCount);
+
+// Their addresses, for structs that JavaScript makes: as in the enumeration of src/host.js.
+void* cotan_js_function(int number)
+{
+    switch (number) {
+    case 0: return reinterpret_cast<void*>(&hostRead);
+    case 1: return reinterpret_cast<void*>(&hostDecode);
+    case 2: return reinterpret_cast<void*>(&hostDone);
+    case 3: return reinterpret_cast<void*>(&hostProgress);
+    case 4: return reinterpret_cast<void*>(&hostTakeLevel);
+    case 5: return reinterpret_cast<void*>(&hostTakeFile);
+    default: return nullptr;
+    }
+}
+}

@@ -1,0 +1,117 @@
+// glTF in memory: what to expect, and maps made for another frame.
+import { options } from './arrays.js';
+import { CotanError, usage, wordsFor } from './instance.js';
+import { kFunction } from './host.js';
+import { decodePicture } from './pictures.js';
+import { encodePng } from './png.js';
+
+const bytesOf = (value, name) => {
+  if (value instanceof ArrayBuffer) return new Uint8Array(value);
+  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  throw usage(`${name}: expected bytes, found ${wordsFor(value)}`);
+};
+
+const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
+// In the place of pictures that are no normal maps: nobody looks at their pixels.
+const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
+const kCommon = { files: {}, decode: decodePicture, progress: undefined };
+
+export function modelFunctions(library, host) {
+  /** Runs work(scratch, address of the bytes, of their functions) with what the library may ask for. */
+  const withModel = (model, files, known, progress, work) => library.run((s) => {
+    host.now = {
+      scratch: s,
+      read: (uri) => (Object.hasOwn(files, uri) ? bytesOf(files[uri], `files['${uri}']`) : null),
+      decode: (name, bytes) => {
+        const found = known.find((picture) => same(picture.bytes, bytes));
+        if (found?.error) throw found.error;
+        return found?.picture ?? kUnread;
+      },
+      progress,
+    };
+    const f = s.wasm.cotan_js_function;
+    try {
+      return work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done)));
+    } catch (error) {
+      throw host.now.error ?? error;
+    }
+  });
+
+  /** The normal maps of a model, decoded by the caller's function; what fails is told where it is needed. */
+  async function decoded(model, o) {
+    const known = [];
+    withModel(model, o.files, known, undefined, (s, at, files) => {
+      host.now.takeFile = (name, bytes) => { known.push({ name, bytes }); };
+      s.call('cotan_gltf_pictures', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0);
+    });
+    for (const picture of known) {
+      try {
+        picture.picture = await o.decode(picture.bytes, picture.name);
+      } catch (error) {
+        picture.error = error instanceof CotanError ? error : new CotanError('input', `${picture.name}: ${error?.message ?? error}`);
+      }
+    }
+    return known;
+  }
+
+  const takeBytes = (s, place) => {
+    const at = s.view(Uint32Array, place, 1)[0];
+    if (at === 0) return null;
+    const bytes = s.take(Uint8Array, s.wasm.cotan_bytes_data(at) >>> 0, s.wasm.cotan_bytes_size(at) >>> 0);
+    s.wasm.cotan_bytes_free(at);
+    return bytes;
+  };
+  const json = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
+  const progressOf = (s, progress) => (progress ? s.wasm.cotan_js_function(kFunction.progress) : 0);
+
+  async function lint(given, more) {
+    const model = bytesOf(given, 'model');
+    const o = options(more, { ...kCommon, distance: 0 });
+    const known = await decoded(model, o);
+    return withModel(model, o.files, known, o.progress, (s, at, files) => {
+      const report = s.put(new Uint32Array(1)), settings = s.room(24);
+      s.view(Uint32Array, settings, 6).set([24, 0, 0, 0, progressOf(s, o.progress), 0]);
+      s.view(Float64Array, settings + 8, 1)[0] = o.distance;
+      s.call('cotan_lint_gltf', at, model.length, files, settings, 0, report);
+      return json(takeBytes(s, report));
+    });
+  }
+
+  async function convert(given, more) {
+    const model = bytesOf(given, 'model');
+    const o = options(more, {
+      ...kCommon, from: 'mikktspace', to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng,
+    });
+    const known = await decoded(model, o);
+    let conversion = 0;
+    const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
+      const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
+        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0);
+      const place = s.put(new Uint32Array(1));
+      s.call('cotan_convert_begin', at, model.length, files, settings, 0, place);
+      conversion = s.view(Uint32Array, place, 1)[0];
+      return Array.from({ length: s.wasm.cotan_conversion_count(conversion) }, (_, i) => {
+        const picture = s.struct(0, 0, 0, 0);
+        s.call('cotan_conversion_picture', conversion, i, picture);
+        const [, width, height, bits, pixels] = s.view(Uint32Array, picture, 5);
+        return { width, height, bits, data: s.take(bits === 16 ? Uint16Array : Uint8Array, pixels, 4 * width * height) };
+      });
+    });
+    const generation = library.generation;
+    try {
+      const files = [];
+      for (const picture of pictures) files.push(bytesOf(await o.encode(picture), 'options.encode'));
+      return library.run((s) => {
+        if (library.generation !== generation) throw new CotanError('unavailable', 'the library stopped meanwhile; convert again');
+        files.forEach((png, i) => s.call('cotan_conversion_set', conversion, i, s.put(png), png.length));
+        const glb = s.put(new Uint32Array(1)), report = s.put(new Uint32Array(1));
+        s.call('cotan_convert_end', conversion, glb, report);
+        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)) };
+      });
+    } finally {
+      if (library.generation === generation) library.run((s) => s.wasm.cotan_conversion_free(conversion));
+    }
+  }
+
+  return { lint, convert };
+}

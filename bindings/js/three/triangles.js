@@ -1,0 +1,94 @@
+// The frame `triangle`: two vectors in the plane of each triangle, at the vertex that its flat values are taken from.
+import { BufferAttribute, BufferGeometry, DataUtils, IntType } from 'three';
+
+export const kTriangleAttribute = 'cotanTriangle';
+
+// The geometry with U = e1 d2.u - e2 d1.u and V likewise as three words of halfs (docs/triangle.md) at the vertices that
+// provoke; vertices that provoke two triangles are split, about as many as triangles remain. Attributes are copied.
+// uvName: the attribute that the normal map is over; turn: [m00, m01, m10, m11] of the texture's matrix;
+// provoking: 'last' (WebGL) or 'first' (WebGPU).
+export function withTriangles(geometry, uvName, turn, provoking) {
+  const { position, normal, [uvName]: uv } = geometry.attributes;
+  const count = geometry.index ? geometry.index.count : position.count;
+  const corners = Uint32Array.from({ length: count - count % 3 }, geometry.index ? (_, k) => geometry.index.getX(k) : (_, k) => k);
+  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), turn);
+  const sources = Array.from({ length: position.count }, (_, k) => k);  // of each new vertex
+  const provoked = [];  // by each new vertex, the triangle
+  for (let k = 0; k < corners.length; k += 3) {
+    let turns = 0;
+    while (turns < 3 && provoked[corners[k + turns]] !== undefined) ++turns;
+    if (turns === 3) {  // all three provoke others
+      turns = 0;
+      sources.push(corners[k]);
+      corners[k] = sources.length - 1;
+    }
+    const p = corners[k + turns], q = corners[k + (turns + 1) % 3], r = corners[k + (turns + 2) % 3];
+    provoked[p] = k / 3;
+    const first = provoking === 'first';
+    corners[k] = first ? p : q;
+    corners[k + 1] = first ? q : r;
+    corners[k + 2] = first ? r : p;
+  }
+  const made = new BufferGeometry().copy(geometry);
+  made.deleteAttribute('tangent');
+  for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
+  const packed = new Uint32Array(sources.length * 3);
+  provoked.forEach((triangle, vertex) => packed.set(words.subarray(triangle * 3, triangle * 3 + 3), vertex * 3));
+  const attribute = new BufferAttribute(packed, 3);
+  attribute.gpuType = IntType;
+  made.setAttribute(kTriangleAttribute, attribute);
+  made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1));
+  return made;
+}
+
+// As numbers, whatever the attribute is stored as.
+function numbersOf(attribute, width) {
+  const values = new Float64Array(attribute.count * width);
+  for (let k = 0; k < attribute.count; ++k)
+    for (let i = 0; i < width; ++i) values[k * width + i] = attribute.getComponent(k, i);
+  return values;
+}
+
+// Three words of two halfs for each triangle, whose longer vector has length one. Zeros where there is no frame.
+function wordsOf(corners, position, normal, uv, [m00, m01, m10, m11]) {
+  const words = new Uint32Array(corners.length), e1 = [0, 0, 0], e2 = [0, 0, 0], u = [0, 0, 0], v = [0, 0, 0];
+  for (let k = 0; k < corners.length; k += 3) {
+    const a = corners[k], b = corners[k + 1], c = corners[k + 2];
+    for (let i = 0; i < 3; ++i) {
+      e1[i] = position[b * 3 + i] - position[a * 3 + i];
+      e2[i] = position[c * 3 + i] - position[a * 3 + i];
+    }
+    const u1 = uv[b * 2] - uv[a * 2], u2 = uv[c * 2] - uv[a * 2], v1 = uv[b * 2 + 1] - uv[a * 2 + 1], v2 = uv[c * 2 + 1] - uv[a * 2 + 1];
+    let facing = normal ? 0 : 1;  // the side that the normals point to is the outside; the winding's, where there are none
+    for (let i = 0; normal && i < 3; ++i) {
+      const j = (i + 1) % 3, l = (i + 2) % 3;
+      facing += (e1[j] * e2[l] - e1[l] * e2[j]) * (normal[a * 3 + i] + normal[b * 3 + i] + normal[c * 3 + i]);
+    }
+    for (let i = 0; i < 3; ++i) {
+      const alongU = e1[i] * u2 - e2[i] * u1, alongV = e1[i] * v2 - e2[i] * v1;
+      u[i] = m00 * alongU + m01 * alongV;
+      v[i] = m10 * alongU + m11 * alongV;
+    }
+    const longest = Math.sqrt(Math.max(u[0] * u[0] + u[1] * u[1] + u[2] * u[2], v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    const scale = longest > 0 && longest < Infinity ? Math.sign(facing) / longest : 0;
+    const half = x => DataUtils.toHalfFloat(scale ? x * scale : 0);
+    words[k] = half(u[0]) + half(u[1]) * 65536;
+    words[k + 1] = half(u[2]) + half(v[0]) * 65536;
+    words[k + 2] = half(v[1]) + half(v[2]) * 65536;
+  }
+  return words;
+}
+
+function gathered(attribute, sources) {
+  if (attribute.isInstancedBufferAttribute) return attribute.clone();
+  const { itemSize, normalized, gpuType } = attribute;
+  const [array, stride, offset] = attribute.isInterleavedBufferAttribute
+    ? [attribute.data.array, attribute.data.stride, attribute.offset] : [attribute.array, itemSize, 0];
+  const values = new array.constructor(sources.length * itemSize);
+  sources.forEach((source, k) => {
+    for (let i = 0; i < itemSize; ++i) values[k * itemSize + i] = array[source * stride + offset + i];
+  });
+  const made = new BufferAttribute(values, itemSize, normalized);
+  if (gpuType !== undefined) made.gpuType = gpuType;
+  return made;
+}

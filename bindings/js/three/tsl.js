@@ -1,0 +1,135 @@
+// Cotan for three.js and its WebGPURenderer, on WebGPU and on WebGL 2: normal mapping without tangents, in its node language.
+import {
+  Fn, anisotropyB, anisotropyT, attribute, code, glslFn, materialAnisotropy, materialReference, modelViewMatrix, negateOnBackSide,
+  normalViewGeometry, positionView, texture, uv, varying, vec2, vec3, wgslFn,
+} from 'three/tsl';
+import {
+  InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalMap, RED_GREEN_RGTC2_Format, RG11_EAC_Format, RGFormat,
+} from 'three/webgpu';
+import { untangleMeshes } from './meshes.js';
+import { essl, wgsl } from './shader_text.js';
+import { kTriangleAttribute } from './triangles.js';
+
+// Removes the tangents of `target` and lets its materials take their frame from Cotan. See tsl.d.ts.
+export function untangle(target, options = {}) {
+  const { frame, renderer } = options;
+  if (frame === 'triangle' && !renderer?.backend)
+    throw new Error('Cotan: untangle: the frame triangle needs the option renderer, after `await renderer.init()`');
+  const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
+  return untangleMeshes(target, { frame, provoking, instances: false }, replaceFrame);
+}
+
+// The same as a plugin: loader.register(untangled()).
+export const untangled = options => () => ({
+  name: 'COTAN_untangled',
+  async afterRoot(gltf) { untangle(gltf, options); },
+});
+
+const ours = new WeakSet();  // nodes
+
+// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Nodes of the user's
+// own in its place stay.
+export function replaceFrame(material, { frame = 'cotangent', against = false } = {}) {
+  const { normalMap, clearcoatNormalMap } = material;
+  const put = (name, map, scale) => {
+    if (material[name] && !ours.has(material[name])) return;
+    material[name] = perturbedNormal(map, materialReference(scale, 'vec2'), frame);
+    ours.add(material[name]);
+  };
+  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', normalMap, 'normalScale');
+  if (clearcoatNormalMap) put('clearcoatNormalNode', clearcoatNormalMap, 'clearcoatNormalScale');
+  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap, against);
+  material.needsUpdate = true;
+  return material;
+}
+
+// The normal of a tangent-space map over its own texture coordinates, set and matrix; in view space, unit.
+// map: a Texture. scale: a node of two numbers; green along v after it.
+export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
+  const sample = texture(map);
+  return Fn((_, builder) => {
+    const c = sample.mul(2).sub(1).xyz.toVar();
+    if ([RGFormat, RED_GREEN_RGTC2_Format, RG11_EAC_Format].includes(map.format))
+      c.z.assign(c.xy.dot(c.xy).oneMinus().saturate().sqrt());
+    const { t, b, n } = frameOf(frame, map, sample, builder);
+    return t.mul(c.x.mul(scale.x)).add(b.mul(c.y.mul(scale.y))).add(n.mul(c.z)).normalize();
+  })();
+}
+
+// t and b as three means them: on back faces a sheet's normal is that of its front, negated.
+function frameOf(frame, map, sample, builder) {
+  const flat = builder.isFlatShading();
+  const n = (flat ? normalViewGeometry : negateOnBackSide(normalViewGeometry)).toVar();
+  const native = builder.renderer.backend.isWebGPUBackend ? inWgsl : inEssl;
+  let f;
+  if (frame === 'triangle') {
+    const flatly = node => varying(node).setInterpolation(InterpolationSamplingType.FLAT, InterpolationSamplingMode.FIRST);
+    const words = attribute(kTriangleAttribute, 'uvec3');
+    const moved = native.moved;
+    const u = flatly(moved({ words, matrix: modelViewMatrix, second: false })), v = flatly(moved({ words, matrix: modelViewMatrix, second: true }));
+    // t and b come out reversed where n is turned to the eye.
+    f = native.triangle({ n, u, v }).toVar();
+    return { t: f[0], b: f[1], n };
+  }
+  const at = sample ? sample.getTransformedUV(uv(map.channel)) : uv();
+  f = native[frame]({ n, dpdx: positionView.dFdx(), dpdy: positionView.dFdy(), duvdx: at.dFdx(), duvdy: at.dFdy() }).toVar();
+  return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
+}
+
+// setupVariants of MeshPhysicalNodeMaterial, which writes the directions of anisotropy: they lie on the surface, at right
+// angles and of unit length, whatever the bumps.
+function variantsWith(frame, map, against) {
+  const sample = map ? texture(map) : null;
+  return function setupVariants(builder) {
+    Object.getPrototypeOf(this).setupVariants.call(this, builder);
+    if (!this.useAnisotropy) return;
+    const { t, b, n } = frameOf(frame, map, sample, builder);
+    const along = t.dot(b.cross(n)).sign().mul(b.cross(n)).normalize().toVar();
+    const across = n.cross(along).toVar();
+    across.mulAssign(across.dot(b).sign().mul(against ? -1 : 1));
+    const v = (this.anisotropyNode ? vec2(this.anisotropyNode) : materialAnisotropy).toVar();
+    v.assign(v.length().greaterThan(0).select(v.normalize(), vec2(1, 0)));
+    anisotropyT.assign(along.mul(v.x).add(across.mul(v.y)));
+    anisotropyB.assign(across.mul(v.x).sub(along.mul(v.y)));
+  };
+}
+
+// The text of `cotan shader`, and functions of one result around it, which is all that the node language can call.
+const kParameters = { wgsl: 'n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f', glsl: 'vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy' };
+const inWgsl = Object.fromEntries(['cotangent', 'orthonormal'].map(frame => [frame, wgslFn(`
+fn cotanFrame_${frame}(${kParameters.wgsl}) -> mat3x3f {
+  let f = cotan_frame_${frame}(n, dpdx, dpdy, duvdx, duvdy);
+  return mat3x3f(f.t, f.b, f.n);
+}`, [code(wgsl[frame], [], 'wgsl')])]));
+const inEssl = Object.fromEntries(['cotangent', 'orthonormal'].map(frame => [frame, glslFn(`
+mat3 cotanFrame_${frame}(${kParameters.glsl}) {
+  cotan_frame f = cotan_frame_${frame}(n, dpdx, dpdy, duvdx, duvdy);
+  return mat3(f.t, f.b, f.n);
+}`, [code(essl[frame], [], 'glsl')])]));
+inWgsl.triangle = wgslFn(`
+fn cotanFrame_triangle(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
+  let f = cotan_frame_of_triangle(n, u, v);
+  return mat3x3f(f.t, f.b, f.n);
+}`, [code(wgsl.triangle, [], 'wgsl')]);
+inEssl.triangle = glslFn(`
+mat3 cotanFrame_triangle(vec3 n, vec3 u, vec3 v) {
+  cotan_frame f = cotan_frame_of_triangle(n, u, v);
+  return mat3(f.t, f.b, f.n);
+}`, [code(essl.triangle, [], 'glsl')]);
+// U or V, moved into view space.
+inWgsl.moved = wgslFn(`
+fn cotanMoved(words: vec3u, matrix: mat4x4f, second: bool) -> vec3f {
+  let a = unpack2x16float(words.x);
+  let b = unpack2x16float(words.y);
+  let c = unpack2x16float(words.z);
+  let m = mat3x3f(matrix[0].xyz, matrix[1].xyz, matrix[2].xyz);
+  let f = cotan_triangle_unit(m * vec3f(a, b.x), m * vec3f(b.y, c), cotan_sign(determinant(m)));
+  return select(f.u, f.v, second);
+}`, [code(wgsl.triangle, [], 'wgsl')]);
+inEssl.moved = glslFn(`
+vec3 cotanMoved(uvec3 words, mat4 matrix, bool second) {
+  vec2 a = unpackHalf2x16(words.x), b = unpackHalf2x16(words.y), c = unpackHalf2x16(words.z);
+  mat3 m = mat3(matrix);
+  cotan_triangle f = cotan_triangle_unit(m * vec3(a, b.x), m * vec3(b.y, c), cotan_sign(determinant(m)));
+  return second ? f.v : f.u;
+}`, [code(essl.triangle, [], 'glsl')]);

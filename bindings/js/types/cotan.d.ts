@@ -1,0 +1,132 @@
+import type { Split } from './tangents.js';
+export * from './tangents.js';
+
+/** Four components a pixel, rows from the top. 8, 16 or 32 (floats) bits by the type of data. */
+export interface Picture {
+  width: number;
+  height: number;
+  bits?: number;
+  data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
+}
+
+/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xyz" and so on. */
+export type Convention = string;
+export type Bits = 8 | 16 | 32;
+
+// ---- normal maps
+
+/** Which way green points, from the map alone. */
+export function detect(map: Picture): {
+  green: 'up' | 'down' | 'unknown';
+  /** Whether red and green are exchanged; null: cannot be told. */
+  swapped: boolean | null;
+  confidence: 'none' | 'likely' | 'certain';
+  /** The correlation that the verdict rests on, -1 to 1. */
+  agreement: number;
+  reason: string;
+};
+
+/** What the numbers of a picture say about it as a normal map. Shares are 0 to 1, tilt is in degrees. */
+export function info(map: Picture): {
+  content: string;
+  /** The code of 255 that stands for zero: 128; 127 for 127.5; null: cannot be told. */
+  zero: 127 | 128 | null;
+  transfer: 'linear' | 'srgb' | 'linearised';
+  background: number;
+  invalid: number;
+  belowHorizon: number;
+  meanLength: number;
+  meanTilt: number;
+  mean: [number, number, number];
+};
+
+/** The map stored another way; bits are the map's own where left out. */
+export function convertMap(map: Picture, options?: { from?: Convention; to?: Convention; bits?: Bits }): Picture;
+
+export function blend(base: Picture, detail: Picture, options?: {
+  convention?: Convention;
+  mode?: 'reoriented' | 'whiteout' | 'udn' | 'slopes' | 'linear';
+  /** Factor on the detail's slopes. */
+  strength?: number;
+  bits?: Bits;
+}): Picture;
+
+/** The normal map of a height, whose red is read. scale: slope per unit of height and texel, one or [x, y]. */
+export function fromHeight(height: Picture, options?: { scale?: number | [number, number]; to?: Convention; bits?: Bits }): Picture;
+
+/** The height whose slopes are nearest to the map's, in widths of a texel, mean 0. */
+export function toHeight(map: Picture, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
+
+/** Levels of half the size each, filtered as vectors, with the roughness that makes up for it. */
+export function mips(map: Picture, options?: { convention?: Convention; roughness?: number }): { normals: Picture; roughness: Picture }[];
+
+// ---- frames
+
+export interface Places {
+  /** 3 each, unit. */
+  normals: ArrayLike<number>;
+  /** Differences of position (3) and uv (2) along any two directions. */
+  dpdx: ArrayLike<number>;
+  dpdy: ArrayLike<number>;
+  duvdx: ArrayLike<number>;
+  duvdy: ArrayLike<number>;
+}
+/** For "mikktspace" and "vertex" tangents (4 each), for "smooth" u and v (3 each), interpolated. */
+export interface VertexPlaces {
+  normals: ArrayLike<number>;
+  tangents?: ArrayLike<number>;
+  u?: ArrayLike<number>;
+  v?: ArrayLike<number>;
+}
+/** Perturbed unit normals from decoded texels, 3 each; and the texels that a frame turns into these normals. */
+export function apply(frame: string, places: Places | VertexPlaces, texels: ArrayLike<number>): Float32Array;
+export function encode(frame: string, places: Places | VertexPlaces, normals: ArrayLike<number>): Float32Array;
+export function frames(): string[];
+
+/** The function that perturbs the normal with that frame, self-contained. */
+export function shader(options?: {
+  language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp';
+  frame?: string;
+  convention?: Convention;
+}): string;
+
+/** Vertices numbered so that vertex k provokes triangle k; corners: of the old vertices, the provoking one first. */
+export function provoking(vertexCount: number, indices: ArrayLike<number>, options?: { vertex?: 'first' | 'last' }): Split & { corners: Uint32Array };
+
+// ---- glTF
+
+type Bytes = ArrayBuffer | ArrayBufferView;
+export interface ModelOptions {
+  /** Files beside a .gltf by their URI, as the model writes them but with %20 and the like undone. */
+  files?: Record<string, Bytes>;
+  /** Default: decodePicture. */
+  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  /** Gets 0 to 1; false stops (code "stopped"). */
+  progress?: (done: number) => boolean | void;
+}
+
+/** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents: the report of
+ * `cotan lint --json`, `recommendation` first. */
+export function lint(model: Bytes, options?: ModelOptions & { distance?: number }): Promise<any>;
+
+/** The model's normal maps made for another frame, as `cotan convert` does. */
+export function convert(model: Bytes, options?: ModelOptions & {
+  /** Default: "mikktspace". */
+  from?: string;
+  /** Default: "cotangent". */
+  to?: string;
+  /** Of the new maps, 8 or 16; 0: as the old ones, which stay where they fit. */
+  bits?: 0 | 8 | 16;
+  keepTangents?: boolean;
+  generateTangents?: boolean;
+  /** The PNG file of a picture; default: encodePng. */
+  encode?: (picture: Picture) => Promise<Bytes>;
+}): Promise<{ glb: Uint8Array; report: any }>;
+
+// ---- pictures
+
+/** A PNG file of 8 or 16 bits, without loss. */
+export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
+export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
+/** Any picture that is read here: PNG; others by the browser, or by the package sharp in node. */
+export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;

@@ -1,0 +1,115 @@
+// What the library of emscripten 3.1.6, libc++ 13, lacks of C++20 and the parts use; included before every file by the
+// preset `web`. A newer one has it all, and then this is nothing.
+#pragma once
+#include <version>
+#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_bit_cast)
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+namespace std {
+
+template<class To, class From> constexpr To bit_cast(const From& from) noexcept
+{
+    return __builtin_bit_cast(To, from);
+}
+
+// Numbers that fill the text, as callers here want; shorter than 64 characters.
+template<class Real>
+requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const char* first, const char* last,
+                                                                          Real& value)
+{
+    char text[64] = {};
+    if (first == last || std::size_t(last - first) >= sizeof text || *first == '+' || std::isspace(*first))
+        return {first, std::errc::invalid_argument};
+    std::memcpy(text, first, std::size_t(last - first));
+    char* end = nullptr;
+    const double number = std::strtod(text, &end);
+    value = Real(number);
+    return {first + (end - text), end == text ? std::errc::invalid_argument : std::errc()};
+}
+
+namespace ranges {
+
+// An element as the projection shows it, or two of them to the comparison.
+template<class Test, class Projection> constexpr auto seenBy(Test& test, Projection& projection)
+{
+    return [&](auto&&... items) -> bool { return std::invoke(test, std::invoke(projection, items)...); };
+}
+
+template<class Range, class Test, class Projection = std::identity>
+constexpr auto find_if(Range&& range, Test test, Projection projection = {})
+{
+    return std::find_if(std::begin(range), std::end(range), seenBy(test, projection));
+}
+template<class Range, class Value, class Projection = std::identity>
+constexpr auto find(Range&& range, const Value& value, Projection projection = {})
+{
+    return std::find_if(std::begin(range), std::end(range),
+                        [&](auto&& item) { return std::invoke(projection, item) == value; });
+}
+template<class Range, class Test> constexpr bool all_of(Range&& range, Test test)
+{
+    return std::all_of(std::begin(range), std::end(range), std::ref(test));
+}
+template<class Range, class Test> constexpr bool any_of(Range&& range, Test test)
+{
+    return std::any_of(std::begin(range), std::end(range), std::ref(test));
+}
+template<class Range, class Test> constexpr bool none_of(Range&& range, Test test)
+{
+    return std::none_of(std::begin(range), std::end(range), std::ref(test));
+}
+template<class Range, class Test> constexpr auto count_if(Range&& range, Test test)
+{
+    return std::count_if(std::begin(range), std::end(range), std::ref(test));
+}
+template<class One, class Other, class Test> constexpr bool equal(One&& one, Other&& other, Test test)
+{
+    return std::equal(std::begin(one), std::end(one), std::begin(other), std::end(other), std::ref(test));
+}
+template<class Range, class Value> constexpr auto lower_bound(Range&& range, const Value& value)
+{
+    return std::lower_bound(std::begin(range), std::end(range), value);
+}
+template<class Range, class Less = std::less<>, class Projection = std::identity>
+constexpr auto max_element(Range&& range, Less less = {}, Projection projection = {})
+{
+    return std::max_element(std::begin(range), std::end(range), seenBy(less, projection));
+}
+template<class Range> constexpr auto minmax(const Range& range)
+{
+    const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
+    return std::pair(*least, *most);
+}
+template<class Range, class Place> constexpr void nth_element(Range&& range, Place place)
+{
+    std::nth_element(std::begin(range), place, std::end(range));
+}
+template<class Range, class Value> constexpr void replace(Range&& range, const Value& old, const Value& with)
+{
+    std::replace(std::begin(range), std::end(range), old, with);
+}
+template<class Range, class Less = std::less<>, class Projection = std::identity>
+constexpr void sort(Range&& range, Less less = {}, Projection projection = {})
+{
+    std::sort(std::begin(range), std::end(range), seenBy(less, projection));
+}
+template<class Range, class Out, class Change> constexpr auto transform(Range&& range, Out out, Change change)
+{
+    return std::transform(std::begin(range), std::end(range), out,
+                          [&](auto&& item) -> decltype(auto) { return std::invoke(change, item); });
+}
+
+} // namespace ranges
+} // namespace std
+
+#endif

@@ -1,0 +1,207 @@
+// cotan.h: a model's maps made for another frame, in memory, in one step or in two.
+#include <algorithm>
+#include <span>
+
+#include "cotan/convert/convert_model.hpp"
+#include "cotan/gltf/edit.hpp"
+#include "cotan/report/convert_report.hpp"
+#include "json_text.hpp"
+#include "model_files.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+struct cotan_conversion {
+    struct Picture {
+        Image image;
+        Bytes placeholder; // in the document until the PNG file is there
+        bool given = false;
+    };
+    GltfDocument document;
+    ConvertModelReport report;
+    std::vector<Picture> pictures;
+};
+
+namespace {
+
+Frame frameOr(const char* given, Frame otherwise, const char* name)
+{
+    const auto frame = given ? frameFromName(given) : otherwise;
+    if (!frame)
+        fail(ErrorKind::usage, std::string(name) + ": there is no frame named '" + given + "'");
+    return *frame;
+}
+
+Json convertJson(const ConvertModelReport& report)
+{
+    Json json = {{"maps", Json::array()}, {"tangents", tangentsJson(report)}, {"notes", report.notes}};
+    for (const ConvertedMap& map : report.maps)
+        json["maps"].push_back(toJson(map));
+    return json;
+}
+
+void fill(const ConvertModelReport& report, cotan_convert_result& r)
+{
+    const std::size_t size = r.size;
+    r = {};
+    r.size = size;
+    r.worst_degrees_before = r.worst_degrees_after = -1;
+    const auto take = [](double& worst, const Spread& map) {
+        if (map.count > 0)
+            worst = std::max(worst, map.mean);
+    };
+    for (const ConvertedMap& map : report.maps) {
+        const Spread &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
+        ++(map.kept ? r.maps_kept : r.maps_converted);
+        take(r.worst_degrees_before, before);
+        take(r.worst_degrees_after, after);
+    }
+    r.primitives_given = report.primitivesGiven;
+    r.tangent_bytes_dropped = report.dropped.bytes;
+}
+
+ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles& source)
+{
+    require(o.threads >= 0, "options.threads: expected 0 or more");
+    ConvertModelOptions convert;
+    convert.frames = {
+        frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
+        o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored, TangentOrigin::generated};
+    convert.bits = o.bits;
+    convert.keepTangents = o.keep_tangents != 0;
+    convert.threads = o.threads;
+    convert.limits = source.limits();
+    convert.encode = source.encoder();
+    convert.progress = progressOf(o.progress, o.user);
+    return convert;
+}
+
+// Bytes that no file has twice.
+Bytes placeholderOf(std::size_t number)
+{
+    const std::string text = "a picture that cotan_conversion_set gives: " + std::to_string(number);
+    return copied(text.data(), text.size());
+}
+
+cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t number)
+{
+    require(conversion, "conversion: expected one, found null");
+    if (number >= conversion->pictures.size())
+        fail(ErrorKind::usage,
+             "number: expected less than " + std::to_string(conversion->pictures.size()) + ", found "
+                 + std::to_string(number));
+    return conversion->pictures[number];
+}
+
+// The same document with all that it needs inside, so that the caller's functions are asked no more.
+GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limits)
+{
+    LoadLimits inside = limits;
+    inside.readFile = [bytes = valueOf(glbBytes(document, limits))](const std::string&) { return Result<Bytes>(bytes); };
+    inside.decode = {};
+    return valueOf(openGltfDocument("model.glb", inside));
+}
+
+void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const Bytes& png)
+{
+    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+        if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == placeholder)
+            replaceGltfImage(document, i, png, "image/png");
+}
+
+// Those that have new pictures, in their order.
+std::vector<ConvertedMap*> convertedMaps(ConvertModelReport& report)
+{
+    std::vector<ConvertedMap*> converted;
+    for (ConvertedMap& map : report.maps)
+        if (!map.kept)
+            converted.push_back(&map);
+    return converted;
+}
+
+} // namespace
+
+cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
+                                const cotan_convert_options* options, cotan_convert_result* result, cotan_bytes** glb,
+                                cotan_bytes** json, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const cotan_convert_options o = optionsOf(options, "options");
+        require(glb, "glb: expected a place, found null");
+        if (result)
+            checked(result, "result");
+        const ModelFiles source(model, model_size, files);
+        const ConvertModelOptions convert = optionsFor(o, source);
+        GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
+        const ConvertModelReport report = valueOf(convertModel(document, convert));
+        auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
+        giveText(convertJson(report), json);
+        *glb = made.release();
+        if (result)
+            fill(report, *result);
+    });
+}
+
+cotan_status cotan_convert_begin(const void* model, size_t model_size, const cotan_model_files* files,
+                                 const cotan_convert_options* options, cotan_convert_result* result,
+                                 cotan_conversion** conversion, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const cotan_convert_options o = optionsOf(options, "options");
+        require(conversion, "conversion: expected a place, found null");
+        if (result)
+            checked(result, "result");
+        const ModelFiles source(model, model_size, files);
+        ConvertModelOptions convert = optionsFor(o, source);
+        auto made = std::make_unique<cotan_conversion>();
+        convert.encode = [&](const Image& image) -> Result<Bytes> {
+            made->pictures.push_back({image, placeholderOf(made->pictures.size())});
+            return made->pictures.back().placeholder;
+        };
+        made->document = valueOf(openGltfDocument(source.name(), convert.limits));
+        made->report = valueOf(convertModel(made->document, convert));
+        made->document = closedDocument(made->document, convert.limits);
+        if (result)
+            fill(made->report, *result);
+        *conversion = made.release();
+    });
+}
+
+size_t cotan_conversion_count(const cotan_conversion* conversion) { return conversion ? conversion->pictures.size() : 0; }
+
+cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
+                                      char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        checked(picture, "picture");
+        *picture = pictureOf(pictureAt(const_cast<cotan_conversion*>(conversion), number).image);
+    });
+}
+
+cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, const void* png, size_t png_size,
+                                  char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        cotan_conversion::Picture& picture = pictureAt(conversion, number);
+        require(png && png_size > 0, "png: expected bytes, found none");
+        require(!picture.given, "number: expected a picture that has no PNG file yet");
+        replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
+        convertedMaps(conversion->report)[number]->bytesAfter = png_size;
+        picture.given = true;
+    });
+}
+
+cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
+                               size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(conversion && glb, "conversion and glb: expected both, found null");
+        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(), [](const auto& p) { return p.given; }),
+                "conversion: expected the PNG files of all pictures");
+        auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
+        giveText(convertJson(conversion->report), json);
+        *glb = made.release();
+    });
+}
+
+void cotan_conversion_free(cotan_conversion* conversion) { delete conversion; }

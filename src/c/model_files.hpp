@@ -1,0 +1,108 @@
+// The caller's files and pictures of cotan.h as the library takes them.
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "call.hpp"
+#include "cotan/files/limits.hpp"
+#include "pictures.hpp"
+
+namespace cotan::c {
+
+using Bytes = std::vector<std::byte>;
+
+inline Bytes copied(const void* bytes, std::size_t size)
+{
+    const auto* first = static_cast<const std::byte*>(bytes);
+    return size > 0 ? Bytes(first, first + size) : Bytes();
+}
+
+// The caller's functions as the library takes them.
+class ModelFiles {
+public:
+    ModelFiles(const void* model, std::size_t size, const cotan_model_files* given)
+        : model_(model), size_(size), f_(optionsOf(given, "files"))
+    {
+        require(model || size == 0, "model: expected bytes, found null");
+    }
+
+    // By its first bytes.
+    const char* name() const { return size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb" : "model.gltf"; }
+
+    // What the library reads it with; lives no longer than this.
+    LoadLimits limits() const
+    {
+        LoadLimits limits;
+        limits.pixels = Pixels::whereReadable;
+        limits.sandbox = {};
+        limits.readFile = [this, opened = false](const std::string& file) mutable -> Result<Bytes> {
+            if (!std::exchange(opened, true)) // the model comes first
+                return copied(model_, size_);
+            return read(file);
+        };
+        if (f_.decode)
+            limits.decode = [this](std::span<const std::byte> bytes, const std::string& picture) {
+                return decode(bytes, picture);
+            };
+        return limits;
+    }
+
+    std::function<Result<Bytes>(const Image&)> encoder() const
+    {
+        if (!f_.encode)
+            return {};
+        return [this](const Image& image) -> Result<Bytes> {
+            const cotan_picture picture = pictureOf(image);
+            const void* bytes = nullptr;
+            std::size_t size = 0;
+            const bool fine = f_.encode(f_.user, &picture, &bytes, &size) == 0 && (bytes || size == 0);
+            Bytes png = fine ? copied(bytes, size) : Bytes();
+            done();
+            return fine ? Result<Bytes>(std::move(png))
+                        : outputError(image.name + ": the caller did not encode the picture");
+        };
+    }
+
+private:
+    Result<Bytes> read(const std::string& file) const
+    {
+        const void* bytes = nullptr;
+        std::size_t size = 0;
+        const bool fine = f_.read && f_.read(f_.user, file.c_str(), &bytes, &size) == 0 && (bytes || size == 0);
+        Bytes read = fine ? copied(bytes, size) : Bytes();
+        if (f_.read)
+            done();
+        return fine ? Result<Bytes>(std::move(read)) : inputError(file + ": there is no such file beside the model");
+    }
+
+    Result<Image> decode(std::span<const std::byte> bytes, const std::string& name) const
+    try {
+        cotan_picture picture{};
+        picture.size = sizeof picture;
+        if (f_.decode(f_.user, name.c_str(), bytes.data(), bytes.size(), &picture) != 0) {
+            done();
+            return inputError(name + ": the caller did not decode the picture");
+        }
+        Image image = imageOf(&picture, name.c_str());
+        image.name = name;
+        done();
+        return image;
+    } catch (const Failure& failure) {
+        done();
+        return failure.error;
+    }
+
+    void done() const
+    {
+        if (f_.done)
+            f_.done(f_.user);
+    }
+
+    const void* model_;
+    std::size_t size_;
+    cotan_model_files f_;
+};
+
+} // namespace cotan::c

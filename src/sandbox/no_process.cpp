@@ -1,0 +1,23 @@
+// Where there are no processes.
+#include "cotan/sandbox/confine.hpp"
+#include "cotan/sandbox/process.hpp"
+
+namespace cotan {
+
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+{
+    return unavailableError(request.name + ": there are no processes here that could read it");
+}
+
+ReaderProcess::~ReaderProcess() = default;
+Status ReaderProcess::await() { return failure(); }
+void ReaderProcess::restartClock() {}
+Error ReaderProcess::failure() { return unavailableError("there are no processes here"); }
+
+void Descriptor::close() {}
+
+void dieWith(std::int64_t) {}
+void confine() {}
+void limitTo(const ReaderBudget&, const ReaderBudget&) {}
+
+} // namespace cotan

@@ -1,0 +1,26 @@
+# The npm package of bindings/js: built as a test that others need, since it takes minutes the first time and most who
+# build have no emscripten. Skipped where that or npm is missing.
+set(tarball ${PROJECT_BINARY_DIR}/web/npm/cotan-${PROJECT_VERSION}.tgz)
+add_test(NAME web_package COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-package ${PROJECT_BINARY_DIR}/web)
+set_tests_properties(web_package PROPERTIES FIXTURES_SETUP web SKIP_RETURN_CODE 3 TIMEOUT 1200)
+find_program(COTAN_NODE node)
+if(NOT COTAN_NODE)
+  return()
+endif()
+# cotan_web_test(FILE ARGUMENTS... CASES...): each case is a test by itself.
+function(cotan_web_test file)
+  cmake_parse_arguments(WEB "" "" "ARGUMENTS;CASES" ${ARGN})
+  foreach(case ${WEB_CASES})
+    add_test(NAME Web.${case} COMMAND ${COTAN_NODE} --expose-gc ${CMAKE_CURRENT_SOURCE_DIR}/web/${file}.mjs ${tarball}
+      ${WEB_ARGUMENTS} ${case})
+    set_tests_properties(Web.${case} PROPERTIES FIXTURES_REQUIRED "web;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
+  endforeach()
+endfunction()
+set(data ${PROJECT_SOURCE_DIR}/../shared/data)
+cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
+  CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes pngFilesLoseNothing
+    mapsConvertAndTellTheirGreen errorsSayWhatAndWhere badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
+cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
+  CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
+    provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng)
+cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)

@@ -1,0 +1,140 @@
+// cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES SHARED_DATA [CASE]
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+import { filesUnder, hills, installed, load, skip } from './shared.mjs';
+
+const [tarball, modules, data, only] = process.argv.slice(2);
+if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
+if (!fs.existsSync(path.join(modules, '@gltf-transform'))) skip('the npm packages are not installed');
+const folder = installed(tarball, modules, ['@gltf-transform', 'draco3dgltf', 'meshoptimizer', 'property-graph', 'ktx-parse', 'sharp']);
+// One copy of glTF-Transform: as the package finds it.
+fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
+const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
+const { Document, NodeIO } = await from('@gltf-transform/core');
+const cotan = await load(folder), transforms = await load(folder, 'gltf-transform/index');
+await cotan.ready;
+
+/** A hilly mesh whose normal map is one slanted texel. */
+async function hillsDocument(mirrored = false) {
+  const document = new Document(), buffer = document.createBuffer(), mesh = hills(6);
+  if (mirrored) for (let i = 0; i < mesh.uvs.length; i += 2) mesh.uvs[i] = Math.abs(mesh.uvs[i] - 0.5);
+  const accessor = (type, array) => document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
+  const picture = { width: 32, height: 32, bits: 8, data: new Uint8Array(4096) };
+  for (let i = 0; i < 4096; i += 4) picture.data.set([166, 153, 249, 255], i);
+  const texture = document.createTexture('bumps').setImage(await cotan.encodePng(picture)).setMimeType('image/png');
+  const material = document.createMaterial().setNormalTexture(texture);
+  const primitive = document.createPrimitive().setMaterial(material).setIndices(accessor('SCALAR', Uint16Array.from(mesh.indices)))
+    .setAttribute('POSITION', accessor('VEC3', mesh.positions)).setAttribute('NORMAL', accessor('VEC3', mesh.normals))
+    .setAttribute('TEXCOORD_0', accessor('VEC2', mesh.uvs));
+  document.createScene().addChild(document.createNode().setMesh(document.createMesh('hills').addPrimitive(primitive)));
+  return { document, mesh, primitive, texture };
+}
+
+const cornersOf = (primitive, semantic, size) => {
+  const out = [], element = [];
+  for (const vertex of primitive.getIndices().getArray()) out.push(...primitive.getAttribute(semantic).getElement(vertex, element).slice(0, size));
+  return Float32Array.from(out);
+};
+
+const cases = {
+  async indexedPrimitivesGetTheTangentsOfTheirCorners() {
+    for (const mirrored of [false, true]) {
+      const { document, mesh, primitive } = await hillsDocument(mirrored);
+      const before = cornersOf(primitive, 'POSITION', 3);
+      await document.transform(transforms.tangents());
+      assert.deepEqual(cornersOf(primitive, 'TANGENT', 4), cotan.tangents(mesh));
+      assert.deepEqual(cornersOf(primitive, 'POSITION', 3), before);
+      assert.equal(primitive.getAttribute('POSITION').getCount() > 49, mirrored); // copies only where sides meet
+    }
+  },
+
+  async untangentDoesWhatConvertDoes() {
+    const { document, primitive, texture } = await hillsDocument();
+    await document.transform(transforms.tangents());
+    const { glb, report } = await cotan.convert(await new NodeIO().writeBinary(document));
+    assert.equal(report.maps[0].kept, false);
+    const image = (await new NodeIO().readBinary(glb)).getRoot().listTextures()[0].getImage();
+    await document.transform(transforms.untangent());
+    assert.equal(primitive.getAttribute('TANGENT'), null);
+    assert.deepEqual(await cotan.decodePng(texture.getImage()), await cotan.decodePng(image));
+    await document.transform(transforms.untangent({ from: 'cotangent', to: 'mikktspace' }));
+    assert.ok(primitive.getAttribute('TANGENT'));
+  },
+
+  async lintNormalsReportsAndChangesNothing() {
+    const { document } = await hillsDocument();
+    const before = await new NodeIO().writeBinary(document);
+    let found;
+    await document.transform(transforms.lintNormals({ report: (report) => { found = report; } }));
+    assert.deepEqual(await new NodeIO().writeBinary(document), before);
+    assert.equal(found.primitives.length, 1);
+    assert.ok(found.recommendation.length > 20);
+  },
+
+  async provokingGivesEachTriangleAVertex() {
+    for (const [vertex, offset] of [['first', 0], ['last', 2]]) {
+      const { document, primitive } = await hillsDocument();
+      const before = cornersOf(primitive, 'POSITION', 3);
+      await document.transform(transforms.provoking({ vertex }));
+      primitive.getIndices().getArray().forEach((index, i) => { if (i % 3 === offset) assert.equal(index, (i - offset) / 3); });
+      const after = cornersOf(primitive, 'POSITION', 3); // each triangle perhaps turned
+      for (let f = 0; f < before.length; f += 9) {
+        const key = (array) => [0, 3, 6].map((k) => array.subarray(f + k, f + k + 3).join()).sort().join(' ');
+        assert.equal(key(after), key(before));
+      }
+    }
+  },
+
+  async compressedModelsComeThroughItsOwnDecoders() {
+    if (!fs.existsSync(data)) skip(`${data} is not here`);
+    const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
+    const draco = (await from('draco3dgltf')).default;
+    const { MeshoptDecoder, MeshoptEncoder } = await from('meshoptimizer');
+    await Promise.all([MeshoptDecoder.ready, MeshoptEncoder.ready]);
+    const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
+      'draco3d.decoder': await draco.createDecoderModule(), 'draco3d.encoder': await draco.createEncoderModule(),
+      'meshopt.decoder': MeshoptDecoder, 'meshopt.encoder': MeshoptEncoder,
+    });
+    for (const file of filesUnder(path.join(data, 'compressed')).filter((name) => name.endsWith('.glb'))) {
+      const document = await io.read(file), messages = [];
+      const keep = (text) => messages.push(text);
+      document.setLogger({ debug: keep, info: keep, warn: keep, error: keep });
+      const used = document.getRoot().listExtensionsUsed().map((extension) => extension.extensionName).sort();
+      let report;
+      await document.transform(transforms.lintNormals(), transforms.untangent({ report: (found) => { report = found; } }));
+      for (const mesh of document.getRoot().listMeshes())
+        for (const primitive of mesh.listPrimitives()) assert.equal(primitive.getAttribute('TANGENT'), null, file);
+      assert.deepEqual(document.getRoot().listExtensionsUsed().map((extension) => extension.extensionName).sort(), used);
+      assert.ok((await io.writeBinary(document)).length > 1000);
+      console.log(`${path.basename(file)}: ${used.join(' ')}: ${report.maps.filter((map) => !map.kept).length} of ${report.maps.length} maps made anew`);
+    }
+  },
+
+  async webpMapsBecomePng() {
+    let sharp;
+    try {
+      sharp = (await from('sharp')).default;
+      await sharp({ create: { width: 1, height: 1, channels: 3, background: 'red' } }).webp().toBuffer();
+    } catch (error) {
+      skip(`sharp does not run here: ${error.message.split('\n')[0]}`);
+    }
+    const { EXTTextureWebP } = await from('@gltf-transform/extensions');
+    const { document, texture } = await hillsDocument();
+    const plain = texture.getImage();
+    document.createExtension(EXTTextureWebP).setRequired(true);
+    texture.setImage(new Uint8Array(await sharp(plain).webp({ lossless: true }).toBuffer())).setMimeType('image/webp');
+    await document.transform(transforms.untangent());
+    const other = await hillsDocument();
+    await other.document.transform(transforms.untangent());
+    assert.equal(texture.getMimeType(), 'image/png');
+    assert.deepEqual(await cotan.decodePng(texture.getImage()), await cotan.decodePng(other.texture.getImage()));
+  },
+};
+for (const [name, work] of Object.entries(cases)) {
+  if (only && only !== name) continue;
+  await work();
+  console.log(`holds: ${name}`);
+}

@@ -1,0 +1,222 @@
+// The package from its tarball, in an empty folder, by node:
+// node package_test.mjs TARBALL LIBRARY SHARED_DATA [CASE]
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
+
+import { emptyFolder, filesUnder, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
+
+const [tarball, library, data, only] = process.argv.slice(2);
+const here = import.meta.dirname;
+if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
+const folder = installed(tarball);
+const cotan = await load(folder), small = await load(folder, 'tangents');
+await Promise.all([cotan.ready, small.ready]);
+const native = (what, place) => execFileSync('python3', [path.join(here, 'native.py'), library, what, place]);
+const needsData = () => { if (!fs.existsSync(data)) skip(`${data} is not here`); };
+
+const cases = {
+  async bothWaysOfLoadingWork() {
+    for (const name of ['cotan_beside', 'tangents_beside']) {
+      const beside = await load(folder, name);
+      await beside.ready;
+      assert.equal(beside.version(), cotan.version());
+    }
+    const program = "import { ready, tangents } from 'cotan/tangents'; import * as all from 'cotan'; await ready; await all.ready;"
+      + ' console.log(tangents({ positions: [0,0,0, 1,0,0, 0,1,0], normals: [0,0,1, 0,0,1, 0,0,1], uvs: [0,1, 1,1, 0,0] }).join(" "))';
+    fs.writeFileSync(path.join(folder, 'use.js'), program);
+    // u along x; v against y: w is 1, since cross(n, t) = y is up in the picture.
+    assert.equal(execFileSync('node', ['use.js'], { cwd: folder, encoding: 'utf8' }).trim(), '1 0 0 1 1 0 0 1 1 0 0 1');
+  },
+
+  async tangentsAreTheNativeOnesToTheBit() {
+    const place = emptyFolder(), mesh = hills(60);
+    fs.writeFileSync(path.join(place, 'mesh.bin'), Buffer.concat([Uint32Array.of(mesh.positions.length / 3, mesh.indices.length),
+      mesh.positions, mesh.normals, mesh.uvs, mesh.indices].map((array) => Buffer.from(array.buffer))));
+    native('tangents', place);
+    for (const module of [cotan, small]) {
+      const { u, v } = module.smooth(mesh), t = module.triangles(mesh);
+      const made = [module.tangents(mesh), module.tangents(mesh, { kind: 'vertex' }), u, v, t.u, t.v];
+      const expected = fs.readFileSync(path.join(place, 'native.bin'));
+      let at = 0;
+      made.forEach((array, k) => {
+        assert.ok(Buffer.from(array.buffer).equals(expected.subarray(at, at + array.byteLength)), `array ${k}`);
+        at += array.byteLength;
+      });
+      assert.equal(at, expected.length);
+    }
+  },
+
+  async lintAndConvertAreTheNativeOnes() {
+    needsData();
+    const close = (a, b, where) => {
+      if (typeof a === 'number' && typeof b === 'number')
+        return assert.ok(Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a)), `${where}: ${a} and ${b}`);
+      if (a === null || typeof a !== 'object') return assert.equal(a, b, where);
+      assert.deepEqual(Object.keys(a), Object.keys(b), where);
+      for (const key of Object.keys(a)) if (key !== 'bytes_after') close(a[key], b[key], `${where}.${key}`);
+    };
+    let compared = 0;
+    for (const file of [path.join(data, 'bad/made/ok_quad.glb'), ...filesUnder(path.join(data, 'models')).filter((name) =>
+      name.endsWith('.glb') && fs.statSync(name).size < 2e6).slice(0, 4)]) {
+      const place = emptyFolder(), model = fs.readFileSync(file);
+      fs.writeFileSync(path.join(place, 'model.glb'), model);
+      native('model', place);
+      const json = (name) => JSON.parse(fs.readFileSync(path.join(place, name), 'utf8'));
+      try {
+        await cotan.lint(model);
+      } catch (error) {
+        assert.match(error.message, /need the package sharp/);
+        continue; // a map in JPEG, which each library rounds in its own way
+      }
+      ++compared;
+      close(await cotan.lint(model), json('lint.json'), 'lint');
+      const made = await cotan.convert(model);
+      close(made.report, json('converted.json'), 'convert');
+      const ours = parseGlb(made.glb), theirs = parseGlb(fs.readFileSync(path.join(place, 'converted.glb')));
+      assert.deepEqual(ours.json.accessors, theirs.json.accessors);
+      for (let i = 0; i < (theirs.json.images ?? []).length; ++i) {
+        if (theirs.json.images[i].uri) {
+          assert.equal(ours.json.images[i].uri, theirs.json.images[i].uri);
+          continue;
+        }
+        const [a, b] = [imageOf(ours, i), imageOf(theirs, i)];
+        if (Buffer.from(a).equals(Buffer.from(b))) continue; // as it was
+        const [x, y] = [await cotan.decodePng(a), await cotan.decodePng(b)];
+        assert.deepEqual([x.width, x.height, x.bits], [y.width, y.height, y.bits]);
+        assert.ok(Buffer.from(x.data.buffer).equals(Buffer.from(y.data.buffer)), `${file}: image ${i}`);
+      }
+    }
+    assert.ok(compared > 1, `${compared} models`);
+  },
+
+  async pngFilesLoseNothing() {
+    for (const [bits, Type] of [[8, Uint8Array], [16, Uint16Array]])
+      for (const alpha of [false, true]) {
+        const picture = { width: 37, height: 11, bits, data: Type.from({ length: 37 * 11 * 4 }, (_, i) => (i % 4 === 3 && !alpha ? -1 : i * i * 257 + 7 * i)) };
+        const again = await cotan.decodePng(await cotan.encodePng(picture));
+        assert.deepEqual(again, picture);
+      }
+  },
+
+  async mapsConvertAndTellTheirGreen() {
+    const side = 64, waves = { width: side, height: side, data: new Float32Array(side * side * 4) };
+    const height = (x, y) => Math.sin(2 * Math.PI * x / side) * Math.cos(4 * Math.PI * y / side);
+    for (let y = 0; y < side; ++y)
+      for (let x = 0; x < side; ++x) waves.data.fill(height(x, y), 4 * (y * side + x), 4 * (y * side + x) + 4);
+    const map = cotan.fromHeight(waves, { scale: 2, bits: 16 });
+    assert.equal(cotan.detect(map).green, 'up');
+    const turned = cotan.convertMap(map, { to: 'directx' });
+    assert.equal(cotan.detect(turned).green, 'down');
+    const back = cotan.toHeight(turned, { from: 'directx' });
+    // Central differences shrink a wave of 32 texels by 0.6 %.
+    back.data.forEach((h, i) => assert.ok(Math.abs(h - 2 * height(i % side, Math.floor(i / side))) < 0.04));
+    assert.deepEqual(cotan.mips(map).map((level) => level.normals.width), [64, 32, 16, 8, 4, 2, 1]);
+    assert.equal(cotan.info(map).content, 'tangent space');
+    const flat = { width: 1, height: 1, data: Uint16Array.of(32768, 32768, 65535, 65535) };
+    const same = cotan.blend(map, flat).data;
+    map.data.forEach((value, i) => assert.ok(Math.abs(value - same[i]) <= 1));
+    assert.match(cotan.shader({ language: 'wgsl' }), /fn /);
+    const places = { normals: [0, 0, 1], dpdx: [2, 0, 0], dpdy: [0, 2, 0], duvdx: [-1, 0], duvdy: [0, 1] };
+    const out = cotan.apply('cotangent', places, [0.6, 0.48, 0.64]); // u along -x
+    [-0.6, 0.48, 0.64].forEach((value, i) => assert.ok(Math.abs(out[i] - value) < 1e-5));
+    cotan.encode('cotangent', places, out).forEach((value, i) => assert.ok(Math.abs(value - [0.6, 0.48, 0.64][i]) < 1e-5));
+  },
+
+  async errorsSayWhatAndWhere() {
+    const fails = (work, expected) => assert.throws(work, (error) => {
+      assert.ok(error instanceof cotan.CotanError || error instanceof small.CotanError, String(error));
+      for (const [name, value] of Object.entries(expected)) assert.equal(error[name], value, error.message);
+      return !error.message.includes('\n');
+    });
+    const mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], normals: [0, 0, 1, 0, 0, 1, 0, 0, 1], uvs: [0, 0, 1, 0, 0, 1] };
+    fails(() => cotan.tangents({ ...mesh, indices: [0, 1, 3] }),
+      { code: 'input', field: 'mesh.indices[2]', expected: 'less than 3', found: '3' });
+    fails(() => small.tangents({ ...mesh, uvs: [0] }), { code: 'usage', field: 'mesh.uvs' });
+    fails(() => small.tangents({ ...mesh, indices: [0, 1, -1] }), { code: 'usage', field: 'mesh.indices[2]', found: '-1' });
+    fails(() => small.tangents({ ...mesh, indices: [0, 1] }), { code: 'usage' });
+    fails(() => small.tangents(), { code: 'usage' });
+    fails(() => small.tangents(mesh, { kind: 'smooth' }), { code: 'usage', field: 'options.kind' });
+    fails(() => small.tangents(mesh, { knid: 'vertex' }), { code: 'usage' });
+    fails(() => cotan.convertMap({ width: 2, height: 2, data: new Uint8Array(15) }), { code: 'usage', field: 'map.data' });
+    fails(() => cotan.shader({ language: 'basic' }), { code: 'usage' });
+    await assert.rejects(cotan.lint(new Uint8Array(3)), { code: 'input' });
+    await assert.rejects(cotan.lint('model.glb'), { code: 'usage' });
+    await assert.rejects(cotan.convert(new TextEncoder().encode('{}')), { code: 'input' });
+  },
+
+  async badInputLeaksNothing() {
+    const memory = () => process.memoryUsage().arrayBuffers;
+    const round = async () => {
+      for (const work of [() => cotan.tangents({ positions: [0, 0, 0], normals: [0, 0, 1], uvs: [0, 0], indices: [0, 0, 1] }),
+        () => cotan.convertMap({ width: 1, height: 1, data: new Uint8Array(4) }, { to: 'nonsense' }),
+        () => cotan.tangents({ positions: [NaN, 0, 0], normals: [0, 0, Infinity], uvs: [0, NaN], indices: [0, 0, 0] }),
+        () => cotan.shader({ frame: 'none' }), () => cotan.mips({ width: 1, height: 1, data: new Uint8Array(4) }, { roughness: 7 })]) {
+        try {
+          work();
+        } catch (error) {
+          assert.ok(error instanceof cotan.CotanError, String(error));
+        }
+      }
+    };
+    for (let i = 0; i < 200; ++i) await round();
+    globalThis.gc?.();
+    const before = memory();
+    for (let i = 0; i < 2000; ++i) await round(); // five calls each
+    globalThis.gc?.();
+    assert.ok(memory() - before < 2e6, `${memory() - before} bytes more`);
+  },
+
+  async badFilesAreRefusedOrRead() {
+    needsData();
+    let read = 0, refused = 0;
+    for (const file of filesUnder(path.join(data, 'bad')).filter((name) => /\.(glb|gltf)$/.test(name))) {
+      const model = fs.readFileSync(file), files = {};
+      for (const beside of filesUnder(path.dirname(file)))
+        if (fs.statSync(beside).size < 1e6) files[path.relative(path.dirname(file), beside)] = fs.readFileSync(beside);
+      for (const work of [cotan.lint, cotan.convert])
+        try {
+          await work(model, { files });
+          ++read;
+        } catch (error) {
+          assert.ok(error instanceof cotan.CotanError && ['input', 'unavailable', 'limit'].includes(error.code), `${file}: ${error.stack}`);
+          assert.doesNotMatch(error.message, /the library stopped/, file);
+          ++refused;
+        }
+    }
+    for (const file of filesUnder(path.join(data, 'bad')).filter((name) => name.endsWith('.png')))
+      try {
+        cotan.info(await cotan.decodePng(fs.readFileSync(file)));
+        ++read;
+      } catch (error) {
+        assert.ok(error instanceof cotan.CotanError, `${file}: ${error.stack}`);
+        ++refused;
+      }
+    assert.ok(read > 10 && refused > 10, `${read} read, ${refused} refused`);
+  },
+
+  async itIsSmall() {
+    const place = path.join(folder, 'node_modules/cotan');
+    const packed = (...names) => gzipSync(Buffer.concat(names.map((name) => fs.readFileSync(path.join(place, name)))), { level: 9 }).length;
+    const script = (name) => fs.readFileSync(path.join(place, name), 'utf8');
+    const reached = (name, seen = new Set()) => {
+      if (seen.has(name)) return seen;
+      seen.add(name);
+      for (const [, to] of script(name).matchAll(/from '(\.[^']+)'/g)) reached(path.join(path.dirname(name), to), seen);
+      return seen;
+    };
+    const tangents = packed(...reached('tangents_beside.js'), 'wasm/tangents.wasm');
+    const whole = packed(...reached('cotan_beside.js'), 'wasm/cotan.wasm');
+    console.log(`cotan/tangents ${tangents} bytes, cotan ${whole} bytes, gzipped; wasm inside: `
+      + `${packed(...reached('tangents.js'))} and ${packed(...reached('cotan.js'))}`);
+    assert.ok(whole <= 400 * 1024, `cotan: ${whole} bytes gzipped`);
+    assert.ok(tangents <= 30 * 1024 + 2048, `cotan/tangents: ${tangents} bytes gzipped`);
+  },
+};
+for (const [name, work] of Object.entries(cases)) {
+  if (only && only !== name) continue;
+  await work();
+  console.log(`holds: ${name}`);
+}
