@@ -13,6 +13,10 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(CotanWindow
   REQUIRED_VARS CotanWindow_IMGUI_LIBRARY CotanWindow_IMGUI_INCLUDE_DIR CotanWindow_STB_LIBRARY CotanWindow_PARTS)
+# The desktop's dialog for files, where there is libsystemd.
+find_path(CotanWindow_BUS_INCLUDE_DIR systemd/sd-bus.h)
+find_library(CotanWindow_BUS_LIBRARY systemd)
+mark_as_advanced(CotanWindow_BUS_INCLUDE_DIR CotanWindow_BUS_LIBRARY)
 if(CotanWindow_FOUND AND NOT TARGET Cotan::Window)
   add_library(Cotan::Window INTERFACE IMPORTED)
   set_target_properties(Cotan::Window PROPERTIES

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/gltf/animated.hpp"
 #include "gltf_maker.hpp"
 
 namespace {
@@ -213,6 +214,84 @@ TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
     const auto scene = pointer.load(at(0));
     ASSERT_TRUE(scene);
     EXPECT_TRUE(warns(*scene, "the path \"pointer\" is not animated here"));
+}
+
+// ---- one reading, many moments ------------------------------------------------------------------
+
+// The file, opened to be read at many moments.
+std::unique_ptr<AnimatedGltf> opened(const Gltf& g, const LoadLimits& limits = {})
+{
+    TemporaryFolder folder;
+    auto model = AnimatedGltf::open(folder.write("model.gltf", g.text()), limits);
+    EXPECT_TRUE(model) << (model ? "" : model.error().message);
+    return model ? std::move(*model) : nullptr; // the file is gone by now
+}
+
+TEST(AnimatedGltf, isAtEachMomentWhatAReadingOfTheFileIs)
+{
+    const Gltf g = moved({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
+    const auto model = opened(g);
+    ASSERT_TRUE(model);
+    for (const double seconds : {2.0, 0.0, 1.5, 1e9, 1.0}) {
+        const auto scene = model->at({"go", seconds});
+        ASSERT_TRUE(scene) << scene.error().message;
+        const auto read = g.load(at(seconds));
+        ASSERT_TRUE(read);
+        EXPECT_EQ(scene->instances[0].toWorld, read->instances[0].toWorld) << seconds;
+        EXPECT_EQ(scene->meshes[0].positions, read->meshes[0].positions);
+        EXPECT_EQ(scene->warnings, read->warnings);
+    }
+    const auto rest = model->at({});
+    ASSERT_TRUE(rest);
+    expectNear(glm::vec3(rest->instances[0].toWorld[3]), {0, 0, 0}); // nothing of the moments before is left
+    const auto unknown = model->at({"fly", 0});
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
+    EXPECT_TRUE(model->at({"go", 2}));
+}
+
+TEST(AnimatedGltf, isAsLongAsItsLastKey)
+{
+    Gltf g = moved(
+        {{"translation", {0, 1.5f}, {0, 0, 0, 1, 0, 0}, "VEC3"}, {"scale", {0.5f, 2.25f}, {1, 1, 1, 2, 2, 2}, "VEC3"}});
+    const auto model = opened(g);
+    ASSERT_TRUE(model);
+    ASSERT_EQ(model->animations().size(), 2u);
+    EXPECT_EQ(model->animations()[0].name, "rest");
+    EXPECT_EQ(model->animations()[0].seconds, 0);
+    EXPECT_EQ(model->animations()[1].name, "go");
+    EXPECT_EQ(model->animations()[1].seconds, 2.25);
+    g.root["animations"][1]["samplers"][0]["input"] = "damaged"; // said where it is asked for, and not before
+    const auto damaged = opened(g);
+    ASSERT_TRUE(damaged);
+    EXPECT_EQ(damaged->animations()[1].seconds, 0);
+    EXPECT_TRUE(damaged->at({}));
+    EXPECT_FALSE(damaged->at({"go", 0}));
+}
+
+TEST(AnimatedGltf, decodesItsImagesOnce)
+{
+    Gltf g = moved({{"translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
+    addNormalMap(g);
+    int decoded = 0;
+    LoadLimits limits;
+    limits.decode = [&](std::span<const std::byte>, const std::string& name) -> Result<Image> {
+        ++decoded;
+        Image made = makeImage(2, 2, PixelType::unorm8, name);
+        made.data[0] = std::byte(77);
+        return made;
+    };
+    const auto model = opened(g, limits);
+    ASSERT_TRUE(model);
+    const auto first = model->at({"go", 0});
+    ASSERT_TRUE(first) << first.error().message;
+    ASSERT_EQ(first->images.size(), 1u);
+    EXPECT_EQ(decoded, 1);
+    const auto second = model->at({"go", 0.5}, &first->images);
+    ASSERT_TRUE(second);
+    EXPECT_EQ(decoded, 1);
+    ASSERT_EQ(second->images.size(), 1u);
+    EXPECT_EQ(second->images[0].data, first->images[0].data);
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 // A model in telling colours, and what is at one of its points.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -9,6 +12,8 @@
 #include "cotan/inspect/hot_spots.hpp"
 #include "cotan/inspect/inspection.hpp"
 #include "cotan/inspect/probe.hpp"
+#include "cotan/lint/lint.hpp"
+#include "cotan/model/load.hpp"
 #include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
@@ -164,12 +169,33 @@ TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
     scene.instances.push_back({"stretched", 1, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
     const std::vector<HotSpot> spots = hotSpots(scene);
     ASSERT_EQ(spots.size(), 1u);
-    EXPECT_NE(spots[0].text.find("stretch 3 : 1, 100 %"), std::string::npos) << spots[0].text;
+    EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
+    EXPECT_TRUE(spots[0].text.ends_with(", here 3")) << spots[0].text;
     EXPECT_NEAR(spots[0].camera.target.x, 10, 0.5f);
     EXPECT_GT(spots[0].camera.eye.z, 0.1f);
     const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->mesh, 1);
+}
+
+// The window lists what `lint` reports: the same shares of the same things.
+TEST(HotSpots, haveTheSharesOfLint)
+{
+    const std::filesystem::path file = COTAN_SHARED_DATA "/animated/lumberjack.glb";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "no shared data at " << file;
+    const Scene scene = *loadScene(file);
+    const PrimitiveLint lint = lintScene(scene).primitives.at(0);
+    std::map<std::string, double> shares;
+    for (const HotSpot& spot : hotSpots(scene))
+        for (const char* words : {"without area", "stretched", "sheared", "w against the uv", "turned"})
+            if (spot.text.find(words) != std::string::npos)
+                shares[words] = spot.share;
+    EXPECT_NEAR(shares["stretched"], lint.uv.stretched, 1e-12);
+    EXPECT_NEAR(shares["sheared"], lint.uv.sheared, 1e-12);
+    EXPECT_NEAR(shares["w against the uv"], lint.stored.reversedW, 1e-12);
+    EXPECT_NEAR(shares["turned"], lint.stored.turned, 1e-12);
+    EXPECT_EQ(shares.contains("without area"), lint.uv.degenerate >= 0.001);
 }
 
 TEST(HotSpots, aStoredTangentOnTheWrongSideIsFound)
@@ -180,7 +206,7 @@ TEST(HotSpots, aStoredTangentOnTheWrongSideIsFound)
     for (glm::vec4& tangent : scene.meshes[0].tangents)
         tangent.w = -1;
     ASSERT_EQ(hotSpots(scene).size(), 1u);
-    EXPECT_NE(hotSpots(scene)[0].text.find("wrong side"), std::string::npos);
+    EXPECT_NE(hotSpots(scene)[0].text.find("w against the uv: 100.0 %"), std::string::npos);
 }
 
 } // namespace

@@ -103,4 +103,19 @@ inline void write(Made m, const std::filesystem::path& folder)
                                    std::filesystem::copy_options::overwrite_existing);
 }
 
+// A rectangle that goes up by 1 in 2 s, or by 3 in 4 s.
+inline Made movingQuad()
+{
+    Made m = quad(2);
+    m.root["animations"] = json::array();
+    for (const float length : {2.0f, 4.0f}) {
+        const int times = m.add({0, length}, "SCALAR", 1), places = m.add({0, 0, 0, 0, length - 1, 0}, "VEC3", 3);
+        m.root["animations"].push_back(
+            {{"name", length > 2 ? "high" : "low"},
+             {"samplers", json::array({{{"input", times}, {"output", places}}})},
+             {"channels", json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}})}});
+    }
+    return m;
+}
+
 } // namespace cotan::test

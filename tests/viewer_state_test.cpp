@@ -8,43 +8,16 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
-#include "commands.hpp"
-#include "cotan/scene/bounds.hpp"
-#include "event.hpp"
 #include "files.hpp"
-#include "input.hpp"
 #include "run_tool.hpp"
 #include "session.hpp"
 #include "settings.hpp"
+#include "viewer_state.hpp"
 
 namespace cotan::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-State withModel()
-{
-    State state;
-    auto model = std::make_shared<Model>();
-    auto scene = openModel(state.picture);
-    model->scene = std::move(*scene);
-    model->box = bounds(model->scene);
-    model->number = 1;
-    state.model = std::move(model);
-    resetCamera(state);
-    return state;
-}
-
-void send(State& state, const std::string& text)
-{
-    const auto events = eventsOf(text, "text");
-    ASSERT_TRUE(events) << events.error().message;
-    for (const Event& event : *events)
-        apply(state, event);
-}
-
-// All that a switch can change.
-std::string keyLike(const State& s) { return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown); }
 
 // ---- events ----------------------------------------------------------------------------------
 
@@ -221,69 +194,6 @@ TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
     EXPECT_EQ(state.picture.environmentRotation, 0);
     EXPECT_EQ(state.picture.background, "");
     EXPECT_TRUE(viewOf(optionsOf(state, false), state.model->scene));
-}
-
-// ---- menus and keys ----------------------------------------------------------------------------
-
-TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
-{
-    std::map<std::string, std::string> keys;
-    for (const Entry& entry : entriesOf(withModel())) {
-        if (entry.command.empty())
-            continue;
-        EXPECT_FALSE(entry.label.empty());
-        if (!entry.key.empty()) {
-            EXPECT_TRUE(keys.emplace(entry.key, entry.label).second)
-                << entry.key << ": " << keys[entry.key] << " and " << entry.label;
-        }
-        State state = withModel();
-        state.picture.animation = "0";
-        if (entry.usable) {
-            const Status done = perform(state, entry.command);
-            EXPECT_TRUE(done) << entry.command << ": " << done.error().message;
-        }
-    }
-    for (const char* key : {"1", "9", "h", "f12", "tab", "ctrl+c", "f5", "r", "o", "d", "f", "g"})
-        EXPECT_TRUE(keys.contains(key)) << key;
-}
-
-TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
-{
-    State state = withModel();
-    const auto lineOf = [&](const char* key) {
-        for (const auto& [name, what] : interfaceOf(state).sheet)
-            if (name == key)
-                return what;
-        return std::string();
-    };
-    const std::string before = lineOf("d");
-    EXPECT_EQ(before.find("on"), std::string::npos);
-    send(state, "0 key d\n");
-    EXPECT_NE(lineOf("d").find("on"), std::string::npos);
-    for (const Entry& entry : entriesOf(state)) {
-        const bool digit = !entry.key.empty() && entry.key.back() >= '1' && entry.key.back() <= '9'
-            && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f'
-            && entry.key.find("+f") == std::string::npos;
-        if (!entry.key.empty() && !digit) {
-            EXPECT_FALSE(lineOf(entry.key.c_str()).empty()) << entry.key;
-        }
-    }
-    send(state, "0 key 4\n0 key shift+5\n");
-    EXPECT_EQ(lineOf("1 ... 9"), "Frame: smooth");
-    EXPECT_EQ(lineOf("shift+1 ... 9"), "Second: exact");
-}
-
-TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
-{
-    State state = withModel();
-    for (const char* key : {"d", "g", "o", "n", "tab", "h", "s", "i", "p", "a"}) {
-        State other = state;
-        send(other, std::string("0 key ") + key + "\n");
-        EXPECT_NE(keyLike(other), keyLike(state)) << key;
-        send(other, std::string("0 key ") + key + "\n");
-        other.cameraMoved = false; // the other projection and back is a motion
-        EXPECT_EQ(keyLike(other), keyLike(state)) << key;
-    }
 }
 
 // ---- the command line ---------------------------------------------------------------------------

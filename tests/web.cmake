@@ -24,3 +24,16 @@ cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modu
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
     provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
+
+# The page of web/, and what holds of it in Chromium.
+add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
+set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)
+foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToBeAndMended verdictsOnPublishedMapsAreTheirs
+    aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid realModelsAreJudgedAndDrawn
+    aConvertedModelIsTheOneThatTheCommandLineWrites badFilesAreAnsweredInOneLineEach
+    theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice thePatchAnswersKeysAndPointerWithRightDegrees
+    accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
+  add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
+    ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
+  set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
+endforeach()

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cotan/draw/camera_words.hpp"
+#include "cotan/inspect/hot_spots.hpp"
 #include "cotan/lint/limits.hpp"
 #include "cotan/report/lint_report.hpp"
 #include "cotan/terminal/command_words.hpp"
@@ -79,7 +81,10 @@ Status run(const LintCommandOptions& o)
                                    verdict = verdictLines(o.model, report, command);
     for (const std::string& line : verdict)
         say(o, line);
-    const std::vector<std::string> details = detailLines(report);
+    std::vector<std::string> details = detailLines(report);
+    const std::vector<HotSpot> spots = report.primitives.empty() ? std::vector<HotSpot>() : hotSpots(*scene);
+    for (const HotSpot& spot : spots)
+        details.push_back(fmt::format("look: {}: --camera {}", spot.text, cameraWords(spot.camera)));
     if (!over.empty())
         say(o, "over the limit: {}{}", over.front(),
             over.size() > 1 && !o.details ? fmt::format(" and {} more", over.size() - 1) : "");
@@ -89,7 +94,7 @@ Status run(const LintCommandOptions& o)
         for (const std::string& line : details)
             say(o, line);
     else
-        say(o, "--details adds {} lines: each primitive and map, in figures", details.size());
+        say(o, "--details adds {} lines: each primitive and map in figures, and where to look", details.size());
 
     Json j = {{"command", "lint"},
               {"model", o.model},
@@ -103,6 +108,12 @@ Status run(const LintCommandOptions& o)
                 {"maps_kept", report.mapsKept},
                 {"drops_tangents", report.dropsTangents}}}};
     j.update(listsOf(report));
+    j["hot_spots"] = Json::array();
+    for (const HotSpot& spot : spots)
+        j["hot_spots"].push_back({{"text", spot.text},
+                                  {"mesh", scene->meshes[spot.mesh].name},
+                                  {"share", spot.share},
+                                  {"camera", cameraWords(spot.camera)}});
     j["over_limit"] = over;
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
@@ -118,7 +129,8 @@ void declare(Arguments& a, LintCommandOptions& o)
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required();
     addMemoryOption(a, o.memory);
-    a.flag("--details", o.details, "print the figures of each primitive and map, too");
+    a.flag("--details", o.details,
+           "print the figures of each primitive and map, too, and cameras that look at the worst places");
     addOwnNormalMap(a, o.maps);
     a.option("--distance", o.distance,
              "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "

@@ -71,9 +71,9 @@ Result<std::unique_ptr<Painter>> told(Result<std::unique_ptr<Painter>> painter, 
     return painter;
 }
 
-Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common)
+Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common, bool validation)
 {
-    return told(openPainter(device, common.threads), common);
+    return told(openPainter(device, common.threads, validation), common);
 }
 
 } // namespace cotan::app

@@ -38,6 +38,7 @@ Result<std::unique_ptr<Painter>> told(Result<std::unique_ptr<Painter>> painter, 
 
 // Opens the device of that name, as openPainter does; where "auto" falls back to the reference renderer, a warning
 // says why. Errors: those of openPainter.
-Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common);
+Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common,
+                                            bool validation = false);
 
 } // namespace cotan::app

@@ -45,8 +45,8 @@ Order orderOf(const State& state);
 class Artist {
 public:
     // first: what will be asked for; its device and surroundings are opened while the model is still being read.
-    // done: called on the artist's thread where something new can be taken.
-    Artist(app::CommonOptions common, PictureOptions first, std::function<void()> done);
+    // validation: with Vulkan's validation layer. done: called on the artist's thread where something new can be taken.
+    Artist(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
     ~Artist();
 
     // Draws this next; an order that waits is dropped.
@@ -57,6 +57,9 @@ public:
 
     // A picture for a file, whatever is drawn meanwhile; waits for it. floats: as for a file that keeps them.
     Result<Image> drawNow(const Order& order, bool floats);
+
+    // Ends its work. Returns what the validation layer has said.
+    std::vector<std::string> finish();
 
 private:
     struct Work;

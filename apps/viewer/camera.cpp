@@ -137,17 +137,17 @@ void setPivot(Camera& camera, const glm::vec3& point)
 
 bool seeFrom(Camera& camera, const std::string& side)
 {
-    struct Side {
+    struct Direction {
         const char* name;
         glm::vec3 from, up;
     };
-    static const std::array<Side, 6> sides = {{{"front", {0, 0, 1}, {0, 1, 0}},
-                                               {"back", {0, 0, -1}, {0, 1, 0}},
-                                               {"left", {-1, 0, 0}, {0, 1, 0}},
-                                               {"right", {1, 0, 0}, {0, 1, 0}},
-                                               {"top", {0, 1, 0}, {0, 0, -1}},
-                                               {"bottom", {0, -1, 0}, {0, 0, 1}}}};
-    for (const Side& known : sides)
+    static const std::array<Direction, 6> sides = {{{"front", {0, 0, 1}, {0, 1, 0}},
+                                                    {"back", {0, 0, -1}, {0, 1, 0}},
+                                                    {"left", {-1, 0, 0}, {0, 1, 0}},
+                                                    {"right", {1, 0, 0}, {0, 1, 0}},
+                                                    {"top", {0, 1, 0}, {0, 0, -1}},
+                                                    {"bottom", {0, -1, 0}, {0, 0, 1}}}};
+    for (const Direction& known : sides)
         if (side == known.name) {
             Camera to = camera;
             to.eye = camera.target + known.from * glm::length(camera.eye - camera.target);

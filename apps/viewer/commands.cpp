@@ -1,20 +1,15 @@
 #include "commands.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <map>
-#include <sstream>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "camera.hpp"
+#include "command_words.hpp"
 #include "cotan/convention_words.hpp"
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/files/extension.hpp"
-#include "cotan/parse_number.hpp"
 #include "files.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
@@ -22,60 +17,6 @@
 namespace cotan::viewer {
 
 namespace {
-
-constexpr float kRadians = 0.017453293f;
-
-struct Words {
-    std::string rest;
-
-    std::string next()
-    {
-        const std::size_t start = std::min(rest.find_first_not_of(' '), rest.size());
-        const std::size_t end = std::min(rest.find(' ', start), rest.size());
-        std::string word = rest.substr(start, end - start);
-        rest = rest.substr(std::min(end + 1, rest.size()));
-        return word;
-    }
-    Result<float> number(const char* what)
-    {
-        const std::string word = next();
-        float value = 0;
-        if (!parseNumber(std::string_view(word), value) || !std::isfinite(value))
-            return usageError(fmt::format("{}: expected a number; found '{}'", what, word));
-        return value;
-    }
-};
-
-Status expected(const std::string& command, const std::string& what, const std::string& found)
-{
-    return usageError(fmt::format("{}: expected {}; found '{}'", command, what, found));
-}
-
-void wish(State& state, Wish::Kind kind, std::string text = {}, glm::ivec2 size = {0, 0})
-{
-    state.wishes.push_back({kind, std::move(text), size});
-}
-
-void moveCamera(State& state) { state.cameraMoved = true; }
-
-// The light goes with the camera where it is pinned to it.
-float azimuthOf(const Camera& camera)
-{
-    const glm::vec3 back = camera.eye - camera.target;
-    return std::atan2(back.x, back.z) / kRadians;
-}
-
-double wrapped(double degrees) { return std::remainder(degrees, 360.0); }
-
-void followCamera(State& state)
-{
-    if (!state.lightPinned)
-        return;
-    const float azimuth = azimuthOf(state.camera);
-    state.picture.environmentRotation =
-        std::round(wrapped(state.picture.environmentRotation + double(azimuth - state.pinnedAt)) * 1000) / 1000;
-    state.pinnedAt = azimuth;
-}
 
 Status openFile(State& state, const std::string& file)
 {
@@ -136,18 +77,6 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
     return Done{};
 }
 
-Status setCamera(State& state, const std::string& words)
-{
-    if (!state.model)
-        return expected("camera", "a model", "none");
-    const auto camera = cameraFromWords(words, state.model->scene, state.size.x, state.size.y);
-    if (!camera)
-        return camera.error();
-    state.camera = *camera;
-    moveCamera(state);
-    return Done{};
-}
-
 Status toggle(State& state, const std::string& name)
 {
     const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
@@ -157,6 +86,7 @@ Status toggle(State& state, const std::string& name)
                                                            {"card", &State::cardShown},
                                                            {"statistics", &State::statisticsShown},
                                                            {"look", &State::dark},
+                                                           {"loop", &State::loops},
                                                            {"pin-light", &State::lightPinned}};
     const auto known = switches.find(name);
     if (known != switches.end()) {
@@ -213,83 +143,44 @@ Status writePicture(State& state, const std::string& rest)
     return Done{};
 }
 
-using Numbers = std::vector<float>;
-
-Result<Numbers> numbersOf(Words& words, const char* command, int count)
+Status flip(State& state)
 {
-    Numbers all;
-    for (int i = 0; i < count; ++i) {
-        const auto number = words.number(command);
-        if (!number)
-            return number.error();
-        all.push_back(*number);
+    if (state.compare != Compare::flip) {
+        state.compare = Compare::flip;
+        state.second = false;
     }
-    return all;
+    state.second = !state.second;
+    return Done{};
 }
 
-// Commands of the camera that take numbers.
-struct Motion {
-    const char* name;
-    int count;
-    void (*move)(State&, const Numbers&);
-};
-
-constexpr Motion kMotions[] = {
-    {"orbit", 2, [](State& s, const Numbers& n) { orbit(s.camera, n[0] * kRadians, n[1] * kRadians); }},
-    {"look", 2, [](State& s, const Numbers& n) { look(s.camera, n[0] * kRadians, n[1] * kRadians); }},
-    {"pan", 2,
-     [](State& s, const Numbers& n) {
-         pan(s.camera, {n[0], n[1]}, s.size);
-     }},
-    {"zoom", 1, [](State& s, const Numbers& n) { zoomTo(s.camera, n[0], glm::vec2(s.size) * 0.5f, s.size); }},
-    {"fly", 3,
-     [](State& s, const Numbers& n) {
-         fly(s.camera, {n[0], n[1], n[2]});
-     }},
-};
-
-Status performSwitch(State& state, const std::string& command, Words& words)
+Status play(State& state)
 {
-    if (command == "reset") {
-        resetCamera(state);
-    } else if (command == "orthographic") {
-        setOrthographic(state.camera, !state.camera.orthographic);
-        moveCamera(state);
-    } else if (command == "flip") {
-        if (state.compare != Compare::flip) {
-            state.compare = Compare::flip;
-            state.second = false;
-        }
-        state.second = !state.second;
-    } else if (command == "swap") {
-        std::swap(state.a, state.b);
-    } else if (command == "play") {
-        if (state.picture.animation.empty())
-            return expected("play", "an animation", "none");
-        state.playing = !state.playing;
-    } else if (command == "reload") {
-        wish(state, Wish::Kind::load, state.picture.model);
-    } else if (command == "next" || command == "previous") {
-        return neighbour(state, command == "next" ? 1 : -1);
-    } else if (command == "paste") {
-        wish(state, Wish::Kind::paste);
-    } else if (command == "choose") {
-        wish(state, Wish::Kind::chooseFile);
-    } else if (command == "find-hot-spots") {
-        wish(state, Wish::Kind::findHotSpots);
-    } else if (command == "lose-surface") {
-        wish(state, Wish::Kind::loseSurface);
-    } else if (command == "quit") {
-        wish(state, Wish::Kind::quit);
-    } else if (command == "copy") {
-        const std::string what = words.next();
-        if (what != "command" && what != "camera")
-            return expected("copy", "command or camera", what);
-        wish(state, Wish::Kind::copy,
-             what == "camera" ? cameraWords(state.camera) : commandLine(state, "picture.png", state.size));
-    } else {
-        return usageError(fmt::format("expected a command of the viewer; found '{}'", command));
-    }
+    if (state.picture.animation.empty() && state.model && !state.model->animations.empty())
+        state.picture.animation = "0";
+    if (state.picture.animation.empty())
+        return expected("play", "a model with animations", "none");
+    state.playing = !state.playing;
+    const GltfAnimation* animation = animationOf(state);
+    if (state.playing && animation && state.picture.time >= animation->seconds)
+        state.picture.time = 0;
+    wish(state, Wish::Kind::pose);
+    return Done{};
+}
+
+Status copy(State& state, const std::string& what)
+{
+    if (what != "command" && what != "camera")
+        return expected("copy", "command or camera", what);
+    wish(state, Wish::Kind::copy,
+         what == "camera" ? cameraWords(state.camera) : commandLine(state, "picture.png", state.size));
+    return Done{};
+}
+
+Status show(State& state, const std::string& name)
+{
+    if (std::ranges::find(showNames(), name) == showNames().end())
+        return expected("show", fmt::format("one of {}", fmt::join(showNames(), ", ")), name);
+    state.show = name;
     return Done{};
 }
 
@@ -305,9 +196,96 @@ Status performSet(State& state, Words& words)
         state.metered = 0;
     if (name == "exposure")
         state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
+    if (name == "animation")
+        state.picture.time = 0;
+    if (state.picture.animation.empty())
+        state.playing = false;
     if (setting->loads)
         wish(state, Wish::Kind::load, state.picture.model);
+    if (setting->poses)
+        wish(state, Wish::Kind::pose);
     return Done{};
+}
+
+Status writeTo(State& state, Wish::Kind kind, const char* command, const std::string& file)
+{
+    if (file.empty())
+        return expected(command, "a file", "");
+    wish(state, kind, file);
+    return Done{};
+}
+
+template<class Set> Status withNumber(Words& words, const char* command, const Set& set)
+{
+    const auto value = words.number(command);
+    if (!value)
+        return value.error();
+    set(*value);
+    return Done{};
+}
+
+template<Wish::Kind kind> Status wished(State& state, Words&)
+{
+    wish(state, kind);
+    return Done{};
+}
+
+using Perform = Status (*)(State&, Words&);
+
+// Each by its name; the camera's are elsewhere (performCamera).
+const std::map<std::string, Perform>& performers()
+{
+    static const Perform open = [](State& s, Words& w) { return openFile(s, w.rest); };
+    static const std::map<std::string, Perform> all = {
+        {"open", open},
+        {"drop", open},
+        {"reload",
+         [](State& s, Words&) {
+             wish(s, Wish::Kind::load, s.picture.model);
+             return Status(Done{});
+         }},
+        {"next", [](State& s, Words&) { return neighbour(s, 1); }},
+        {"previous", [](State& s, Words&) { return neighbour(s, -1); }},
+        {"paste", wished<Wish::Kind::paste>},
+        {"choose", wished<Wish::Kind::chooseFile>},
+        {"find-hot-spots", wished<Wish::Kind::findHotSpots>},
+        {"lose-surface", wished<Wish::Kind::loseSurface>},
+        {"quit", wished<Wish::Kind::quit>},
+        {"set", performSet},
+        {"show", [](State& s, Words& w) { return show(s, w.rest); }},
+        {"frame", [](State& s, Words& w) { return setSide(s.a, "frame", w.rest); }},
+        {"tangents", [](State& s, Words& w) { return setSide(s.a, "tangents", w.rest); }},
+        {"normal-map", [](State& s, Words& w) { return setSide(s.a, "normal-map", w.rest); }},
+        {"convention", [](State& s, Words& w) { return setSide(s.a, "convention", w.rest); }},
+        {"second",
+         [](State& s, Words& w) {
+             const std::string what = w.next();
+             return setSide(s.b, what, w.rest);
+         }},
+        {"swap",
+         [](State& s, Words&) {
+             std::swap(s.a, s.b);
+             return Status(Done{});
+         }},
+        {"flip", [](State& s, Words&) { return flip(s); }},
+        {"compare", [](State& s, Words& w) { return setCompare(s, w.rest); }},
+        {"divider",
+         [](State& s, Words& w) {
+             return withNumber(w, "divider", [&](float share) { s.divider = std::clamp(share, 0.0f, 1.0f); });
+         }},
+        {"scale",
+         [](State& s, Words& w) {
+             return withNumber(w, "scale", [&](float x) { s.scale = x <= 0 ? 0.0f : std::clamp(x, 0.5f, 4.0f); });
+         }},
+        {"toggle", [](State& s, Words& w) { return toggle(s, w.rest); }},
+        {"play", [](State& s, Words&) { return play(s); }},
+        {"size", [](State& s, Words& w) { return sized(s, Wish::Kind::resize, "size", w); }},
+        {"picture", [](State& s, Words& w) { return writePicture(s, w.rest); }},
+        {"window", [](State& s, Words& w) { return writeTo(s, Wish::Kind::writeWindow, "window", w.rest); }},
+        {"report", [](State& s, Words& w) { return writeTo(s, Wish::Kind::writeReport, "report", w.rest); }},
+        {"copy", [](State& s, Words& w) { return copy(s, w.next()); }},
+    };
+    return all;
 }
 
 // Options that are refused without surroundings go with them.
@@ -325,86 +303,12 @@ Status performOne(State& state, const std::string& line)
 {
     Words words{line};
     const std::string command = words.next();
-    for (const Motion& motion : kMotions)
-        if (command == motion.name) {
-            const auto numbers = numbersOf(words, motion.name, motion.count);
-            if (!numbers)
-                return numbers.error();
-            motion.move(state, *numbers);
-            moveCamera(state);
-            followCamera(state);
-            return Done{};
-        }
-    if (command == "open" || command == "drop")
-        return openFile(state, words.rest);
-    if (command == "set")
-        return performSet(state, words);
-    if (command == "frame" || command == "tangents" || command == "normal-map" || command == "convention")
-        return setSide(state.a, command, words.rest);
-    if (command == "second") {
-        const std::string what = words.next();
-        return setSide(state.b, what, words.rest);
-    }
-    if (command == "show") {
-        if (std::ranges::find(showNames(), words.rest) == showNames().end())
-            return expected("show", fmt::format("one of {}", fmt::join(showNames(), ", ")), words.rest);
-        state.show = words.rest;
-        return Done{};
-    }
-    if (command == "camera")
-        return setCamera(state, words.rest);
-    if (command == "see") {
-        if (!seeFrom(state.camera, words.rest))
-            return expected("see", "front, back, left, right, top or bottom", words.rest);
-        moveCamera(state);
-        followCamera(state);
-        return Done{};
-    }
-    if (command == "turn-light") {
-        const auto degrees = words.number("turn-light");
-        if (!degrees)
-            return degrees.error();
-        state.picture.environmentRotation =
-            std::round(wrapped(state.picture.environmentRotation + double(*degrees)) * 1000) / 1000;
-        return Done{};
-    }
-    if (command == "compare")
-        return setCompare(state, words.rest);
-    if (command == "divider" || command == "scale") {
-        const auto value = words.number(command.c_str());
-        if (!value)
-            return value.error();
-        if (command == "divider")
-            state.divider = std::clamp(*value, 0.0f, 1.0f);
-        else
-            state.scale = *value <= 0 ? 0.0f : std::clamp(*value, 0.5f, 4.0f);
-        return Done{};
-    }
-    if (command == "toggle")
-        return toggle(state, words.rest);
-    if (command == "size")
-        return sized(state, Wish::Kind::resize, "size", words);
-    if (command == "picture")
-        return writePicture(state, words.rest);
-    if (command == "window" || command == "report") {
-        if (words.rest.empty())
-            return expected(command, "a file", "");
-        wish(state, command == "window" ? Wish::Kind::writeWindow : Wish::Kind::writeReport, words.rest);
-        return Done{};
-    }
-    if (command == "hot-spot") {
-        const auto number = words.number("hot-spot");
-        if (!number)
-            return number.error();
-        const std::size_t count = state.hotSpots ? state.hotSpots->size() : 0;
-        if (*number < 0 || std::size_t(*number) >= count)
-            return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
-                            fmt::format("{}", *number));
-        state.camera = (*state.hotSpots)[std::size_t(*number)].camera;
-        moveCamera(state);
-        return Done{};
-    }
-    return performSwitch(state, command, words);
+    if (const auto moved = performCamera(state, command, words))
+        return *moved;
+    const auto known = performers().find(command);
+    return known == performers().end()
+        ? usageError(fmt::format("expected a command of the viewer; found '{}'", command))
+        : known->second(state, words);
 }
 
 } // namespace

@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "files.hpp"
+
 namespace cotan::viewer {
 
 namespace fs = std::filesystem;
@@ -39,17 +41,23 @@ Dialog::~Dialog()
         ::close(pipe_);
 }
 
-Status Dialog::ask(const std::string& beside)
+void Dialog::ask(Window& window, const std::string& beside)
 {
     if (open())
-        return Done{};
+        return;
     std::error_code error;
-    const fs::path folder = fs::absolute(fs::path(beside.empty() ? "." : beside), error).parent_path() / "";
+    folder_ = (fs::absolute(fs::path(beside.empty() ? "." : beside), error).parent_path() / "").string();
+    asked_ = true;
+    window.askForFile(folder_);
+}
+
+Status Dialog::startProgram()
+{
     std::vector<std::string> words;
     if (const std::string zenity = findProgram("zenity"); !zenity.empty())
-        words = {zenity, "--file-selection", "--title=cotan view", "--filename=" + folder.string()};
+        words = {zenity, "--file-selection", "--title=cotan view", "--filename=" + folder_};
     else if (const std::string kdialog = findProgram("kdialog"); !kdialog.empty())
-        words = {kdialog, "--getopenfilename", folder.string()};
+        words = {kdialog, "--getopenfilename", folder_};
     else
         return unavailableError("open: no dialog to choose a file: install zenity; or drop a file, or paste its path");
     int ends[2];
@@ -77,10 +85,22 @@ Status Dialog::ask(const std::string& beside)
     return Done{};
 }
 
-std::string Dialog::take()
+Result<std::string> Dialog::take(Window& window)
 {
-    if (!open())
-        return {};
+    if (asked_) {
+        const FileAnswer answer = window.fileAnswer();
+        asked_ = answer.state == FileAnswer::open;
+        if (answer.state == FileAnswer::refused)
+            if (const Status started = startProgram(); !started)
+                return started.error();
+        if (answer.state == FileAnswer::closed)
+            return pathOf(answer.path);
+    }
+    return child_ > 0 ? takeFromProgram() : std::string();
+}
+
+std::string Dialog::takeFromProgram()
+{
     char bytes[4096];
     for (ssize_t count; (count = ::read(pipe_, bytes, sizeof bytes)) > 0;)
         said_.append(bytes, std::size_t(count));

@@ -11,6 +11,9 @@ namespace cotan::viewer {
 bool isPicture(const std::filesystem::path& file);
 bool isModel(const std::filesystem::path& file);
 
+// Its name without folders.
+inline std::string fileName(const std::filesystem::path& file) { return file.filename().string(); }
+
 // The model `step` places behind this one among those of its folder, by name, around the end. Empty where there is no
 // other.
 std::string neighbourOf(const std::filesystem::path& file, int step);

@@ -75,6 +75,22 @@ void release(State& state)
     }
 }
 
+void playOn(State& state, double seconds)
+{
+    double& time = state.picture.time;
+    time += seconds * double(state.rate);
+    if (const GltfAnimation* animation = animationOf(state)) {
+        const double length = animation->seconds;
+        if (state.loops)
+            time = length > 0 ? std::fmod(time, length) : 0;
+        else if (time >= length) {
+            time = length;
+            state.playing = false;
+        }
+    }
+    state.wishes.push_back({Wish::Kind::pose, {}, {}});
+}
+
 } // namespace
 
 void apply(State& state, const Event& event)
@@ -133,10 +149,8 @@ void goOn(State& state, double seconds)
         state.cameraMoved = true;
         state.moving = true;
     }
-    if (state.playing) {
-        state.picture.time += seconds * double(state.rate);
-        state.wishes.push_back({Wish::Kind::load, state.picture.model, {}});
-    }
+    if (state.playing && seconds > 0)
+        playOn(state, seconds);
 }
 
 } // namespace cotan::viewer

@@ -1,38 +1,147 @@
 #include "loader.hpp"
 
+#include <algorithm>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan::viewer {
 
-namespace {
-
-struct Task {
-    PictureOptions options;
-    std::shared_ptr<const Model> look; // for hot spots; null: read the options' model
+// The model that was read last, and what poses it; null where it does not move.
+struct LastRead {
+    std::shared_ptr<const Model> model;
+    std::unique_ptr<AnimatedGltf> animated;
 };
 
-Loaded readModel(const PictureOptions& options, std::uint64_t number)
+namespace {
+
+Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& kept)
 {
     Loaded loaded;
     loaded.options = options;
-    auto scene = openModel(options);
+    auto opened = openMovingModel(options);
+    if (!opened) {
+        loaded.error = app::inWords(opened.error());
+        return loaded;
+    }
+    auto model = std::make_shared<Model>();
+    model->scene = std::move(opened->scene);
+    model->box = bounds(model->scene);
+    model->read = options;
+    model->number = number;
+    if (opened->animated)
+        model->animations = opened->animated->animations();
+    kept = {model, std::move(opened->animated)};
+    loaded.model = std::move(model);
+    return loaded;
+}
+
+Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& kept)
+{
+    Loaded loaded;
+    loaded.posed = true;
+    loaded.options = kept.model->read; // all but the pose is as it was read
+    loaded.options.animation = wanted.animation;
+    loaded.options.time = wanted.animation.empty() ? 0 : wanted.time;
+    if (!kept.animated) {
+        if (!wanted.animation.empty())
+            loaded.error = usageError("animation: expected a glTF model with animations; found none");
+        return loaded;
+    }
+    auto scene = poseModel(*kept.animated, loaded.options, kept.model->scene.images);
     if (!scene) {
-        loaded.problem = app::inWords(scene.error()).message;
+        loaded.error = app::inWords(scene.error());
         return loaded;
     }
     auto model = std::make_shared<Model>();
     model->scene = std::move(*scene);
     model->box = bounds(model->scene);
+    model->read = loaded.options;
+    model->animations = kept.model->animations;
     model->number = number;
+    kept.model = model;
     loaded.model = std::move(model);
     return loaded;
 }
 
+// What could not be done is not asked for any longer.
+void giveUp(State& state, const Loaded& loaded)
+{
+    state.problem = loaded.error->message;
+    state.playing = false;
+    if (!loaded.posed)
+        ++state.failedLoads;
+    if (!state.model)
+        return;
+    const PictureOptions& read = state.model->read;
+    state.picture.shape = read.shape;
+    state.picture.variant = read.variant;
+    state.picture.animation = read.animation;
+    state.picture.time = read.time;
+}
+
+void takePosed(State& state, const Loaded& loaded)
+{
+    state.model = loaded.model;
+    state.cameraMoved = true; // it stays where it is, and does not go with the model's bounds
+    if (state.playing)        // the moment has gone on
+        return;
+    state.hotSpots.reset();
+    if (state.hotSpotsShown)
+        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+}
+
 } // namespace
+
+void take(State& state, const Loaded& loaded)
+{
+    if (loaded.hotSpots) {
+        state.hotSpots = loaded.hotSpots;
+        return;
+    }
+    if (loaded.error)
+        return giveUp(state, loaded);
+    if (!loaded.model)
+        return;
+    if (loaded.posed)
+        return takePosed(state, loaded);
+    ++state.loads;
+    const bool other =
+        !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
+    if (other && state.model)
+        state.playing = false;
+    state.picture.model = loaded.options.model;
+    state.picture.shape = loaded.options.shape;
+    state.picture.variant = loaded.options.variant;
+    state.picture.animation = loaded.options.animation;
+    if (!state.playing)
+        state.picture.time = loaded.options.time;
+    state.model = loaded.model;
+    state.hotSpots.reset();
+    if (state.hotSpotsShown)
+        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+    state.statisticsOf.clear();
+    if (other || !state.cameraMoved) {
+        if (state.loads > 1 && other) {
+            state.picture.camera.clear();
+            state.meteredFrom.clear();
+            state.metered = 0;
+        }
+        resetCamera(state);
+    }
+    if (other && !loaded.options.model.empty()) {
+        const std::string file = std::filesystem::absolute(loaded.options.model).lexically_normal().string();
+        std::erase(state.recent, file);
+        state.recent.insert(state.recent.begin(), file);
+        state.recent.resize(std::min(state.recent.size(), kMostRecent));
+    }
+    if (!loaded.model->scene.warnings.empty())
+        state.said = loaded.model->scene.warnings[0];
+}
 
 struct Loader::Work {
     explicit Work(std::function<void()> tell) : done(std::move(tell)), thread([this] { run(); }) {}
@@ -41,37 +150,45 @@ struct Loader::Work {
     {
         std::unique_lock lock(mutex);
         for (;;) {
-            changed.wait(lock, [&] { return stop || next; });
+            changed.wait(lock, [&] { return stop || read || pose || look; });
             if (stop)
                 return;
-            const Task task = std::move(*next);
-            next.reset();
+            const auto toRead = std::exchange(read, std::nullopt);
+            const auto toPose = toRead ? std::nullopt : std::exchange(pose, std::nullopt);
+            const auto toLook = toRead || toPose ? nullptr : std::exchange(look, nullptr);
             working = true;
+            reading = toRead.has_value();
             lock.unlock();
             app::Stopwatch watch;
-            Loaded loaded = guarded(task);
+            Loaded loaded = toRead ? guarded([&] { return readModel(*toRead, ++number, kept); })
+                : toPose           ? guarded([&] { return poseKept(*toPose, ++number, kept); })
+                                   : guarded([&] { return lookAt(*toLook); });
             loaded.seconds = watch.lap();
             lock.lock();
-            working = false;
-            if (!next || task.look)
-                ready = std::move(loaded);
+            working = reading = false;
+            if (!read) // else this is out of date
+                ready.push_back(std::move(loaded));
             if (done)
                 done();
         }
     }
 
-    Loaded guarded(const Task& task)
+    static Loaded lookAt(const Model& model)
+    {
+        Loaded loaded;
+        loaded.hotSpots = hotSpots(model.scene);
+        return loaded;
+    }
+
+    template<class Make> static Loaded guarded(const Make& make)
     {
         Loaded failed;
-        failed.options = task.options;
         try {
-            if (!task.look)
-                return readModel(task.options, ++number);
-            failed.hotSpots = hotSpots(task.look->scene);
+            return make();
         } catch (const std::bad_alloc&) {
-            failed.problem = "not enough memory";
+            failed.error = inputError("not enough memory");
         } catch (const std::exception& e) {
-            failed.problem = e.what();
+            failed.error = inputError(e.what());
         }
         return failed;
     }
@@ -79,10 +196,12 @@ struct Loader::Work {
     std::function<void()> done;
     std::mutex mutex;
     std::condition_variable changed;
-    std::optional<Task> next;
-    std::optional<Loaded> ready;
-    std::uint64_t number = 0;
-    bool working = false, stop = false;
+    std::optional<PictureOptions> read, pose;
+    std::shared_ptr<const Model> look;
+    std::deque<Loaded> ready;
+    LastRead kept;            // of the thread
+    std::uint64_t number = 0; // likewise
+    bool working = false, reading = false, stop = false;
     std::thread thread; // last: it uses all the others
 };
 
@@ -103,7 +222,20 @@ void Loader::read(const PictureOptions& options)
 {
     {
         const std::lock_guard lock(work_->mutex);
-        work_->next = Task{options, nullptr};
+        work_->read = options;
+        work_->pose.reset();
+        work_->look = nullptr;
+    }
+    work_->changed.notify_all();
+}
+
+void Loader::pose(const PictureOptions& options)
+{
+    {
+        const std::lock_guard lock(work_->mutex);
+        if (work_->read || work_->reading)
+            return;
+        work_->pose = options;
     }
     work_->changed.notify_all();
 }
@@ -112,8 +244,7 @@ void Loader::findHotSpots(std::shared_ptr<const Model> model)
 {
     {
         const std::lock_guard lock(work_->mutex);
-        if (!work_->next)
-            work_->next = Task{{}, std::move(model)};
+        work_->look = std::move(model);
     }
     work_->changed.notify_all();
 }
@@ -121,13 +252,23 @@ void Loader::findHotSpots(std::shared_ptr<const Model> model)
 std::optional<Loaded> Loader::take()
 {
     const std::lock_guard lock(work_->mutex);
-    return std::exchange(work_->ready, std::nullopt);
+    if (work_->ready.empty())
+        return std::nullopt;
+    Loaded first = std::move(work_->ready.front());
+    work_->ready.pop_front();
+    return first;
 }
 
 bool Loader::busy() const
 {
     const std::lock_guard lock(work_->mutex);
-    return work_->next || work_->working || work_->ready;
+    return work_->read || work_->pose || work_->look || work_->working || !work_->ready.empty();
+}
+
+bool Loader::reading() const
+{
+    const std::lock_guard lock(work_->mutex);
+    return work_->read || work_->reading;
 }
 
 } // namespace cotan::viewer

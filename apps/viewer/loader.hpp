@@ -10,12 +10,16 @@
 namespace cotan::viewer {
 
 struct Loaded {
+    bool posed = false;                 // the model as before, at another moment
     PictureOptions options;             // that it was read with
-    std::shared_ptr<const Model> model; // null: problem says why
+    std::shared_ptr<const Model> model; // null where there is an error, or nothing but hot spots
     std::optional<std::vector<HotSpot>> hotSpots;
-    std::string problem;
+    std::optional<Error> error;
     double seconds = 0;
 };
+
+// Puts what was read into the state. A model that could not be read leaves the last one, and says why.
+void take(State& state, const Loaded& loaded);
 
 class Loader {
 public:
@@ -25,10 +29,14 @@ public:
 
     // Reads this next; what waits is dropped, what is being read goes on and is forgotten.
     void read(const PictureOptions& options);
+    // Puts the model that was read last into the pose that the options name, without reading its file and decoding its
+    // images again; a pose that waits is dropped. Nothing while a model is being read.
+    void pose(const PictureOptions& options);
     // Looks for hot spots of a model.
     void findHotSpots(std::shared_ptr<const Model> model);
     std::optional<Loaded> take();
-    bool busy() const;
+    bool busy() const;    // something was asked for and is not taken yet
+    bool reading() const; // a file
 
 private:
     struct Work;

@@ -1,16 +1,12 @@
-// Menus, keys and the cheat sheet: one list of entries for all three.
+// Menus and keys: one list of entries for both, and for the cheat sheet.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
-#include "camera.hpp"
 #include "commands.hpp"
 #include "cotan/environment/environment.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/scene/bounds.hpp"
+#include "files.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
 
@@ -50,8 +46,6 @@ private:
     const State& state_;
     std::string menu_;
 };
-
-std::string shortName(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
 void addFileEntries(Entries& e, const State& s)
 {
@@ -139,7 +133,7 @@ void addFrameEntries(Entries& e, const State& s)
             e.add(label, "", before + "convention " + words, side.convention == words);
         e.add("The model's own map", "", before + "normal-map ", side.normalMap.empty());
         if (!side.normalMap.empty())
-            e.add("Map: " + shortName(side.normalMap), "", before + "normal-map " + side.normalMap, true);
+            e.add("Map: " + fileName(side.normalMap), "", before + "normal-map " + side.normalMap, true);
     }
     e.menu("Compare");
     e.add("One picture", "", "compare off", s.compare == Compare::off);
@@ -192,7 +186,7 @@ void addLightEntries(Entries& e, const State& s)
     e.add("No surroundings", "", "set environment none", s.picture.environment == "none");
     const bool file = std::filesystem::path(s.picture.environment).has_extension();
     if (file)
-        e.add(shortName(s.picture.environment), "", "set environment " + s.picture.environment, true);
+        e.add(fileName(s.picture.environment), "", "set environment " + s.picture.environment, true);
     e.line();
     e.add("Turn left", "[", "turn-light -15");
     e.add("Turn right", "]", "turn-light 15");
@@ -224,128 +218,19 @@ void addLightEntries(Entries& e, const State& s)
 void addAnimationEntries(Entries& e, const State& s)
 {
     e.menu("Animation");
+    const std::size_t count = s.model ? s.model->animations.size() : 0;
+    const GltfAnimation* const now = animationOf(s);
     e.add("The file's pose", "", "set animation ", s.picture.animation.empty());
-    for (int i = 0; i < 8; ++i)
-        e.add(fmt::format("Animation {}", i), "", fmt::format("set animation {}", i),
-              s.picture.animation == fmt::format("{}", i), !s.picture.model.empty());
-    e.add("Play", "space", "play", s.playing, !s.picture.animation.empty());
-    e.add("Start", "home", "set time 0", false, !s.picture.animation.empty());
-}
-
-std::string degrees(double value) { return fmt::format("{:.2f}\xc2\xb0", value); }
-
-std::string statusOf(const State& s)
-{
-    std::string text = !s.picture.model.empty() ? shortName(s.picture.model)
-        : !s.picture.shape.empty()              ? s.picture.shape
-                                                : "built-in scene";
-    if (s.model)
-        text += fmt::format("   {} triangles", trianglesDrawn(s.model->scene));
-    const Side& side = sideOf(s, s.compare == Compare::flip && s.second);
-    text += "   " + s.show + ", " + side.frame;
-    if (s.compare == Compare::divider || s.compare == Compare::angle)
-        text += (s.compare == Compare::angle ? " against " : " | ") + s.b.frame;
-    if (s.statisticsShown && !s.statisticsOf.empty())
-        text += s.statistics.count > 0
-            ? fmt::format("   {}: mean {}, 95 % {}, most {}", s.statisticsOf, degrees(s.statistics.mean),
-                          degrees(s.statistics.percentile95), degrees(s.statistics.maximum))
-            : fmt::format("   {}: no normal map is seen", s.statisticsOf);
-    text += "   " + s.device;
-    if (s.drawSeconds > 0)
-        text += fmt::format(" ({:.0f} ms)", s.drawSeconds * 1000);
-    return s.said.empty() ? text : s.said + "\n" + text;
-}
-
-std::vector<Slider> slidersOf(const State& s)
-{
-    const auto number = [&](const char* name) { return std::atof(valueOf(*findSetting(name), s.picture).c_str()); };
-    std::vector<Slider> sliders = {
-        {"exposure", "set exposure", "", s.picture.exposure == "auto" ? s.metered : number("exposure"), 0.05, 20, true},
-        {"light turned", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},
-        {"light", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
-        {"shadow softness", "set shadow-softness", "degrees", number("shadow-softness"), 0, 60},
-    };
-    if (s.picture.shadowSoftness < 0) // that of the lamp
-        sliders.back().value = s.picture.environment == "evening" ? 3 : 10;
-    if (s.compare == Compare::divider)
-        sliders.push_back({"divider", "divider", "", s.divider, 0, 1});
-    if (!s.picture.animation.empty())
-        sliders.push_back({"time", "set time", "s", s.picture.time, 0, 10});
-    return sliders;
-}
-
-std::string vectorText(const glm::vec3& v) { return fmt::format("{:.2f} {:.2f} {:.2f}", v.x, v.y, v.z); }
-
-std::vector<std::string> cardOf(const State& s)
-{
-    const Probed& p = s.probe.surface;
-    const Hit& hit = *s.probe.hit;
-    std::vector<std::string> card;
-    if (s.probe.degrees >= 0)
-        card.push_back(degrees(s.probe.degrees) + " " + s.statisticsOf);
-    card.push_back(fmt::format("mesh {}, triangle {}", hit.mesh, hit.triangle));
-    card.push_back(p.hasUv ? fmt::format("uv {:.4f} {:.4f}", p.uv.x, p.uv.y) : "no uv");
-    if (p.texel.x >= 0)
-        card.push_back(fmt::format("texel {} {}", p.texel.x, p.texel.y));
-    if (p.w != 0)
-        card.push_back(fmt::format("w {:+d}", p.w));
-    card.push_back("t " + vectorText(p.t));
-    card.push_back("b " + vectorText(p.b));
-    card.push_back("n " + vectorText(p.normal));
-    if (p.storedTangent != glm::vec3(0))
-        card.push_back("stored t " + vectorText(p.storedTangent));
-    return card;
-}
-
-// The frame on the surface, 60 pixels long.
-std::vector<Line2D> arrowsOf(const State& s)
-{
-    const Hit& hit = *s.probe.hit;
-    const Probed& p = s.probe.surface;
-    const float length = 60 * unitsOfPixel(s.camera, s.camera.orthographic ? 1 : hit.depth, s.size);
-    const glm::vec2 from(onPicture(s.camera, hit.position, s.size));
-    std::vector<Line2D> lines;
-    const auto add = [&](const glm::vec3& direction, const glm::vec3& color, const char* name, float share) {
-        const float size = glm::length(direction);
-        if (!(size > 0))
-            return;
-        const glm::vec3 to = onPicture(s.camera, hit.position + direction / size * length * share, s.size);
-        if (to.z > 0)
-            lines.push_back({from, glm::vec2(to), color, name});
-    };
-    add(p.storedTangent, {0.95f, 0.85f, 0.2f}, "stored", 1.25f);
-    add(p.t, {0.95f, 0.3f, 0.25f}, "t", 1);
-    add(p.b, {0.35f, 0.85f, 0.3f}, "b", 1);
-    add(p.normal, {0.4f, 0.6f, 1}, "n", 1);
-    return lines;
-}
-
-// The false colours of degrees.
-std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
-{
-    const std::vector<float> stops = {0, 0.5f, 2, 5, 15, 45};
-    const Image heat = heatMap(stops, int(stops.size()), 1);
-    std::vector<std::pair<double, glm::vec3>> scale;
-    for (std::size_t i = 0; i < stops.size(); ++i) {
-        const std::uint8_t* c = heat.bytes8() + 4 * i;
-        scale.emplace_back(double(stops[i]), glm::vec3(c[0], c[1], c[2]) / 255.0f);
+    for (std::size_t i = 0; i < count; ++i) {
+        const GltfAnimation& a = s.model->animations[i];
+        e.add(fmt::format("{}: {}, {:.3g} s", i, a.name.empty() ? "without a name" : a.name, a.seconds), "",
+              fmt::format("set animation {}", i), &a == now);
     }
-    return scale;
-}
-
-// A line of the cheat sheet; the keys 1 to 9 of a menu share one, which says what is chosen.
-void addToSheet(const Entry& entry, std::vector<std::pair<std::string, std::string>>& sheet)
-{
-    const std::string before = entry.key.substr(0, entry.key.size() - std::min<std::size_t>(entry.key.size(), 1));
-    const bool digit = (before.empty() || before == "shift+" || before == "alt+") && !entry.key.empty()
-        && entry.key.back() >= '1' && entry.key.back() <= '9';
-    const std::string shared = entry.menu + ": ";
-    if (digit && (sheet.empty() || !sheet.back().second.starts_with(shared)))
-        sheet.emplace_back(before + "1 ... 9", shared);
-    if (!sheet.empty() && sheet.back().second == shared && entry.on)
-        sheet.back().second += entry.label;
-    else if (!digit && !entry.key.empty())
-        sheet.emplace_back(entry.key, entry.label + (entry.on ? ": on" : ""));
+    e.line();
+    e.add("Play", "space", "play", s.playing, count > 0);
+    e.add("Over and over", "", "toggle loop", s.loops, count > 0);
+    e.add("Start", "home", "set time 0", false, now != nullptr);
+    e.add("End", "end", fmt::format("set time {}", now ? now->seconds : 0), false, now != nullptr);
 }
 
 } // namespace
@@ -370,51 +255,6 @@ std::string commandOfKey(const State& state, const std::string& key)
         if (!entry.key.empty() && entry.key == key && entry.usable)
             return entry.command;
     return {};
-}
-
-Interface interfaceOf(const State& s)
-{
-    Interface i;
-    i.shown = s.interfaceShown;
-    i.dark = s.dark;
-    i.scale = s.scale;
-    i.cheatSheet = s.cheatSheet;
-    i.slidersShown = s.settingsShown;
-    i.hotSpotsShown = s.hotSpotsShown;
-    for (const Entry& entry : entriesOf(s)) {
-        if (i.menus.empty() || i.menus.back().title != entry.menu)
-            i.menus.push_back({entry.menu, {}});
-        i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable});
-        addToSheet(entry, i.sheet);
-    }
-    for (const auto& [keys, what] : {std::pair("left drag", "turn"),
-                                     {"middle, right drag", "move"},
-                                     {"wheel", "zoom to the pointer"},
-                                     {"click", "pivot"},
-                                     {"shift drag", "turn the light"},
-                                     {"w a s d q e + right", "fly"}})
-        i.sheet.emplace_back(keys, what);
-    i.sliders = slidersOf(s);
-    i.status = statusOf(s);
-    i.problem = s.problem;
-    i.progress = s.progress;
-    i.doing = s.loading.empty() ? "" : "loading " + s.loading;
-    if (s.cardShown && s.interfaceShown && s.probe.hit && s.held.empty()) {
-        i.card = cardOf(s);
-        i.cardAt = s.pointer;
-        i.lines = arrowsOf(s);
-    }
-    if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
-        i.scaleBar = scaleOfDegrees();
-    if (s.hotSpots)
-        for (std::size_t k = 0; k < s.hotSpots->size(); ++k)
-            i.hotSpots.push_back({(*s.hotSpots)[k].text, fmt::format("hot-spot {}", k)});
-    if (s.compare == Compare::divider && s.interfaceShown) {
-        i.divider = s.divider * float(s.size.x);
-        i.leftName = s.a.frame;
-        i.rightName = s.b.frame;
-    }
-    return i;
 }
 
 } // namespace cotan::viewer

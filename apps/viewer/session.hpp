@@ -18,8 +18,9 @@ struct SessionOptions {
     bool validation = false;      // messages of the validation layer are an error at the end
 };
 
-// Until someone quits, or all that is played is done. Errors: those of openWindow; ErrorKind::input for played commands
-// that cannot be done, the first of them; ErrorKind::output where the recording cannot be written.
+// Until someone quits, or all that is played is done. Errors: those of reading the first model where events are played
+// or there is no window (else the window says them and stays); those of openWindow; ErrorKind::input for played
+// commands that cannot be done, the first of them; ErrorKind::output where the recording cannot be written.
 Status runSession(State state, const SessionOptions& options);
 
 // The interface's part of the state, its light and the files that were opened, as lines; and back, as far as options

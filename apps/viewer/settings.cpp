@@ -46,8 +46,8 @@ std::span<const Setting> settings()
         {"shading", &Options::shading, {"pbr", "blinn-phong"}},
         {"derivatives", &Options::derivatives, {"fine", "coarse"}},
         {"variant", &Options::variant, {}, 0, 0, false, true},
-        {"animation", &Options::animation, {}, 0, 0, false, true},
-        {"time", &Options::time, {}, 0, 1e6, false, true},
+        {"animation", &Options::animation, {}, 0, 0, false, false, true},
+        {"time", &Options::time, {}, 0, 1e6, false, false, true},
         {"shape", &Options::shape, {"", "plane", "sphere", "torus", "teapot"}, 0, 0, false, true},
     };
     return all;

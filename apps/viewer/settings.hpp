@@ -18,6 +18,7 @@ struct Setting {
     double low = 0, high = 0;         // of numbers
     bool meters = false;              // the exposure is found again
     bool loads = false;               // the model is read again
+    bool poses = false;               // it is put into another pose
 };
 
 std::span<const Setting> settings();

@@ -8,7 +8,9 @@
 
 #include "camera.hpp"
 #include "cotan/draw/camera_words.hpp"
+#include "cotan/parse_number.hpp"
 #include "cotan/scene/bounds.hpp"
+#include "files.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {
@@ -43,6 +45,19 @@ std::string textOf(const glm::vec3& v)
 }
 
 } // namespace
+
+const GltfAnimation* animationOf(const State& state)
+{
+    const std::string& wanted = state.picture.animation;
+    if (!state.model || wanted.empty())
+        return nullptr;
+    const auto& all = state.model->animations;
+    const auto named = std::ranges::find(all, wanted, &GltfAnimation::name);
+    if (named != all.end())
+        return &*named;
+    std::size_t number = 0;
+    return parseNumber(std::string_view(wanted), number) && number < all.size() ? &all[number] : nullptr;
+}
 
 PictureOptions optionsOf(const State& state, bool second)
 {
@@ -142,7 +157,7 @@ std::string reportOf(const State& state)
     std::string text;
     const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
     add("model",
-        !state.picture.model.empty()       ? std::filesystem::path(state.picture.model).filename().string()
+        !state.picture.model.empty()       ? fileName(state.picture.model)
             : !state.picture.shape.empty() ? state.picture.shape
                                            : "built-in");
     add("triangles", state.model ? fmt::format("{}", trianglesDrawn(state.model->scene)) : "none");
@@ -152,7 +167,7 @@ std::string reportOf(const State& state)
         const Side& side = sideOf(state, second);
         add(second ? "second" : "first",
             fmt::format("{} {} {} {}", side.frame, side.tangents,
-                        side.normalMap.empty() ? "-" : std::filesystem::path(side.normalMap).filename().string(),
+                        side.normalMap.empty() ? "-" : fileName(side.normalMap),
                         side.convention.empty() ? "-" : side.convention));
     }
     add("compare", compareName(state.compare) + (state.second ? " second" : ""));
@@ -165,6 +180,7 @@ std::string reportOf(const State& state)
                                   : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
     for (const Setting& setting : settings())
         add(setting.name, valueOf(setting, state.picture));
+    add("playing", state.playing ? "yes" : "no");
     add("metered", fmt::format("{:.4f}", state.metered));
     add("light pinned", state.lightPinned ? "yes" : "no");
     add("interface", state.interfaceShown ? "shown" : "hidden");

@@ -23,7 +23,9 @@ namespace cotan::viewer {
 struct Model {
     Scene scene;
     Bounds box;
-    std::uint64_t number = 0; // another for each that is read
+    PictureOptions read;                   // that it was read with
+    std::vector<GltfAnimation> animations; // that it has
+    std::uint64_t number = 0;              // another for each that is read
 };
 
 // What one of two pictures differs in from the other.
@@ -46,7 +48,8 @@ enum class Compare {
 // What is done by the session and not by a change of the state.
 struct Wish {
     enum class Kind {
-        load,        // picture.model, from its file
+        load,        // text: a model, from its file; empty: the shape or the built-in scene
+        pose,        // the model at picture.time of picture.animation
         writeFile,   // text: a file for the picture; size
         writeWindow, // text: a file for what the window shows
         writeReport, // text: a file
@@ -88,7 +91,7 @@ struct State {
     float pinnedAt = 0;          // azimuth of the camera when it was pinned, degrees
     bool moving = false;         // the camera is in someone's hand
     float rate = 1, speed = 0.5; // of the animation; of flying, model sizes a second
-    bool playing = false;
+    bool playing = false, loops = true;
 
     std::shared_ptr<const Model> model;           // null until the first one is read
     std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
@@ -118,6 +121,9 @@ struct State {
 
     std::vector<Wish> wishes;
 };
+
+// The animation of the model that picture.animation names; null where there is none.
+const GltfAnimation* animationOf(const State& state);
 
 // What draws the first picture, or the second.
 PictureOptions optionsOf(const State& state, bool second);

@@ -29,6 +29,17 @@ struct Shown {
     std::uint64_t serial = 0;       // differs where a picture differs
 };
 
+// What became of a dialog for a file.
+struct FileAnswer {
+    enum State {
+        none,    // nobody asked
+        open,    // someone is choosing
+        closed,  // done; path is empty where nothing was chosen
+        refused, // there is no such dialog here
+    } state = none;
+    std::string path; // or a file:// URI
+};
+
 class Window {
 public:
     virtual ~Window() = default;
@@ -48,6 +59,10 @@ public:
     virtual void setTitle(const std::string& title) = 0;
     virtual std::string clipboard() = 0;
     virtual void setClipboard(const std::string& text) = 0;
+    // The desktop's own dialog; folder: to begin in. What became of it comes from fileAnswer(), once where it is not
+    // open.
+    virtual void askForFile(const std::string& folder) = 0;
+    virtual FileAnswer fileAnswer() = 0;
     virtual void loseSurface() = 0; // for tests: the next show() makes it anew
     virtual std::string device() const = 0;
     virtual const std::vector<std::string>& messages() const = 0; // of the validation layer

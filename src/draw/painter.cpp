@@ -36,6 +36,7 @@ public:
 
     std::string device() const override { return renderer_.deviceName(); }
     double uploadSeconds() const override { return renderer_.timings().upload; }
+    std::vector<std::string> messages() const override { return renderer_.messages(); }
 
 private:
     Status loadScene(const Scene& scene) override { return renderer_.load(scene); }
@@ -44,9 +45,10 @@ private:
     Renderer renderer_;
 };
 
-Result<std::unique_ptr<Painter>> openVulkan(const std::string& device)
+Result<std::unique_ptr<Painter>> openVulkan(const std::string& device, bool validation)
 {
     RendererOptions options;
+    options.validation = validation;
     options.device = device == "auto" ? "" : device;
     auto renderer = Renderer::create(options);
     if (!renderer)
@@ -54,7 +56,7 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string& device)
     return std::unique_ptr<Painter>(std::make_unique<VulkanPainter>(std::move(*renderer)));
 }
 #else
-Result<std::unique_ptr<Painter>> openVulkan(const std::string&)
+Result<std::unique_ptr<Painter>> openVulkan(const std::string&, bool)
 {
     return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
@@ -80,11 +82,11 @@ Result<Image> Painter::draw(const View& view)
     return drawLoaded(view);
 }
 
-Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads)
+Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads, bool validation)
 {
     std::string note;
     if (device != "reference") {
-        auto vulkan = openVulkan(device);
+        auto vulkan = openVulkan(device, validation);
         if (vulkan || device != "auto")
             return vulkan;
         note = vulkan.error().message + "; drawing with the reference renderer";

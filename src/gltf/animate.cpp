@@ -177,7 +177,37 @@ std::size_t findAnimation(const Json& root, const std::string& wanted)
     return findNamed(names, wanted, "animations");
 }
 
+// Seconds; 0 where the accessor does not hold times.
+double lastKey(const GltfModel& model, int input)
+{
+    const gltf::Elements& times = model.accessors[std::size_t(input)];
+    const Accessor& a = times.accessor;
+    if (a.type != ElementType::scalar || a.componentType != gltf::kFloat || a.count == 0)
+        return 0;
+    float last = 0;
+    const std::vector<std::uint32_t> chosen = {std::uint32_t(a.count - 1)};
+    gltf::readFloats(times, Choice(a.count, chosen), 1, &last);
+    return std::max(double(last), 0.0);
+}
+
 } // namespace
+
+std::vector<GltfAnimation> gltfAnimations(GltfModel& model)
+{
+    const Json* const list = gltf::member(model.file.json, "animations");
+    std::vector<GltfAnimation> all(list ? list->size() : 0);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i].name = oneLine(gltf::valueOr((*list)[i], "name", std::string()));
+    try {
+        checkGltfAnimations(model.file.json);
+    } catch (const GltfProblem&) {
+        return all;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const Json& sampler : (*list)[i]["samplers"])
+            all[i].seconds = std::max(all[i].seconds, lastKey(model, sampler["input"].get<int>()));
+    return all;
+}
 
 void poseGltf(GltfModel& model)
 {

@@ -1,6 +1,9 @@
 // A model at a moment of one of its animations.
 #pragma once
 
+#include <vector>
+
+#include "cotan/gltf/animated.hpp"
 #include "model.hpp"
 
 namespace cotan {
@@ -11,5 +14,8 @@ namespace cotan {
 // Throws GltfProblem: ErrorKind::usage where the model has no such animation; damaged channels. Source: glTF 2.0,
 // section 3.11 and appendix C.
 void poseGltf(GltfModel& model);
+
+// The animations of the file and how long they are. Never fails: what is damaged in one is said where it is asked for.
+std::vector<GltfAnimation> gltfAnimations(GltfModel& model);
 
 } // namespace cotan

@@ -3,6 +3,8 @@
 #include <new>
 #include <tuple>
 
+#include "animate.hpp"
+#include "cotan/gltf/animated.hpp"
 #include "cotan/gltf/load.hpp"
 #include "material.hpp"
 #include "mesh.hpp"
@@ -31,15 +33,20 @@ public:
     {
     }
 
-    void build()
+    // images: in the place of those that would be decoded; null: decode them.
+    void build(const std::vector<Image>* images)
     {
         readSkins();
         placeMeshes();
         checkUnusedMeshes();
         scene_.lights = readGltfLights(model_, nodes_);
         scene_.cameras = readGltfCameras(model_, nodes_);
-        materials_.checkUnusedImages();
-        materials_.decodeImages();
+        if (images && images->size() == scene_.images.size()) {
+            scene_.images = *images;
+        } else {
+            materials_.checkUnusedImages();
+            materials_.decodeImages();
+        }
         if (scene_.instances.empty())
             model_.warnings.add("scene", "nothing to draw: no triangles");
     }
@@ -153,19 +160,29 @@ private:
     std::map<MeshUse, std::vector<int>> made_;
 };
 
-Scene load(const std::filesystem::path& path, const LoadLimits& limits)
+void open(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
 {
-    GltfModel model;
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
     readGltfModel(model);
-    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
-    model.file.json = std::move(images);
+}
+
+Scene build(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
+{
     Scene scene;
     scene.name = path.stem().string();
-    SceneBuilder(model, scene).build();
+    SceneBuilder(model, scene).build(images);
     scene.warnings = model.warnings.lines();
     return scene;
+}
+
+Scene load(const std::filesystem::path& path, const LoadLimits& limits)
+{
+    GltfModel model;
+    open(model, path, limits);
+    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
+    model.file.json = std::move(images);
+    return build(model, path, nullptr);
 }
 
 } // namespace
@@ -173,6 +190,51 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits)
 {
     return caughtGltf(file, [&] { return load(file, limits); });
+}
+
+struct AnimatedGltf::Work {
+    std::filesystem::path path;
+    GltfModel model;
+    // As they were when it was opened: a pose changes them.
+    std::vector<gltf::Node> nodes;
+    GltfWarnings warnings;
+    std::size_t bytesTaken = 0;
+    std::vector<GltfAnimation> animations;
+};
+
+AnimatedGltf::AnimatedGltf(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+AnimatedGltf::~AnimatedGltf() = default;
+
+Result<std::unique_ptr<AnimatedGltf>> AnimatedGltf::open(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    return caughtGltf(file, [&] {
+        auto work = std::make_unique<Work>();
+        work->path = file;
+        LoadLimits atRest = limits;
+        atRest.pose = {};
+        cotan::open(work->model, file, atRest);
+        work->nodes = work->model.structure.nodes;
+        work->animations = gltfAnimations(work->model);
+        work->warnings = work->model.warnings;
+        work->bytesTaken = work->model.bytesTaken;
+        return std::unique_ptr<AnimatedGltf>(new AnimatedGltf(std::move(work)));
+    });
+}
+
+const std::vector<GltfAnimation>& AnimatedGltf::animations() const { return work_->animations; }
+
+Result<Scene> AnimatedGltf::at(const Pose& pose, const std::vector<Image>* images)
+{
+    return caughtGltf(work_->path, [&] {
+        GltfModel& model = work_->model;
+        model.structure.nodes = work_->nodes;
+        model.warnings = work_->warnings;
+        model.bytesTaken = work_->bytesTaken;
+        model.verticesTaken = model.trianglesTaken = 0;
+        model.limits.pose = pose;
+        poseGltf(model);
+        return build(model, work_->path, images);
+    });
 }
 
 } // namespace cotan

@@ -9,6 +9,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "cotan/lint/lint.hpp"
+#include "cotan/lint/stored_corner.hpp"
 #include "cotan/lint/triangle_uv.hpp"
 #include "cotan/scene/bounds.hpp"
 
@@ -56,12 +57,66 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh,
     return camera;
 }
 
+// What lint counts, in its words.
+struct Kind {
+    std::string words;
+    const char* here; // the value at the worst triangle; empty: it has none
+    double bad = 0;   // of a value of one
+};
+
+const std::array<Kind, 5>& kinds()
+{
+    static const std::array<Kind, 5> all = {
+        {{"uv without area", "", 3},
+         {fmt::format("stretched over {:.1f}", kStretched), ", here {:.3g}", 0.5},
+         {fmt::format("sheared over {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0},
+         {"stored w against the uv", "", 3},
+         {fmt::format("stored tangents turned over {:.0f} degrees", kTurned), ", here {:.0f}", 1 / 45.0}}};
+    return all;
+}
+
+struct Found {
+    std::array<Worst, 5> worst;
+    double area = 0, compared = 0; // of all triangles; of those whose stored tangents were compared
+
+    double shareOf(std::size_t kind) const
+    {
+        const double whole = kind < 3 ? area : compared;
+        return whole > 0 ? worst[kind].area / whole : 0;
+    }
+};
+
+Found findOn(const MappedSurface& surface)
+{
+    Found found;
+    for (std::size_t i = 0; i < surface.triangleCount(); ++i) {
+        const double area = areaOf(surface, i);
+        found.area += area;
+        const TriangleUv t = triangleUv(surface, i);
+        if (!t.usable)
+            continue;
+        if (t.degenerate)
+            found.worst[0].take(1, area, i);
+        if (t.stretch > kStretched)
+            found.worst[1].take(t.stretch, area, i);
+        if (t.shear > kSheared)
+            found.worst[2].take(t.shear, area, i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const StoredCorner corner = storedCorner(surface, i, k);
+            found.compared += corner.compared ? area / 3 : 0;
+            if (corner.compared && corner.reversed)
+                found.worst[3].take(1, area / 3, i);
+            if (corner.compared && corner.degrees > kTurned)
+                found.worst[4].take(corner.degrees, area / 3, i);
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
 {
-    constexpr std::array<const char*, 4> kKinds = {"uv without area", "stretch {:.2g} : 1", "shear {:.0f} degrees",
-                                                   "stored tangent on the wrong side"};
     std::vector<HotSpot> spots;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
@@ -72,34 +127,18 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
         const MappedSurface surface = makeSurface(mesh, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)));
         if (surface.uv.empty())
             continue;
-        std::array<Worst, 4> worst;
-        double whole = 0;
-        for (std::size_t i = 0; i < mesh.triangleCount(); ++i) {
-            const double area = areaOf(surface, i);
-            const TriangleUv t = triangleUv(surface, i);
-            whole += area;
-            if (!t.usable)
-                continue;
-            if (t.degenerate) {
-                worst[0].take(1, area, i);
-                continue;
-            }
-            if (t.stretch > kStretched)
-                worst[1].take(t.stretch, area, i);
-            if (t.shear > kSheared)
-                worst[2].take(t.shear, area, i);
-            if (!mesh.tangents.empty() && t.orientation != 0
-                && (mesh.tangents[mesh.indices[3 * i]].w < 0) != (t.orientation < 0))
-                worst[3].take(1, area, i);
-        }
-        for (std::size_t k = 0; k < worst.size(); ++k) {
-            const double share = whole > 0 ? worst[k].area / whole : 0;
+        const Found found = findOn(surface);
+        for (std::size_t k = 0; k < found.worst.size(); ++k) {
+            const Worst& worst = found.worst[k];
+            const double share = found.shareOf(k);
             if (share < 0.001)
                 continue;
-            const double bad = k == 1 ? worst[k].value - 1 : k == 2 ? worst[k].value / 45 : 3;
-            spots.push_back({fmt::format("{}, {:.0f} % of {}", fmt::format(fmt::runtime(kKinds[k]), worst[k].value),
-                                         share * 100, mesh.name.empty() ? fmt::format("mesh {}", m) : mesh.name),
-                             bad * share, lookingAt(scene, *instance, mesh, worst[k].triangle)});
+            const std::string name = mesh.name.empty() ? fmt::format("mesh {}", m) : mesh.name;
+            const Kind& kind = kinds()[k];
+            const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
+                + fmt::format(fmt::runtime(kind.here), worst.value);
+            spots.push_back(
+                {text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, mesh, worst.triangle)});
         }
     }
     std::ranges::stable_sort(spots, std::greater(), &HotSpot::badness);

@@ -2,7 +2,33 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/lint/stored_corner.hpp"
 #include "parts.hpp"
+
+namespace cotan {
+
+StoredCorner storedCorner(const MappedSurface& s, std::size_t triangle, std::size_t corner)
+{
+    StoredCorner result;
+    if (s.stored.empty() || orientationOf(s, triangle) == 0)
+        return result;
+    glm::dvec3 at(0);
+    at[int(corner)] = 1;
+    // Tangent first: t along dP/du, b on the side of +v.
+    const f64::cotan_frame f = frameAt(s, Frame::orthonormal, TangentOrigin::generated, triangle, at);
+    if (f.t == glm::dvec3(0))
+        return result;
+    const glm::dvec4 stored = s.stored[3 * triangle + corner];
+    const glm::dvec3 t =
+        f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
+    const double expected = glm::dot(glm::cross(f.n, f.t), f.b) < 0 ? -1 : 1;
+    result.compared = true;
+    result.reversed = stored.w * expected < 0;
+    result.degrees = t == glm::dvec3(0) ? 180 : lint::degreesBetween(t, f.t);
+    return result;
+}
+
+} // namespace cotan
 
 namespace cotan::lint {
 
@@ -15,25 +41,15 @@ StoredTangents storedTangents(const MappedSurface& s)
     double compared = 0;
     std::vector<std::pair<double, double>> angles;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
-        if (orientationOf(s, i) == 0)
-            continue;
         const double third = areaOf(s, i) / 3;
         for (std::size_t k = 0; k < 3; ++k) {
-            glm::dvec3 corner(0);
-            corner[int(k)] = 1;
-            // Tangent first: t along dP/du, b on the side of +v.
-            const f64::cotan_frame f = frameAt(s, Frame::orthonormal, TangentOrigin::generated, i, corner);
-            const glm::dvec4 stored = s.stored[3 * i + k];
-            const glm::dvec3 t =
-                f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
-            if (f.t == glm::dvec3(0))
+            const StoredCorner corner = storedCorner(s, i, k);
+            if (!corner.compared)
                 continue;
             compared += third;
-            const double expected = glm::dot(glm::cross(f.n, f.t), f.b) < 0 ? -1 : 1;
-            result.reversedW += stored.w * expected < 0 ? third : 0;
-            const double degrees = t == glm::dvec3(0) ? 180 : degreesBetween(t, f.t);
-            result.turned += degrees > kTurned ? third : 0;
-            angles.emplace_back(degrees, third);
+            result.reversedW += corner.reversed ? third : 0;
+            result.turned += corner.degrees > kTurned ? third : 0;
+            angles.emplace_back(corner.degrees, third);
         }
     }
     result.reversedW /= compared; // of nothing: NaN

@@ -9,6 +9,7 @@
 
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/draw/exposure.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/inspect/inspection.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/parse_number.hpp"
@@ -89,7 +90,9 @@ bool keepsFloats(const std::filesystem::path& file)
 
 bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
 
-Result<Scene> openModel(const PictureOptions& options)
+namespace {
+
+Status checkModelOptions(const PictureOptions& options)
 {
     const bool none = options.model.empty();
     if (!none && !options.shape.empty())
@@ -99,16 +102,63 @@ Result<Scene> openModel(const PictureOptions& options)
     if (options.animation.empty() ? options.time > 0 : none)
         return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
                                                     : "--animation: expected a model; found the built-in scene");
-    if (none)
-        return options.shape.empty() ? builtinScene() : shapeScene(options.shape);
+    return Done{};
+}
+
+LoadLimits limitsOf(const PictureOptions& options)
+{
     LoadLimits limits = limitsFor(options.memory);
     limits.pose = {options.animation, options.time};
     limits.variant = options.variant;
-    auto scene = loadScene(options.model, limits);
+    return limits;
+}
+
+Result<Scene> checkedScene(Result<Scene> scene)
+{
     if (scene)
         if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
             return ok.error();
     return scene;
+}
+
+} // namespace
+
+Result<Scene> openModel(const PictureOptions& options)
+{
+    if (const Status usage = checkModelOptions(options); !usage)
+        return usage.error();
+    if (options.model.empty())
+        return options.shape.empty() ? builtinScene() : shapeScene(options.shape);
+    return checkedScene(loadScene(options.model, limitsOf(options)));
+}
+
+Result<MovingModel> openMovingModel(const PictureOptions& options)
+{
+    MovingModel model;
+    const std::string ending = lowerExtension(options.model);
+    if ((ending != ".gltf" && ending != ".glb") || !checkModelOptions(options)) {
+        auto scene = openModel(options);
+        if (!scene)
+            return scene.error();
+        model.scene = std::move(*scene);
+        return model;
+    }
+    const LoadLimits limits = limitsOf(options);
+    auto opened = AnimatedGltf::open(options.model, limits);
+    if (!opened)
+        return opened.error();
+    auto scene = checkedScene((*opened)->at(limits.pose));
+    if (!scene)
+        return scene.error();
+    model.scene = std::move(*scene);
+    if (!(*opened)->animations().empty())
+        model.animated = std::move(*opened);
+    return model;
+}
+
+Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images)
+{
+    return model.at({options.animation, options.time}, &images);
 }
 
 Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,

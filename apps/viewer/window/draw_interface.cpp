@@ -50,11 +50,10 @@ void drawSliders(const Interface& interface, Commands& chosen)
         return;
     const float line = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({line / 2, 2 * line}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSize({18 * line, 0}, ImGuiCond_Appearing);
-    if (ImGui::Begin("Settings", nullptr, kPanel))
+    if (ImGui::Begin("Settings", nullptr, kPanel | ImGuiWindowFlags_AlwaysAutoResize))
         for (const Slider& slider : interface.sliders) {
             float value = float(slider.value);
-            ImGui::SetNextItemWidth(-7 * line);
+            ImGui::SetNextItemWidth(9 * line);
             const ImGuiSliderFlags flags = slider.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
             const std::string format = "%.3g " + slider.unit;
             if (ImGui::SliderFloat(slider.label.c_str(), &value, float(slider.low), float(slider.high), format.c_str(),
@@ -175,11 +174,12 @@ void drawHotSpots(const Interface& interface, Commands& chosen)
         return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
-    ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Appearing, {1, 0});
-    ImGui::SetNextWindowSize({std::min(20 * line, size.x * 0.5f), size.y * 0.4f}, ImGuiCond_Appearing);
-    if (ImGui::Begin("Hot spots", nullptr, kPanel)) {
+    ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowSizeConstraints({8 * line, 0}, {std::max(8 * line, size.x * 0.6f), size.y * 0.4f});
+    if (ImGui::Begin("Hot spots", nullptr,
+                     kPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar)) {
         if (interface.hotSpots.empty())
-            ImGui::TextWrapped("nothing found, or not looked yet");
+            ImGui::TextUnformatted("nothing found, or not looked yet");
         int number = 0;
         for (const Choice& spot : interface.hotSpots) {
             ImGui::PushID(number++);

@@ -17,6 +17,7 @@
 #include <glm/common.hpp>
 
 #include "draw_interface.hpp"
+#include "portal.hpp"
 #include "presenter.hpp"
 
 namespace cotan::viewer {
@@ -250,6 +251,8 @@ public:
         return text ? text : "";
     }
     void setClipboard(const std::string& text) override { glfwSetClipboardString(window_, text.c_str()); }
+    void askForFile(const std::string& folder) override { portal_.ask(folder); }
+    FileAnswer fileAnswer() override { return portal_.answer(); }
     void loseSurface() override { presenter_->loseSurface(); }
     std::string device() const override { return presenter_->device(); }
     const std::vector<std::string>& messages() const override { return presenter_->messages; }
@@ -348,6 +351,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     std::unique_ptr<Presenter> presenter_;
+    Portal portal_;
     std::vector<Event> events_;
     glm::vec2 pointer_{-1, -1}, wheel_{0, 0};
     std::array<bool, 3> buttons_{};

@@ -22,6 +22,7 @@ public:
 };
 
 void check(VkResult code, const char* call);
+#define COTAN_CHECK(call) ::cotan::viewer::check(call, #call)
 
 // A struct of Vulkan with all else zero.
 template<class T> T made(VkStructureType type)
@@ -29,6 +30,17 @@ template<class T> T made(VkStructureType type)
     T value{};
     value.sType = type;
     return value;
+}
+
+// What a function of Vulkan lists when it is called twice: get(&count, nullptr), then with room for them.
+template<class T, class Get> std::vector<T> listOf(Get get)
+{
+    std::uint32_t count = 0;
+    get(&count, static_cast<T*>(nullptr));
+    std::vector<T> list(count);
+    get(&count, list.data());
+    list.resize(count);
+    return list;
 }
 
 // Owns all that it makes. One thread. Errors are thrown as VulkanFailed, and as std::runtime_error where nothing can

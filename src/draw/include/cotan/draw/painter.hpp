@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cotan/progress.hpp"
 #include "cotan/result.hpp"
@@ -36,6 +37,8 @@ public:
     virtual std::string device() const = 0;
     // What the last load took to copy to the device, in seconds; 0 for the reference renderer.
     virtual double uploadSeconds() const { return 0; }
+    // What Vulkan's validation layer has said so far, where openPainter was asked for it.
+    virtual std::vector<std::string> messages() const { return {}; }
 
     // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
     // 1 and from several threads. Where it says to stop, draw returns ErrorKind::stopped.
@@ -52,8 +55,10 @@ private:
 
 // Opens a device. `device`: "reference"; "auto" is the best Vulkan device, and the reference renderer where
 // there is none (`note` then says why); anything else is a part of a Vulkan device's name, in any case.
-// threads: of the reference renderer; 0 means all cores. No picture depends on it.
+// threads: of the reference renderer; 0 means all cores. No picture depends on it. validation: ask for Vulkan's
+// validation layer; that it is not installed is the first of the messages then.
 // Errors: ErrorKind::unavailable, never for "auto" and "reference".
-Result<std::unique_ptr<Painter>> openPainter(const std::string& device = "auto", int threads = 0);
+Result<std::unique_ptr<Painter>> openPainter(const std::string& device = "auto", int threads = 0,
+                                             bool validation = false);
 
 } // namespace cotan

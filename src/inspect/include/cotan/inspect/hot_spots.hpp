@@ -9,13 +9,16 @@
 namespace cotan {
 
 struct HotSpot {
-    std::string text; // "shear 63 degrees, 12 % of body"
-    double badness = 0;
-    Camera camera; // looks at the worst triangle of its kind along its normal
+    std::string text; // "sheared over 10 degrees: 12.3 % of body, here 63"
+    std::size_t mesh = 0;
+    double share = 0;   // of the mesh's area, as lint has it
+    double badness = 0; // what the list is sorted by
+    Camera camera;      // looks at the worst triangle of its kind along its normal
 };
 
-// For each mesh and each of: uv without area, stretch over kStretched, shear over kSheared (cotan/lint/lint.hpp), a
-// stored tangent whose side is not that of the uv. The worst first; at most `most`.
+// For each mesh, as its first instance moves it, and each of these that lint (cotan/lint/lint.hpp) finds on it: uv
+// without area, stretched over kStretched, sheared over kSheared; w of stored tangents against the uv, stored tangents
+// turned over kTurned. The worst first; at most `most`.
 std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most = 50);
 
 } // namespace cotan

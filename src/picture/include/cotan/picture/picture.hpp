@@ -11,6 +11,7 @@
 
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/gltf/animated.hpp"
 #include "cotan/inspect/edges.hpp"
 #include "cotan/picture/options.hpp"
 #include "cotan/report/statistics.hpp"
@@ -29,6 +30,17 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene);
 // The model as it was read, the shape or the built-in scene, without the maps of the options and what frames derive.
 // Errors: as loadScene and checkTrianglesDrawn.
 Result<Scene> openModel(const PictureOptions& options);
+
+// The same, and where the model has animations what poses it: the scenes of other moments come from poseModel.
+struct MovingModel {
+    Scene scene;
+    std::unique_ptr<AnimatedGltf> animated; // null where nothing moves
+};
+Result<MovingModel> openMovingModel(const PictureOptions& options);
+
+// The model at the moment that the options name. images: of a scene that was made of it before, which are copied.
+// Errors: as AnimatedGltf::at.
+Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images);
 
 // Puts the options' own maps on it, and derives the attributes that the frames need or, where `show` asks for it, makes
 // it a scene of telling colours. Errors: as applyOwnMaps.

@@ -1,0 +1,135 @@
+// Commands that move the camera, and the light that goes with it.
+#include <cmath>
+
+#include "camera.hpp"
+#include "command_words.hpp"
+#include "cotan/draw/camera_words.hpp"
+
+namespace cotan::viewer {
+
+namespace {
+
+constexpr float kRadians = 0.017453293f;
+
+void turnLight(PictureOptions& o, double degrees)
+{
+    const double turned = std::remainder(o.environmentRotation + degrees, 360.0);
+    o.environmentRotation = std::round(turned * 1000) / 1000;
+}
+
+// What comes after each change of the camera. The light goes with it where it is pinned to it.
+Status moved(State& state)
+{
+    state.cameraMoved = true;
+    if (state.lightPinned) {
+        const float azimuth = azimuthOf(state.camera);
+        turnLight(state.picture, double(azimuth - state.pinnedAt));
+        state.pinnedAt = azimuth;
+    }
+    return Done{};
+}
+
+Status setCamera(State& state, const std::string& words)
+{
+    if (!state.model)
+        return expected("camera", "a model", "none");
+    const auto camera = cameraFromWords(words, state.model->scene, state.size.x, state.size.y);
+    if (!camera)
+        return camera.error();
+    state.camera = *camera;
+    return moved(state);
+}
+
+Status goToHotSpot(State& state, Words& words)
+{
+    const auto number = words.number("hot-spot");
+    if (!number)
+        return number.error();
+    const std::size_t count = state.hotSpots ? state.hotSpots->size() : 0;
+    if (*number < 0 || std::size_t(*number) >= count)
+        return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
+                        fmt::format("{}", *number));
+    state.camera = (*state.hotSpots)[std::size_t(*number)].camera;
+    return moved(state);
+}
+
+using Numbers = std::vector<float>;
+
+Result<Numbers> numbersOf(Words& words, const char* command, int count)
+{
+    Numbers all;
+    for (int i = 0; i < count; ++i) {
+        const auto number = words.number(command);
+        if (!number)
+            return number.error();
+        all.push_back(*number);
+    }
+    return all;
+}
+
+// Commands of the camera that take numbers.
+struct Motion {
+    const char* name;
+    int count;
+    void (*move)(State&, const Numbers&);
+};
+
+constexpr Motion kMotions[] = {
+    {"orbit", 2, [](State& s, const Numbers& n) { orbit(s.camera, n[0] * kRadians, n[1] * kRadians); }},
+    {"look", 2, [](State& s, const Numbers& n) { look(s.camera, n[0] * kRadians, n[1] * kRadians); }},
+    {"pan", 2,
+     [](State& s, const Numbers& n) {
+         pan(s.camera, {n[0], n[1]}, s.size);
+     }},
+    {"zoom", 1, [](State& s, const Numbers& n) { zoomTo(s.camera, n[0], glm::vec2(s.size) * 0.5f, s.size); }},
+    {"fly", 3,
+     [](State& s, const Numbers& n) {
+         fly(s.camera, {n[0], n[1], n[2]});
+     }},
+};
+
+} // namespace
+
+float azimuthOf(const Camera& camera)
+{
+    const glm::vec3 back = camera.eye - camera.target;
+    return std::atan2(back.x, back.z) / kRadians;
+}
+
+std::optional<Status> performCamera(State& state, const std::string& command, Words& words)
+{
+    for (const Motion& motion : kMotions)
+        if (command == motion.name) {
+            const auto numbers = numbersOf(words, motion.name, motion.count);
+            if (!numbers)
+                return numbers.error();
+            motion.move(state, *numbers);
+            return moved(state);
+        }
+    if (command == "reset") {
+        resetCamera(state);
+        return Done{};
+    }
+    if (command == "orthographic") {
+        setOrthographic(state.camera, !state.camera.orthographic);
+        return moved(state);
+    }
+    if (command == "see")
+        return seeFrom(state.camera, words.rest)
+            ? moved(state)
+            : expected("see", "front, back, left, right, top or bottom", words.rest);
+    if (command == "camera")
+        return setCamera(state, words.rest);
+    if (command == "hot-spot")
+        return goToHotSpot(state, words);
+    if (command == "turn-light") {
+        const auto degrees = words.number("turn-light");
+        if (!degrees)
+            return degrees.error();
+        turnLight(state.picture, double(*degrees));
+        return Done{};
+    }
+    return std::nullopt;
+}
+
+} // namespace cotan::viewer

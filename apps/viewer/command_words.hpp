@@ -1,0 +1,56 @@
+// What the files of commands share: the words of a line, and what is said of wrong ones.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cotan/parse_number.hpp"
+#include "cotan/result.hpp"
+#include "state.hpp"
+
+namespace cotan::viewer {
+
+// A line that is read word by word.
+struct Words {
+    std::string rest;
+
+    std::string next()
+    {
+        const std::size_t start = std::min(rest.find_first_not_of(' '), rest.size());
+        const std::size_t end = std::min(rest.find(' ', start), rest.size());
+        std::string word = rest.substr(start, end - start);
+        rest = rest.substr(std::min(end + 1, rest.size()));
+        return word;
+    }
+    Result<float> number(const char* what)
+    {
+        const std::string word = next();
+        float value = 0;
+        if (!parseNumber(std::string_view(word), value) || !std::isfinite(value))
+            return usageError(fmt::format("{}: expected a number; found '{}'", what, word));
+        return value;
+    }
+};
+
+inline Status expected(const std::string& command, const std::string& what, const std::string& found)
+{
+    return usageError(fmt::format("{}: expected {}; found '{}'", command, what, found));
+}
+
+inline void wish(State& state, Wish::Kind kind, std::string text = {}, glm::ivec2 size = {0, 0})
+{
+    state.wishes.push_back({kind, std::move(text), size});
+}
+
+// A command that moves the camera, or the light with it; nothing where it is none. words: what stands behind it.
+std::optional<Status> performCamera(State& state, const std::string& command, Words& words);
+
+// The camera's turn about the vertical, degrees: a light that is pinned to it follows that.
+float azimuthOf(const Camera& camera);
+
+} // namespace cotan::viewer

@@ -1,0 +1,124 @@
+#include "pictures.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/inspect/inspection.hpp"
+
+namespace cotan::viewer {
+
+namespace {
+
+// What a picture depends on, but for the exposure that was found.
+std::string keyOf(const State& s)
+{
+    State other = s;
+    other.metered = 0;
+    other.compare = Compare::flip;
+    other.picture.animation.clear(); // the model that is drawn has its pose
+    other.picture.time = 0;
+    std::string key;
+    for (const bool second : {false, true}) {
+        other.second = second;
+        key += commandLine(other, "", s.size) + "\n";
+    }
+    return key
+        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show, s.moving || s.playing,
+                      s.statisticsShown, s.model ? s.model->number : 0);
+}
+
+} // namespace
+
+Pictures::Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
+    : artist_(std::move(common), std::move(first), validation, std::move(done))
+{
+}
+
+void Pictures::ask(const State& state)
+{
+    if (!state.model || state.size.x < 1 || state.size.y < 1)
+        return;
+    const std::string key = keyOf(state);
+    const bool meter = state.metered == 0 && state.show == "shaded" && meters(optionsOf(state, false))
+        && !artist_.busy() && !failed_; // what failed would fail again
+    if (key == key_ && !meter)
+        return;
+    key_ = key;
+    Order order = orderOf(state);
+    order.number = ++orders_;
+    artist_.ask(std::move(order));
+}
+
+void Pictures::receive(State& state, bool timed)
+{
+    auto drawn = artist_.take();
+    if (!drawn)
+        return;
+    state.device = drawn->device.empty() ? state.device : drawn->device;
+    failed_ = !drawn->problem.empty();
+    if (failed_) {
+        state.problem = drawn->problem;
+        goBack(state);
+    } else if (drawn->picture) {
+        good_ = {true, state.picture, state.a, state.b};
+    }
+    if (drawn->picture && drawn->picture != drawn_.picture) {
+        ++serial_;
+        firstSeconds_ = firstSeconds_ > 0 ? firstSeconds_ : drawn->seconds;
+        ++state.pictures;
+        state.drawSeconds = timed ? drawn->seconds : 0;
+        state.metered = drawn->exposure > 0 ? drawn->exposure : state.metered;
+    }
+    if (!drawn->hasFigures && !drawn->draft && !state.statisticsOf.empty() && drawn->degrees.empty()
+        && inspectionFromName(state.show))
+        state.statisticsOf.clear();
+    if (drawn->hasFigures) {
+        state.statistics = drawn->statistics;
+        state.statisticsOf = drawn->statisticsOf;
+        figures_ = {{drawn->view.width, drawn->view.height}, std::move(drawn->degrees)};
+    } else if (drawn->picture && !drawn->draft) {
+        figures_ = {};
+    }
+    if (drawn->picture)
+        drawn_ = std::move(*drawn);
+}
+
+// What could not be drawn is left: a light or a map that cannot be read, a convention that does not fit.
+void Pictures::goBack(State& state) const
+{
+    if (!good_.any)
+        return;
+    const PictureOptions now = std::exchange(state.picture, good_.picture);
+    state.picture.model = now.model;
+    state.picture.shape = now.shape;
+    state.picture.variant = now.variant;
+    state.picture.animation = now.animation;
+    state.picture.time = now.time;
+    state.picture.camera = now.camera;
+    state.a = good_.a;
+    state.b = good_.b;
+}
+
+bool Pictures::idle(const State& state) const { return !artist_.busy() && (!state.model || key_ == keyOf(state)); }
+
+Shown Pictures::shown(const State& state) const
+{
+    Shown shown;
+    shown.picture = drawn_.picture.get();
+    if (state.compare == Compare::divider)
+        shown.other = drawn_.other.get();
+    shown.divider = state.divider * float(state.size.x);
+    shown.serial = serial_;
+    return shown;
+}
+
+float Pictures::degreesAtPointer(const State& state) const
+{
+    const glm::ivec2 at(state.pointer), size = figures_.size;
+    const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y;
+    return inside && size == state.size ? figures_.degrees[std::size_t(at.y) * std::size_t(size.x) + std::size_t(at.x)]
+                                        : -1.0f;
+}
+
+} // namespace cotan::viewer

@@ -1,0 +1,41 @@
+#include "pointer_probe.hpp"
+
+#include <fmt/format.h>
+
+#include "cotan/draw/camera_words.hpp"
+#include "parse.hpp"
+
+namespace cotan::viewer {
+
+void PointerProbe::follow(State& state)
+{
+    if (finding_.valid()) {
+        if (finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            return;
+        state.probe = finding_.get();
+    }
+    if (!state.cardShown || !state.model || !state.held.empty() || state.pointer.x < 0) {
+        state.probe = {};
+        key_.clear();
+        return;
+    }
+    const Side& side = sideOf(state, state.compare == Compare::flip && state.second);
+    const std::string key = fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y,
+                                        cameraWords(state.camera), state.model->number, side.frame, side.tangents);
+    if (key == key_)
+        return;
+    key_ = key;
+    const auto look = [this, model = state.model, camera = state.camera, size = state.size, pointer = state.pointer,
+                       side] {
+        Probe probe;
+        probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
+        if (probe.hit)
+            probe.surface = prober_.at(model->scene, model->number, *probe.hit, *app::parseFrame(side.frame),
+                                       side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+        done_();
+        return probe;
+    };
+    finding_ = std::async(std::launch::async, look);
+}
+
+} // namespace cotan::viewer

@@ -1,0 +1,15 @@
+// What the state wishes, and no change of the state does: reading, writing, the clipboard, the window.
+#pragma once
+
+#include "session_parts.hpp"
+
+namespace cotan::viewer {
+
+// Gives the wishes for files to the loader; the others stay.
+void loadWished(Parts& parts);
+
+// Does all wishes; also opens what was chosen in the dialog, and reads again what has changed on the disk. What cannot
+// be done becomes state.problem. Errors: the first of those.
+Status fulfil(Parts& parts);
+
+} // namespace cotan::viewer

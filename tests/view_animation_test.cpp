@@ -1,0 +1,83 @@
+// `cotan view` of models that move.
+#include <gtest/gtest.h>
+
+#include "quad_model.hpp"
+#include "view_window.hpp"
+
+namespace cotan::test {
+namespace {
+
+TEST(ViewAnimation, aMomentIsThePictureThatRenderWritesAndTheFileIsReadOnce)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do toggle interface\n0 do set exposure 1\n0 do set animation high\n"
+                             "0 do set time 3\n0 do set time 1\n0 do set time 2.5\n0 wait\n0 do window window.png\n"
+                             "0 do report r.txt\n",
+                             {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "loads"), "1 failed 0");
+    const ToolRun drawn = runTool({"render", "quad.gltf", "-o", "r.png", "--size", "160x120", "--camera", "0,1,6,0,1,0",
+                                   "--exposure", "1", "--animation", "high", "--time", "2.5"},
+                                  folder.path());
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "r.png")), 0u);
+}
+
+TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    const ToolRun run =
+        play(folder,
+             "0 wait\n0 do toggle interface\n0 do window a.png\n0 key space\n1.5 wait\n1.5 key space\n1.5 wait\n"
+             "1.5 do window b.png\n9 wait\n9 do window c.png\n9 do report r.txt\n",
+             {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0", "--ground", "off"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Image a = readPicture(folder / "a.png"), b = readPicture(folder / "b.png");
+    EXPECT_GT(differentPixels(a, b), 100u);
+    EXPECT_EQ(differentPixels(b, readPicture(folder / "c.png")), 0u);
+    const std::string report = readWhole(folder / "r.txt");
+    EXPECT_EQ(lineOf(report, "time"), "1.5");
+    EXPECT_EQ(lineOf(report, "playing"), "no");
+    EXPECT_EQ(lineOf(report, "loads"), "1 failed 0");
+}
+
+// Front would frame the bounds of each moment: the picture would wobble, and the command would draw another one.
+TEST(ViewAnimation, theCameraStaysWhileTheModelMoves)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do report a.txt\n0 do set animation high\n0 do set time 3\n0 wait\n"
+                             "0 do report b.txt\n0 do picture a.png\n",
+                             {"quad.gltf", "--size", "160x120"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "eye"), lineOf(readWhole(folder / "b.txt"), "eye"));
+    std::filesystem::rename(folder / "a.png", folder / "window.png");
+    const std::string command = doWritten(folder, run.out, "a.png");
+    ASSERT_NE(command, "") << run.out;
+    EXPECT_TRUE(readWhole(folder / "a.png") == readWhole(folder / "window.png")) << command;
+}
+
+TEST(ViewAnimation, oneThatIsNotThereIsSaidAndTheModelStays)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do set animation low\n0 wait\n0 do set animation run\n0 wait\n"
+                             "0 do report a.txt\n",
+                             {"quad.gltf", "--size", "64x48"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string report = readWhole(folder / "a.txt");
+    EXPECT_EQ(lineOf(report, "animation"), "low");
+    EXPECT_NE(lineOf(report, "problem").find("\"run\""), std::string::npos) << report;
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,151 @@
+// What `cotan view` opens, and what it cannot.
+#include <gtest/gtest.h>
+
+#include "cotan/shapes/shapes.hpp"
+#include "quad_model.hpp"
+#include "view_window.hpp"
+
+namespace cotan::test {
+namespace {
+
+TEST(ViewWindow, aBadFileSaysSoAndTheLastModelStays)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    std::ofstream(folder / "bad.glb") << "glTF nonsense";
+    const ToolRun run = play(folder,
+                             "0 wait\n0 drop bad.glb\n0 wait\n0 do report a.txt\n0 drop missing.obj\n0 wait\n"
+                             "0 do report b.txt\n0 do window w.png\n",
+                             {"quad.gltf", "--size", "200x150"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::string a = readWhole(folder / "a.txt");
+    EXPECT_EQ(lineOf(a, "model"), "quad.gltf");
+    EXPECT_EQ(lineOf(a, "loads"), "1 failed 1");
+    EXPECT_NE(lineOf(a, "problem").find("bad.glb"), std::string::npos);
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "loads"), "1 failed 2");
+}
+
+TEST(ViewWindow, aModelThatChangesIsReadAgainAndTheCameraStays)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const ToolRun run =
+        play(folder, "0 wait\n0 do orbit 20 10\n0 wait\n0 do report a.txt\n0 key f5\n0 wait\n0 do report b.txt\n",
+             {"quad.gltf", "--size", "200x150"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string a = readWhole(folder / "a.txt"), b = readWhole(folder / "b.txt");
+    EXPECT_EQ(lineOf(b, "loads"), "2 failed 0");
+    EXPECT_EQ(lineOf(a, "eye"), lineOf(b, "eye"));
+}
+
+TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    Image sky = makeImage(16, 8, PixelType::float32);
+    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
+    ASSERT_TRUE(writeImage(folder / "sky.hdr", sky));
+    std::ofstream(folder / "bad.hdr") << "#?RADIANCE nonsense";
+    const ToolRun run = play(folder,
+                             "0 wait\n0 drop sky.hdr\n0 wait\n0 do report a.txt\n0 drop bad.hdr\n0 wait\n0 wait\n"
+                             "0 do report b.txt\n",
+                             {"--shape", "sphere", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "environment"), "sky.hdr");
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "environment"), "sky.hdr");
+    EXPECT_NE(lineOf(readWhole(folder / "b.txt"), "problem").find("bad.hdr"), std::string::npos);
+}
+
+TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
+    std::ofstream(folder / "zenity") << "#!/bin/sh\necho " << (folder / "quad.gltf").string() << "\n";
+    std::filesystem::permissions(folder / "zenity", std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do report a.txt\n0 do set shape torus\n0 wait\n0 do report b.txt\n"
+                             "0 key ctrl+o\n0 wait\n0 do report c.txt\n",
+                             {"map.png", "--size", "100x80"});
+    ::setenv("PATH", path.c_str(), 1);
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "model"), "plane");
+    EXPECT_NE(lineOf(readWhole(folder / "a.txt"), "first").find("map.png"), std::string::npos);
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "model"), "torus");
+    EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
+}
+
+TEST(ViewWindow, itsHotSpotsAreThoseOfLintAndTheCameraGoesThere)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const ToolRun run = play(folder,
+                             "0 do toggle hot-spots\n0 wait\n0 do hot-spot 0\n0 wait\n0 do copy camera\n"
+                             "0 do report r.txt\n",
+                             {"quad.gltf", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const ToolRun lint = runTool({"lint", "quad.gltf", "--json", "lint.json"}, folder.path());
+    ASSERT_EQ(lint.code, 0) << lint.err;
+    const json spots = json::parse(readWhole(folder / "lint.json"))["hot_spots"];
+    ASSERT_FALSE(spots.empty());
+    const std::string report = readWhole(folder / "r.txt");
+    EXPECT_EQ(lineOf(report, "hot spots"), std::to_string(spots.size()));
+    EXPECT_EQ(lineOf(report, "hot spot"), spots[0]["text"]);
+    EXPECT_NE(run.out.find(spots[0]["camera"].get<std::string>()), std::string::npos) << run.out;
+}
+
+TEST(ViewWindow, aFirstModelThatCannotBeReadEndsWhatIsPlayedAndWhatHasNoWindow)
+{
+    TemporaryFolder folder;
+    std::ofstream(folder / "bad.glb") << "glTF nonsense";
+    std::ofstream(folder / "session.txt") << "0 do report r.txt\n";
+    for (const std::string& on : {display(), std::string()}) {
+        for (const char* model : {"bad.glb", "missing.obj"}) {
+            ::setenv("DISPLAY", on.c_str(), 1);
+            ::unsetenv("WAYLAND_DISPLAY");
+            std::vector<std::string> words = {"view", model, "--forget"};
+            if (!on.empty())
+                words.insert(words.end(), {"--play", "session.txt"});
+            const ToolRun run = runTool(words, folder.path());
+            EXPECT_EQ(run.code, 2) << model << run.err;
+            EXPECT_EQ(lines(run.err), 1) << run.err;
+            EXPECT_NE(run.err.find(model), std::string::npos) << run.err;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "r.txt"));
+}
+
+TEST(ViewWindow, wrongWordsEndAtOnce)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    struct Case {
+        std::vector<std::string> words;
+        int code;
+    };
+    std::ofstream(folder / "broken.txt") << "0 wiat\n";
+    ::setenv("DISPLAY", display().c_str(), 1);
+    for (const Case& c : {Case{{"--frame", "none"}, 1},
+                          {{"--play", "missing.txt"}, 2},
+                          {{"--play", "broken.txt"}, 2},
+                          {{"--do", "nonsense"}, 1},
+                          {{"--size", "0x0"}, 1},
+                          {{"-o", "x.png"}, 1}}) {
+        std::vector<std::string> words = c.words;
+        words.insert(words.begin(), "view");
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, c.code) << ::testing::PrintToString(c.words) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+    }
+    const ToolRun run = play(folder, "0 do frame none\n");
+    EXPECT_EQ(run.code, 2) << run.err;
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,130 @@
+// Played sessions of `cotan view`, on a display in memory.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cotan/image/file.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+
+// No dialog of the desktop that the tests run on.
+inline constexpr const char* kNoBus = "unix:path=/nowhere";
+inline const bool kBusIsHidden = ::setenv("DBUS_SESSION_BUS_ADDRESS", kNoBus, 1) == 0;
+
+// Xvfb on a free display; options: more words of its command line.
+class Display {
+public:
+    explicit Display(std::vector<std::string> options = {})
+    {
+        options.insert(options.begin(), {"Xvfb", "-nolisten", "tcp", "-screen", "0", "1600x1000x24"});
+        int ends[2];
+        if (::pipe(ends) != 0)
+            return;
+        child_ = ::fork();
+        if (child_ == 0) {
+            ::close(ends[0]);
+            ::dup2(::open("/dev/null", O_WRONLY), 2);
+            options.insert(options.end(), {"-displayfd", std::to_string(ends[1])});
+            std::vector<char*> words;
+            for (std::string& option : options)
+                words.push_back(option.data());
+            words.push_back(nullptr);
+            ::execvp(words[0], words.data());
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        for (char c; ::read(ends[0], &c, 1) == 1 && c != '\n';)
+            name_ += c;
+        ::close(ends[0]);
+        if (!name_.empty())
+            name_ = ":" + name_;
+    }
+    ~Display()
+    {
+        if (child_ > 0) {
+            ::kill(child_, SIGTERM);
+            ::waitpid(child_, nullptr, 0);
+        }
+    }
+    const std::string& name() const { return name_; } // empty: there is no Xvfb
+
+private:
+    pid_t child_ = -1;
+    std::string name_;
+};
+
+// What those tests share that say nothing of theirs.
+inline const std::string& display()
+{
+    static const Display one;
+    return one.name();
+}
+
+// Plays a session; words: of the command line before --play.
+inline ToolRun play(const TemporaryFolder& folder, const std::string& session, std::vector<std::string> words = {},
+                    const std::string& on = display())
+{
+    std::ofstream(folder / "session.txt") << session;
+    words.insert(words.begin(), "view");
+    words.insert(words.end(), {"--play", "session.txt", "--validate"});
+    ::setenv("DISPLAY", on.c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+    return runTool(words, folder.path(), 120);
+}
+
+// Does the command for that file which a session has said. Returns the command; empty where it failed, or was not said.
+inline std::string doWritten(const TemporaryFolder& folder, const std::string& said, const std::string& file)
+{
+    for (std::size_t start = 0; (start = said.find("cotan render ", start)) != std::string::npos; ++start) {
+        const std::string command = said.substr(start + 6, said.find('\n', start) - start - 6);
+        if (command.find("-o " + file) == std::string::npos)
+            continue;
+        const std::string shell = "cd " + folder.path().string() + " && " COTAN_TOOL " " + command + " > /dev/null";
+        return std::system(shell.c_str()) == 0 ? command : std::string();
+    }
+    return {};
+}
+
+#define COTAN_NEEDS_DISPLAY()                                                                                          \
+    if (display().empty())                                                                                             \
+    GTEST_SKIP() << "no Xvfb to open a window on"
+
+inline Image readPicture(const std::filesystem::path& file)
+{
+    auto image = readImage(file);
+    EXPECT_TRUE(image) << image.error().message;
+    return image ? *image : Image();
+}
+
+// Of red, green and blue; a window has no alpha.
+inline std::size_t differentPixels(const Image& a, const Image& b)
+{
+    if (a.width != b.width || a.height != b.height)
+        return std::max(a.pixelCount(), b.pixelCount());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.pixelCount(); ++i)
+        different += !std::equal(a.bytes8() + 4 * i, a.bytes8() + 4 * i + 3, b.bytes8() + 4 * i);
+    return different;
+}
+
+inline std::string lineOf(const std::string& report, const std::string& name)
+{
+    const std::size_t start = ("\n" + report).find("\n" + name + ": ");
+    if (start == std::string::npos)
+        return "no such line";
+    const std::size_t from = start + name.size() + 2;
+    return report.substr(from, report.find('\n', from) - from);
+}
+
+} // namespace cotan::test

@@ -1,0 +1,183 @@
+// Menus, keys, the cheat sheet and animations of the viewer, without a window.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "player.hpp"
+#include "viewer_state.hpp"
+
+namespace cotan::viewer {
+namespace {
+
+// All that a switch can change.
+std::string keyLike(const State& s) { return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown); }
+
+// ---- menus and keys ----------------------------------------------------------------------------
+
+TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
+{
+    std::map<std::string, std::string> keys;
+    for (const Entry& entry : entriesOf(withModel())) {
+        if (entry.command.empty())
+            continue;
+        EXPECT_FALSE(entry.label.empty());
+        if (!entry.key.empty()) {
+            EXPECT_TRUE(keys.emplace(entry.key, entry.label).second)
+                << entry.key << ": " << keys[entry.key] << " and " << entry.label;
+        }
+        State state = withModel();
+        state.picture.animation = "0";
+        if (entry.usable) {
+            const Status done = perform(state, entry.command);
+            EXPECT_TRUE(done) << entry.command << ": " << done.error().message;
+        }
+    }
+    for (const char* key : {"1", "9", "h", "f12", "tab", "ctrl+c", "f5", "r", "o", "d", "f", "g"})
+        EXPECT_TRUE(keys.contains(key)) << key;
+}
+
+TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
+{
+    State state = withModel();
+    const auto lineOf = [&](const char* key) {
+        for (const auto& [name, what] : interfaceOf(state).sheet)
+            if (name == key)
+                return what;
+        return std::string();
+    };
+    const std::string before = lineOf("d");
+    EXPECT_EQ(before.find("on"), std::string::npos);
+    send(state, "0 key d\n");
+    EXPECT_NE(lineOf("d").find("on"), std::string::npos);
+    for (const Entry& entry : entriesOf(state)) {
+        const bool digit = !entry.key.empty() && entry.key.back() >= '1' && entry.key.back() <= '9'
+            && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f'
+            && entry.key.find("+f") == std::string::npos;
+        if (!entry.key.empty() && !digit) {
+            EXPECT_FALSE(lineOf(entry.key.c_str()).empty()) << entry.key;
+        }
+    }
+    send(state, "0 key 4\n0 key shift+5\n");
+    EXPECT_EQ(lineOf("1 ... 9"), "Frame: smooth");
+    EXPECT_EQ(lineOf("shift+1 ... 9"), "Second: exact");
+}
+
+TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
+{
+    State state = withModel();
+    for (const char* key : {"d", "g", "o", "n", "tab", "h", "s", "i", "p", "a"}) {
+        State other = state;
+        send(other, std::string("0 key ") + key + "\n");
+        EXPECT_NE(keyLike(other), keyLike(state)) << key;
+        send(other, std::string("0 key ") + key + "\n");
+        other.cameraMoved = false; // the other projection and back is a motion
+        EXPECT_EQ(keyLike(other), keyLike(state)) << key;
+    }
+}
+
+// ---- played events -----------------------------------------------------------------------------
+
+TEST(ViewerPlayer, beginsWithTheFirstPictureAndWaitsWhereItIsTold)
+{
+    const std::vector<Event> events = {{0.5, EventKind::key, 0, 0, "3"},
+                                       {1, EventKind::wait, 0, 0, ""},
+                                       {2, EventKind::key, 0, 0, "4"},
+                                       {2, EventKind::command, 0, 0, "window a.png"}};
+    Player player(events);
+    double now = 0;
+    const auto step = [&](bool idle) {
+        const auto done = player.step(idle, now++);
+        return done && done->event ? toText(*done->event) : std::string("-");
+    };
+    EXPECT_EQ(step(false), "-");
+    EXPECT_EQ(step(true), "0.500 key 3");
+    EXPECT_EQ(step(false), "-"); // to wait
+    EXPECT_EQ(step(false), "-");
+    EXPECT_EQ(step(true), "2.000 key 4");
+    EXPECT_EQ(step(false), "-"); // what is written is what is drawn by then
+    EXPECT_FALSE(player.ended());
+    EXPECT_EQ(step(true), "2.000 do window a.png");
+    EXPECT_TRUE(player.ended());
+    EXPECT_EQ(step(false), "-");
+    now += 1000;
+    EXPECT_FALSE(player.step(false, now)); // not for ever
+}
+
+// ---- animations --------------------------------------------------------------------------------
+
+// With two animations, of 2 s and of 4 s.
+State withAnimations()
+{
+    State state = withModel();
+    auto model = std::make_shared<Model>(*state.model);
+    model->animations = {{"walk", 2}, {"", 4}};
+    state.model = std::move(model);
+    return state;
+}
+
+TEST(ViewerAnimation, playingGoesRoundAndStopsAtTheEndOtherwise)
+{
+    State state = withAnimations();
+    send(state, "0 key space\n"); // the first one, where none is chosen
+    EXPECT_TRUE(state.playing);
+    EXPECT_EQ(state.picture.animation, "0");
+    goOn(state, 1.5);
+    EXPECT_DOUBLE_EQ(state.picture.time, 1.5);
+    goOn(state, 1);
+    EXPECT_DOUBLE_EQ(state.picture.time, 0.5);
+    send(state, "0 do toggle loop\n");
+    goOn(state, 7);
+    EXPECT_DOUBLE_EQ(state.picture.time, 2);
+    EXPECT_FALSE(state.playing);
+    send(state, "0 key space\n"); // from the end it begins again
+    EXPECT_TRUE(state.playing);
+    EXPECT_DOUBLE_EQ(state.picture.time, 0);
+}
+
+TEST(ViewerAnimation, theSliderIsAsLongAsTheAnimation)
+{
+    State state = withAnimations();
+    const auto slider = [&]() -> double {
+        for (const Slider& s : interfaceOf(state).sliders)
+            if (s.label == "time")
+                return s.high;
+        return -1;
+    };
+    EXPECT_EQ(slider(), -1);
+    for (const auto& [name, seconds] : {std::pair("walk", 2.0), {"0", 2}, {"1", 4}, {"2", -1}, {"", -1}}) {
+        send(state, std::string("0 do set animation ") + name + "\n");
+        EXPECT_EQ(slider(), seconds) << name;
+    }
+}
+
+TEST(ViewerAnimation, theMenuHasThoseOfTheModelAndTicksTheOneThatIsShown)
+{
+    State state = withAnimations();
+    perform(state, "set animation walk");
+    int ticked = 0, listed = 0;
+    for (const Entry& entry : entriesOf(state))
+        if (entry.command.starts_with("set animation")) {
+            ++listed;
+            ticked += entry.on;
+            EXPECT_EQ(entry.on, entry.label == "0: walk, 2 s") << entry.label;
+        }
+    EXPECT_EQ(listed, 3); // and the file's pose
+    EXPECT_EQ(ticked, 1);
+    EXPECT_FALSE(perform(*std::make_unique<State>(withModel()), "play")); // a model that does not move
+}
+
+TEST(ViewerAnimation, aMomentIsAPoseAndNotAReading)
+{
+    State state = withAnimations();
+    perform(state, "set animation 1");
+    perform(state, "set time 3");
+    ASSERT_EQ(state.wishes.size(), 2u);
+    for (const Wish& wish : state.wishes)
+        EXPECT_EQ(int(wish.kind), int(Wish::Kind::pose));
+    EXPECT_EQ(state.picture.time, 3);
+}
+
+} // namespace
+} // namespace cotan::viewer

@@ -1,0 +1,320 @@
+// The page in web/ in headless Chromium, tried as a visitor would: node page_test.mjs PAGE NODE_MODULES TOOL DATA [FACT]
+// PAGE: the folder of the built page. NODE_MODULES: with playwright-core, axe-core, fast-png. TOOL: cotan. DATA: shared
+// data, may be missing. Without a FACT all are tried. Pictures of what is shown are left beside PAGE. Exit code 77 where
+// the fact needs what is missing.
+import { execFileSync } from 'node:child_process';
+import { createServer } from 'node:http';
+import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
+import { basename, dirname, extname, join } from 'node:path';
+import { createRequire } from 'node:module';
+
+const [root, modules, tool, data, only] = process.argv.slice(2);
+const require = createRequire(join(modules, 'x.js'));
+const { chromium } = require('playwright-core');
+const { decode } = await import(join(modules, 'fast-png/lib/index.js'));
+const scratch = join(dirname(root), 'page-pictures'), errors = [], hasData = existsSync(join(data, 'textures'));
+mkdirSync(scratch, { recursive: true });
+let tried = 0, failed = 0, skipped = 0;
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.png': 'image/png' };
+const server = createServer((request, response) => {
+  const file = join(root, decodeURIComponent(request.url.split('?')[0]).replace(/\/$/, '/index.html'));
+  if (!existsSync(file)) { response.writeHead(404).end(); return; }
+  response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
+}).listen(0, '127.0.0.1');
+await new Promise(done => server.once('listening', done));
+const address = `http://127.0.0.1:${server.address().port}/`;
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync'],
+});
+
+async function open(options = {}, hash = '') {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, serviceWorkers: 'block', ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(30000);
+  page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|blocked by Playwright/.test(message.text())) errors.push(message.text()); });
+  page.on('pageerror', error => errors.push(error.message));
+  page.on('request', request => { if (!/^(blob:|data:)/.test(request.url()) && !request.url().startsWith(address)) errors.push(`asked for ${request.url()}`); });
+  await page.goto(address + hash);
+  return page;
+}
+
+// Files dropped onto the page, as bytes by name; waits until the page has said something.
+async function drop(page, files) {
+  const given = files.map(file => [basename(file), readFileSync(file).toString('base64')]);
+  await page.evaluate(given => {
+    document.getElementById('result').replaceChildren();
+    const transfer = new DataTransfer();
+    for (const [name, text] of given) transfer.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], name));
+    document.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, given);
+  await settled(page);
+}
+
+const settled = page => page.waitForFunction(() => document.getElementById('status').textContent === ''
+  && (document.getElementById('problem').textContent !== '' || document.getElementById('result').childNodes.length > 0), undefined, { timeout: 60000 });
+const problem = page => page.textContent('#problem');
+
+async function saved(page, click) {
+  const [download] = await Promise.all([page.waitForEvent('download'), click()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+function run(...words) {
+  return execFileSync(tool, words, { cwd: scratch, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+}
+
+const same = (a, b) => a.length === b.length && Buffer.compare(Buffer.from(a.buffer, a.byteOffset, a.byteLength), Buffer.from(b.buffer, b.byteOffset, b.byteLength)) === 0;
+// Alpha that says nothing may be left out.
+function texelsEqual(a, b) {
+  if (a.width !== b.width || a.height !== b.height || a.depth !== b.depth) return false;
+  const most = 2 ** a.depth - 1, at = ({ data, channels }, k, c) => c < channels ? data[k * channels + c] : most;
+  for (let k = 0; k < a.width * a.height; ++k)
+    for (let c = 0; c < 4; ++c) if (at(a, k, c) !== at(b, k, c)) return false;
+  return true;
+}
+
+function partsOfGlb(bytes) {
+  const length = bytes.readUInt32LE(12);
+  return { json: JSON.parse(bytes.subarray(20, 20 + length)), binary: bytes.subarray(28 + length) };
+}
+
+// How many pixels of an element's picture differ from its first.
+async function drawn(page, selector) {
+  const png = decode(await page.locator(selector).screenshot());
+  let count = 0;
+  for (let k = 0; k < png.data.length; k += png.channels) if (Math.abs(png.data[k] - png.data[0]) + Math.abs(png.data[k + 1] - png.data[1]) > 24) ++count;
+  return count / (png.width * png.height);
+}
+
+async function fact(name, check, { needsData = false } = {}) {
+  if (only !== undefined && name !== only) return;
+  if (needsData && !hasData) {
+    console.error(`skipped ${name}: ${data} is not there`);
+    ++skipped;
+    return;
+  }
+  const before = errors.length, began = Date.now();
+  let problem;
+  try {
+    problem = await check();
+  } catch (error) {
+    problem = error.message;
+  }
+  if (!problem && errors.length > before) problem = `the console says: ${errors.slice(before).join('; ')}`;
+  ++tried;
+  if (problem) ++failed;
+  console.error(`${problem ? 'FAILS' : 'holds'} ${name} (${((Date.now() - began) / 1000).toFixed(1)} s) ${(problem ?? '').slice(0, 3000)}`);
+}
+
+const needsData = { needsData: true };
+const texture = name => join(data, 'textures', name), model = name => join(data, 'models', name, `${name}.glb`);
+
+await fact('firstViewIsBelow200KBWithoutTheLibrary', async () => {
+  const context = await browser.newContext({ serviceWorkers: 'block' }), page = await context.newPage();
+  const bodies = [];
+  page.on('response', response => { if (!response.url().endsWith('.wasm')) bodies.push(response.body().catch(() => '')); });
+  await page.goto(address, { waitUntil: 'networkidle' });
+  const sum = (await Promise.all(bodies)).reduce((bytes, body) => bytes + body.length, 0);
+  await context.close();
+  return sum < 20000 ? `only ${sum} bytes came` : sum > 200000 ? `${sum} bytes` : '';
+});
+
+await fact('aMapWithGreenTurnedIsSaidToBeAndMended', async () => {
+  const page = await open();
+  await page.click('#sample-map');
+  await settled(page);
+  const words = await page.textContent('.verdict');
+  if (!/wrong way for glTF/.test(words)) return `says: ${words} ${await problem(page)}`;
+  if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
+  const { name, bytes } = await saved(page, () => page.click('text=Download the mended map'));
+  await drop(page, [join(scratch, writeFileSync(join(scratch, name), bytes) ?? name)]);
+  await page.screenshot({ path: join(scratch, 'page-map.png') });
+  const again = await page.textContent('.result');
+  await page.context().close();
+  return /Green points up/.test(again) ? '' : `the mended map is said to be: ${again}`;
+});
+
+await fact('verdictsOnPublishedMapsAreTheirs', async () => {
+  const page = await open(), wrong = [];
+  for (const line of readFileSync(texture('CONVENTIONS.tsv'), 'utf8').trim().split('\n').slice(1)) {
+    const [file, way] = line.split('\t');
+    await drop(page, [texture(file)]);
+    const words = await page.textContent('#result');
+    const wanted = way.startsWith('+Y') ? /Green points up/ : way.startsWith('-Y') ? /Green points down/ : /cannot be told/;
+    if (!wanted.test(words)) wrong.push(`${file}: ${words.slice(0, 150)} ${await problem(page)}`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+}, needsData);
+
+await fact('aMendedMapHasTheTexelsThatTheCommandLineWrites', async () => {
+  const page = await open(), wrong = [];
+  for (const file of ['scratched_gold_normal_dx.png', 'noise16_normal_gl.png']) {
+    await drop(page, [texture(file)]);
+    const { bytes } = await saved(page, () => page.click('text=Download the mended map'));
+    const [, words] = /--from (\S+ --to \S+)/.exec(await page.textContent('.result code')), [from, , to] = words.split(' ');
+    run('map', 'convert', texture(file), '--from', from, '--to', to, '-o', 'tool.png', '--overwrite', '--quiet');
+    const [ours, tools] = [decode(bytes), decode(readFileSync(join(scratch, 'tool.png')))];
+    if (!texelsEqual(ours, tools)) wrong.push(`${file}: ${ours.width} x ${ours.height} x ${ours.channels} of ${ours.depth} bits differ from ${tools.width} x ${tools.height} x ${tools.channels} of ${tools.depth}`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+}, needsData);
+
+await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
+  const page = await open();
+  await page.click('#sample-model');
+  await settled(page);
+  await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
+  const apart = Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
+  if (!(apart > 1 && apart < 30)) return `stored tangents and cotangents on a stretched texture are said to be apart by ${apart} degrees`;
+  if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
+  await page.screenshot({ path: join(scratch, 'page-model.png') });
+  await page.check('text=Show the angle between them');
+  const box = await page.locator('.view canvas').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.42, box.y + box.height * 0.5);
+  await page.waitForFunction(() => /Under the pointer: [\d.]+°/.test(document.querySelector('.view').textContent));
+  await page.screenshot({ path: join(scratch, 'page-angle.png') });
+  await page.locator('.view select').nth(0).selectOption('cotangent');
+  await page.waitForFunction(() => /apart by 0\.0\d°/.test(document.querySelector('.view').textContent));
+  for (const frame of ['triangle', 'orthonormal', 'smooth']) {
+    await page.locator('.view select').nth(1).selectOption(frame);
+    const at = await page.waitForFunction(frame => document.querySelector('.view').dataset.shows === `cotangent ${frame}`, frame).then(() => page.textContent('.view'));
+    const apart = Number(/apart by ([\d.]+)°/.exec(at)[1]), [least, most] = { triangle: [0, 1], orthonormal: [1, 30], smooth: [0, 1] }[frame];
+    if (!(apart >= least && apart <= most)) return `cotangent and ${frame} are said to be apart by ${apart} degrees, ${least} to ${most} were expected`;
+  }
+  await page.context().close();
+});
+
+await fact('realModelsAreJudgedAndDrawn', async () => {
+  const page = await open(), wrong = [];
+  const gltf = join(data, 'models/TwoSidedPlane'), parts = existsSync(gltf) ? readdirSync(gltf).filter(name => /\.(gltf|bin|png|jpg)$/.test(name)).map(name => join(gltf, name)) : [];
+  for (const files of [[model('NormalTangentMirrorTest')], parts, ...['chess_board_draco.glb', 'pirate_meshopt.glb'].map(name => [join(data, 'compressed', name)])]) {
+    if (files.length === 0 || !existsSync(files[0])) continue;
+    await drop(page, files);
+    const words = await page.textContent('#result');
+    if (!/primitives, normal maps/.test(words)) wrong.push(`${basename(files[0])}: ${words.slice(0, 200)} ${await problem(page)}`);
+    else if (await drawn(page, '.view canvas') < 0.01) wrong.push(`${basename(files[0])}: the picture is blank`);
+    await page.screenshot({ path: join(scratch, `page-${basename(files[0])}.png`) });
+  }
+  await page.context().close();
+  return wrong.join('\n');
+}, needsData);
+
+await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
+  const page = await open(), file = model('NormalTangentMirrorTest');
+  await drop(page, [file]);
+  const { bytes } = await saved(page, () => page.click('text=Convert and download'));
+  run('convert', file, '--to-frame', 'cotangent', '-o', 'tool.glb', '--overwrite', '--quiet');
+  const [ours, tools] = [partsOfGlb(bytes), partsOfGlb(readFileSync(join(scratch, 'tool.glb')))];
+  await page.context().close();
+  const shape = ({ json }) => JSON.stringify({ ...json, buffers: undefined, bufferViews: undefined, asset: { ...json.asset, generator: undefined } });
+  if (shape(ours) !== shape(tools)) return `another model: ${shape(ours).slice(0, 600)}\n${shape(tools).slice(0, 600)}`;
+  // Pictures by their texels, since the browser packs PNGs another way; all else by its bytes.
+  for (const [k, view] of ours.json.bufferViews.entries()) {
+    const [a, b] = [[ours, view], [tools, tools.json.bufferViews[k]]].map(([{ binary }, { byteOffset = 0, byteLength }]) => binary.subarray(byteOffset, byteOffset + byteLength));
+    if (same(a, b)) continue;
+    if (!ours.json.images.some(image => image.bufferView === k && image.mimeType === 'image/png') || !texelsEqual(decode(a), decode(b))) return `bufferViews[${k}] differs`;
+  }
+}, needsData);
+
+await fact('badFilesAreAnsweredInOneLineEach', async () => {
+  const page = await open(), wrong = [], walk = folder => readdirSync(folder).flatMap(name => {
+    const path = join(folder, name);
+    return statSync(path).isDirectory() ? walk(path) : [path];
+  });
+  const files = walk(join(data, 'bad')).filter(path => /\.(glb|gltf|png)$/.test(path) && statSync(path).size < 1e6), before = errors.length;
+  if (files.length < 10) return `only ${files.length} bad files are there`;
+  for (const file of files.filter((_, k) => k % Math.ceil(files.length / 24) === 0)) { // all of them take minutes
+    await drop(page, [file]).catch(() => wrong.push(`${basename(file)}: no answer`));
+    const words = await problem(page);
+    if (/\n/.test(words.trim()) || words.length > 400) wrong.push(`${basename(file)}: ${words.slice(0, 200)}`);
+  }
+  errors.splice(before, errors.length, ...errors.slice(before).filter(text => !/404|ERR_FAILED|THREE\.|Failed to load|WebGL/.test(text)));
+  await page.context().close();
+  return wrong.slice(0, 10).join('\n');
+}, needsData);
+
+await fact('theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice', async () => {
+  const page = await open({ permissions: ['clipboard-read', 'clipboard-write'] }, '#shader?lang=wgsl&frame=orthonormal&map=directx');
+  await page.waitForFunction(() => document.querySelector('pre code')?.textContent.length > 500);
+  const text = await page.textContent('pre code'), tools = run('shader', '--lang', 'wgsl', '--frame', 'orthonormal', '--preset', 'directx');
+  if (text.trim() !== tools.trim()) return `the text differs from the tool's: ${text.slice(0, 200)}`;
+  await page.locator('#shader select').first().selectOption('hlsl');
+  await page.waitForFunction(() => /for HLSL|float3/.test(document.querySelector('pre code').textContent));
+  if (!/lang=hlsl&frame=orthonormal/.test(page.url())) return `the address is ${page.url()}`;
+  await page.click('#shader button.main');
+  await page.waitForFunction(() => document.querySelector('#shader-panel [role=status]').textContent === 'Copied.');
+  const copied = await page.evaluate(() => navigator.clipboard.readText()), shown = await page.textContent('pre code');
+  await page.screenshot({ path: join(scratch, 'page-shader.png') });
+  await page.context().close();
+  return copied === shown ? '' : 'what was copied is not what is shown';
+});
+
+await fact('thePatchAnswersKeysAndPointerWithRightDegrees', async () => {
+  const page = await open(), figure = k => page.locator('.patches b').nth(k).textContent();
+  await page.locator('#why-stretch').focus();
+  await page.keyboard.press('Home'); // 0.5 : 1
+  await page.locator('#why-shear').evaluate(range => { range.value = 0; range.dispatchEvent(new Event('input')); });
+  await page.locator('#why-stretch').evaluate(range => { range.value = 1; range.dispatchEvent(new Event('input')); });
+  for (const k of [0, 2, 3]) if (await figure(k) !== '0.00°') return `a square patch gives ${await figure(k)} with picture ${k}`;
+  const box = await page.locator('.patch').boundingBox(), middle = [box.x + box.width / 2, box.y + box.height / 2], unit = 105 * box.width / 720;
+  await page.mouse.move(middle[0] + unit, middle[1]);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 2 * unit, middle[1], { steps: 4 });
+  await page.mouse.up();
+  const stretched = Number.parseFloat(await figure(3));
+  if (!(stretched > 3)) return `pulled to 2 : 1, tangents at right angles are off by ${stretched} degrees`;
+  if (await figure(0) !== '0.00°') return `cotangents are off by ${await figure(0)}`;
+  await page.screenshot({ path: join(scratch, 'page-why.png'), fullPage: true });
+  await page.context().close();
+});
+
+await fact('accessibilityRulesHoldInLightAndDark', async () => {
+  const wrong = [], rules = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open({ colorScheme });
+    await page.click('#sample-map');
+    await settled(page);
+    await page.locator('#shader').scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => document.querySelector('pre code')?.textContent.length > 500);
+    await page.evaluate(rules);
+    const { violations } = await page.evaluate(() => axe.run());
+    wrong.push(...violations.map(({ id, nodes }) => `${colorScheme}: ${id} at ${nodes.map(node => node.target.join(' ')).slice(0, 4).join(', ')}`));
+    await page.context().close();
+  }
+  return wrong.join('\n');
+});
+
+await fact('aPhoneShowsAllWithoutScrollingSideways', async () => {
+  const page = await open({ viewport: { width: 360, height: 740 } });
+  await page.click('#sample-map');
+  await settled(page);
+  await page.locator('#shader').scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector('pre code')?.textContent.length > 500);
+  await page.screenshot({ path: join(scratch, 'page-phone.png'), fullPage: true });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  await page.context().close();
+  return width > 360 ? `${width} pixels wide` : '';
+});
+
+await fact('itWorksWithoutANetworkOnceItWasSeen', async () => {
+  const page = await open({ serviceWorkers: 'allow' });
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+  await page.context().setOffline(true);
+  await page.reload();
+  await page.click('#sample-map');
+  await settled(page);
+  const words = await page.textContent('.verdict');
+  await page.context().close();
+  return /wrong way/.test(words) ? '' : `says: ${words}`;
+});
+
+await browser.close();
+server.close();
+if (tried + skipped === 0) console.error(`there is no fact ${only}`);
+process.exit(failed > 0 || tried + skipped === 0 ? 1 : tried === 0 ? 77 : 0);

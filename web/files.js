@@ -1,0 +1,53 @@
+// Files that were chosen or dropped, folders included, as [{ name, path, bytes }].
+const kMostBytes = 2 ** 30;
+
+export async function readChosen(list) {
+  return read([...list].map(file => ({ path: file.webkitRelativePath || file.name, file })));
+}
+
+export async function readDropped(transfer) {
+  const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.()).filter(entry => entry);
+  if (entries.length === 0) return readChosen(transfer.files);
+  const found = [];
+  for (const entry of entries) await walk(entry, found);
+  return read(found);
+}
+
+async function walk(entry, found) {
+  if (entry.isFile) {
+    const file = await new Promise((done, failed) => entry.file(done, failed));
+    found.push({ path: entry.fullPath.replace(/^\//, ''), file });
+    return;
+  }
+  const reader = entry.createReader();
+  for (;;) { // a call gives a part of a folder
+    const some = await new Promise((done, failed) => reader.readEntries(done, failed));
+    if (some.length === 0) return;
+    for (const inner of some) await walk(inner, found);
+  }
+}
+
+async function read(found) {
+  const total = found.reduce((sum, { file }) => sum + file.size, 0);
+  if (total > kMostBytes) throw new Error(`expected files of at most 1 GiB together, found ${(total / 2 ** 30).toFixed(1)} GiB`);
+  return Promise.all(found.map(async ({ path, file }) => ({ name: file.name, path, bytes: new Uint8Array(await file.arrayBuffer()) })));
+}
+
+export const isGlb = bytes => bytes.length >= 4 && bytes[0] === 0x67 && bytes[1] === 0x6c && bytes[2] === 0x54 && bytes[3] === 0x46;
+
+// Which of the files is the model: { model, beside } with what lies beside it by path; undefined where there is none.
+export function modelAmong(files) {
+  const model = files.find(file => isGlb(file.bytes)) ?? files.find(file => /\.gltf$/i.test(file.name));
+  return model && { model, beside: new Map(files.filter(file => file !== model).map(file => [file.path, file.bytes])) };
+}
+
+// The bytes of a file that a model names by URI, from what lies beside it; undefined where there is none.
+export function besideModel({ model, beside }, uri) {
+  let path = uri;
+  try { path = decodeURIComponent(uri); } catch { /* as it is */ }
+  const folder = model.path.includes('/') ? model.path.slice(0, model.path.lastIndexOf('/') + 1) : '';
+  const name = path.slice(path.lastIndexOf('/') + 1);
+  const exact = beside.get(new URL(path, `file:///${folder}`).pathname.slice(1)) ?? beside.get(folder + path);
+  // Files that were chosen one by one have lost their folders.
+  return exact ?? [...beside].find(([known]) => known.slice(known.lastIndexOf('/') + 1) === name)?.[1];
+}

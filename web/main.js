@@ -1,0 +1,72 @@
+// The page: files in, panels out.
+import { el } from './elements.js';
+import { cotan } from './library.js';
+import { modelAmong, readChosen, readDropped } from './files.js';
+import { showShader } from './shader_panel.js';
+import { showWhy } from './why_panel.js';
+
+const [status, problem, result] = ['status', 'problem', 'result'].map(id => document.getElementById(id));
+let latest = 0; // only the newest files are shown
+
+async function show(reading) {
+  const turn = ++latest;
+  problem.textContent = '';
+  status.textContent = 'Reading …';
+  try {
+    const files = await reading;
+    if (files.length === 0) throw new Error('expected a file, found none');
+    if (turn !== latest) return;
+    const scratch = el('div');
+    const model = modelAmong(files);
+    status.textContent = `Looking at ${(model?.model ?? files[0]).name} …`;
+    if (model) {
+      const { showModel } = await import('./model_panel.js');
+      await showModel(scratch, model);
+    } else {
+      const [library, { showMap }] = await Promise.all([cotan(), import('./map_panel.js')]);
+      await showMap(scratch, files[0].name, await library.decodePicture(files[0].bytes, files[0].name));
+    }
+    if (turn !== latest) return;
+    result.replaceChildren(...scratch.childNodes);
+    status.textContent = '';
+    result.focus({ preventScroll: true });
+    if (result.getBoundingClientRect().top > 0.6 * innerHeight) result.scrollIntoView({ behavior: 'smooth', block: 'start' });
+  } catch (error) {
+    if (turn !== latest) return;
+    status.textContent = '';
+    problem.textContent = error.message;
+    if (!['CotanError', 'Error'].includes(error.name)) console.error(error);
+  }
+}
+
+document.getElementById('choose').addEventListener('change', event => {
+  show(readChosen(event.target.files));
+  event.target.value = '';
+});
+for (const [name, dragging] of [['dragover', true], ['dragleave', false], ['drop', false]])
+  document.addEventListener(name, event => {
+    event.preventDefault();
+    document.body.classList.toggle('dragging', dragging);
+    if (name === 'drop') show(readDropped(event.dataTransfer));
+  });
+document.addEventListener('paste', event => {
+  if (event.clipboardData.files.length > 0) show(readChosen(event.clipboardData.files));
+});
+for (const name of ['map', 'model'])
+  document.getElementById(`sample-${name}`).addEventListener('click', () => show(import('./samples.js').then(samples => samples[name]())));
+
+try {
+  showWhy(document.getElementById('why-panel'));
+} catch (error) {
+  document.getElementById('why-panel').append(el('p', { class: 'small' }, `The pictures need WebGL 2: ${error.message}`));
+}
+const panel = document.getElementById('shader-panel');
+const whenSeen = new IntersectionObserver(entries => {
+  if (!entries.some(entry => entry.isIntersecting)) return;
+  whenSeen.disconnect();
+  showShader(panel).catch(error => panel.replaceChildren(el('p', { role: 'alert' }, error.message)));
+}, { rootMargin: '400px' });
+whenSeen.observe(panel);
+if (location.hash.startsWith('#shader')) document.getElementById('shader').scrollIntoView();
+addEventListener('hashchange', () => { if (location.hash.startsWith('#shader?')) showShader(panel); });
+if (isSecureContext && 'serviceWorker' in navigator) navigator.serviceWorker.register('offline.js');

@@ -1,0 +1,85 @@
+// What is found of a normal map, and the mended file.
+import { choice, degrees, download, el, percent, table } from './elements.js';
+import { cotan } from './library.js';
+import { divider } from './divider.js';
+import { mapView } from './map_view.js';
+
+// What the programs of the field read, by the word of the command line.
+const kEngines = {
+  gltf: 'glTF, three.js, Babylon.js', opengl: 'OpenGL, a map with green up', directx: 'DirectX, a map with green down', unity: 'Unity', unreal: 'Unreal Engine',
+  blender: 'Blender', godot: 'Godot', maya: 'Maya', '3dsmax': '3ds Max', source: 'Source',
+};
+const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
+
+export async function showMap(result, name, picture) {
+  const library = await cotan();
+  const [green, info] = await Promise.all([library.detect(picture), library.info(picture)]);
+  const view = el('canvas', { role: 'img', 'aria-label': 'The map as relief, lit from where the pointer is' });
+  const preview = mapView(view);
+  preview.put(0, picture);
+  const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
+  const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the mended map');
+  const command = el('code', {});
+  const known = green.green !== 'unknown', isDown = green.green === 'down';
+  let target = isDown ? 'gltf' : 'unreal', mended;
+  const engine = choice('Your engine reads', kEngines, target, value => { target = value; mend(); });
+  const halves = divider(view, share => preview.show(share), ['as it is', 'mended']);
+
+  const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
+  const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
+  async function mend() {
+    const wanted = target, down = kGreenDown.has(target), fits = !known || down === isDown;
+    const made = !known ? picture : await library.convertMap(picture, { from, to: wanted });
+    if (wanted !== target) return;
+    mended = made;
+    preview.greenDown = down;
+    preview.put(1, mended);
+    preview.show(halves.share());
+    verdict.className = `verdict ${!known ? '' : fits ? 'good' : 'bad'}`;
+    verdict.textContent = !known ? words
+      : fits ? `Green is right for ${kEngines[target]}.` : `Green points the wrong way for ${kEngines[target]}: bumps look like dents.`;
+    advice.textContent = words;
+    advice.hidden = button.disabled = !known;
+    command.textContent = `cotan map convert ${name} --from ${from} --to ${target} -o ${newName()}`;
+  }
+  async function save() {
+    download(await library.encodePng(mended), newName(), 'image/png');
+  }
+
+  result.replaceChildren(el('div', { class: 'result' },
+    el('div', {}, verdict, advice, el('div', { class: 'choices' }, engine.element, button),
+      table('What the numbers of the map say', rows(name, picture, green, info)),
+      !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command)),
+    el('figure', { class: 'view' }, view, halves.element,
+      el('figcaption', {}, 'Move the pointer over the picture to move the light. Left: the map as your engine reads it now.'))));
+  await mend();
+}
+
+function greenWords({ green, confidence, swapped, reason }, info) {
+  if (green === 'unknown') return `Which way green points cannot be told from this picture${reason ? `: ${reason}` : ''}.`;
+  const way = green === 'up' ? 'up (OpenGL, glTF, Unity, Blender, Godot)' : 'down (DirectX, Unreal, 3ds Max, Source)';
+  return `Green points ${way}; ${confidence}.${swapped ? ' Red and green are exchanged.' : ''}${info.transfer !== 'linear'
+    ? ' The numbers look as if the map had been taken for a colour (sRGB) on its way: export it as data, or "non-colour".' : ''}`;
+}
+
+function rows(name, { width, height, bits, data }, { agreement, green }, info) {
+  return [
+    ['file', `${name}, ${width} x ${height}, ${bits} bits`],
+    ['what it is', info.content],
+    ['agreement of green with its verdict', green !== 'unknown' ? Math.abs(agreement).toFixed(2) : undefined],
+    ['blue', hasBlue(data) ? 'three channels: z is stored' : 'two channels: z has to be found from x and y'],
+    ['what stands for zero', info.zero === 128 ? '128 of 255' : info.zero === 127 ? '127.5 of 255 (2c − 1)' : 'cannot be told'],
+    ['colour or data', info.transfer === 'srgb' ? 'stored as if it were a colour (sRGB)' : info.transfer === 'linearised' ? 'as if a reader had taken it for a colour' : 'data'],
+    ['mean tilt from flat', degrees(info.meanTilt)],
+    ['background', info.background > 0 ? percent(info.background) : undefined],
+    ['no direction at all', info.invalid > 0 ? percent(info.invalid) : undefined],
+    ['below the horizon', info.belowHorizon > 0 ? percent(info.belowHorizon) : undefined],
+  ];
+}
+
+// Whether blue varies or stands for something else than nothing.
+function hasBlue(data) {
+  const first = data[2];
+  for (let k = 2; k < data.length; k += 4) if (data[k] !== first) return true;
+  return first !== 0 && first !== 255 && first !== 65535;
+}

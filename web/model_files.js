@@ -1,0 +1,34 @@
+// Models in the library's thread: what lies beside them by URI, and geometry that is packed unpacked first.
+import { convert, lint } from 'cotan/beside';
+import { besideModel, isGlb } from './files.js';
+
+const kPacked = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
+
+export const lintModel = async files => lint(...await given(files));
+
+export async function convertModel(files, options) {
+  const [model, more] = await given(files);
+  return convert(model, { ...more, ...options });
+}
+
+// The arguments that the library takes.
+async function given(files) {
+  const { bytes } = files.model, json = jsonOf(bytes), beside = {};
+  for (const { uri } of [...json?.buffers ?? [], ...json?.images ?? []]) {
+    const found = typeof uri === 'string' && !uri.startsWith('data:') ? besideModel(files, uri) : undefined;
+    if (found) beside[uri] = found;
+  }
+  if (!kPacked.some(name => json?.extensionsUsed?.includes?.(name))) return [bytes, { files: beside }];
+  const { unpack } = await import('./unpack.js');
+  return [await unpack(files.model, isGlb(bytes) ? null : json, beside), {}];
+}
+
+// The JSON of a model; undefined where there is none that can be read: the library says what is wrong.
+function jsonOf(bytes) {
+  try {
+    const length = isGlb(bytes) ? new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true) : 0;
+    return JSON.parse(new TextDecoder().decode(isGlb(bytes) ? bytes.subarray(20, 20 + length) : bytes));
+  } catch {
+    return undefined;
+  }
+}

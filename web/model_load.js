@@ -1,0 +1,40 @@
+// A model as three.js has it, from files in memory. Draco, meshopt and KTX2 are decoded by three's own decoders.
+import * as three from 'three';
+import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
+import { besideModel } from './files.js';
+
+let formats; // a renderer that is asked what textures there are
+
+export async function loadModel(files) {
+  const manager = new three.LoadingManager(), addresses = [], missing = [];
+  manager.setURLModifier(url => {
+    if (/^(data|blob):/.test(url) || url.includes('/draco/') || url.includes('/basis/')) return url;
+    const bytes = besideModel(files, url);
+    if (!bytes) { missing.push(url); return 'data:,'; }
+    addresses.push(URL.createObjectURL(new Blob([bytes])));
+    return addresses.at(-1);
+  });
+  const here = name => new URL(name, document.baseURI).href;
+  const draco = new DRACOLoader(manager).setDecoderPath(here('draco/'));
+  formats ??= new three.WebGLRenderer({ canvas: new OffscreenCanvas(1, 1) });
+  const ktx2 = new KTX2Loader(manager).setTranscoderPath(here('basis/')).detectSupport(formats);
+  const loader = new GLTFLoader(manager).setDRACOLoader(draco).setKTX2Loader(ktx2).setMeshoptDecoder(MeshoptDecoder);
+  try {
+    const { bytes } = files.model;
+    const gltf = await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength), '');
+    gltf.scene ??= gltf.scenes[0];
+    if (!gltf.scene) throw new Error('no scene');
+    return gltf;
+  } catch (error) {
+    const name = files.model.name;
+    throw new Error(missing.length > 0 ? `${name}: expected ${missing.join(', ')} beside it, found nothing: drop the files together`
+      : `${name}: expected a glTF model, found: ${error.message ?? error}`);
+  } finally {
+    draco.dispose();
+    ktx2.dispose();
+    setTimeout(() => addresses.forEach(address => URL.revokeObjectURL(address)), 60000);
+  }
+}

@@ -1,0 +1,106 @@
+// What is found of a model, the two halves of its picture, and the converted file.
+import { choice, degrees, download, el, size, table } from './elements.js';
+import { cotan } from './library.js';
+import { divider } from './divider.js';
+import { loadModel } from './model_load.js';
+import { modelView } from './model_view.js';
+
+const kFrames = {
+  stored: 'stored tangents', cotangent: 'cotangent (nothing stored)', triangle: 'triangle (two vectors a triangle)', smooth: 'smooth (cotangents at the vertices)', orthonormal: 'orthonormal (nothing stored)',
+};
+const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
+let open; // the view on screen: there is one at a time
+
+export async function showModel(result, files) {
+  const { name } = files.model, library = await cotan();
+  const [gltf, lint] = await Promise.all([loadModel(files), library.lint(files).catch(error => ({ error }))]);
+  open?.close();
+  const canvas = el('canvas', { tabindex: 0, 'aria-label': `${name}, drawn with two frames. Drag to turn it.` });
+  const view = open = modelView(canvas);
+  let stored = false;
+  gltf.scene.traverse(object => { stored ||= object.isMesh && object.geometry.attributes.tangent !== undefined; });
+  const names = stored ? kFrames : { ...kFrames, stored: 'as three.js derives it (the file has no tangents)' };
+  const chosen = { left: 'stored', right: 'cotangent' };
+  const halves = divider(canvas, share => { view.share = share; }, [names.stored, names.cotangent]);
+  const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {});
+  const pick = (label, side) => choice(label, names, chosen[side], value => { chosen[side] = value; changed(); });
+  const mode = el('input', { type: 'checkbox', onchange: () => { view.angle = mode.checked; scale.hidden = !mode.checked; } });
+  const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
+  const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
+  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, 'Convert and download');
+  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, /--to-frame smooth/.test(lint.run ?? '') ? 'smooth' : 'cotangent', () => {});
+
+  result.replaceChildren(el('div', { class: 'result' },
+    el('div', {}, ...verdictOf(lint, name),
+      el('h3', {}, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved),
+    el('figure', { class: 'view' }, canvas, halves.element,
+      el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { style: 'display: flex' }, mode, 'Show the angle between them')),
+      scale, figures, under,
+      el('figcaption', {}, 'Drag turns, the wheel comes nearer. The number under the pointer is the angle between the normals of both halves.'))));
+  view.open(gltf);
+  await changed();
+  let resting;
+  canvas.addEventListener('pointermove', event => {
+    clearTimeout(resting);
+    if (event.buttons) return;
+    const box = canvas.getBoundingClientRect(), place = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    resting = setTimeout(() => {
+      const angle = view.at(...place);
+      under.textContent = angle === undefined ? 'Beside the model.' : `Under the pointer: ${degrees(angle)} between both normals.`;
+    }, 60);
+  });
+  canvas.addEventListener('pointerup', () => setTimeout(measure, 100));
+
+  async function changed() {
+    await view.choose(chosen.left, chosen.right);
+    halves.rename([names[chosen.left], names[chosen.right]]);
+    setTimeout(measure, 0);
+  }
+  function measure() {
+    if (!canvas.isConnected) { requestAnimationFrame(measure); return; }
+    const found = view.statistics();
+    figures.textContent = found ? `Over what is visible, the two are apart by ${degrees(found.mean)} in the mean, by ${degrees(found.most)} or less on 95 % of it.` : '';
+    canvas.parentElement.dataset.shows = view.names.join(' ');
+    view.show();
+  }
+  async function convert() {
+    button.disabled = true;
+    saved.textContent = 'Converting …';
+    try {
+      const made = await library.convert(files, { to: to.select.value });
+      download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value}.glb`, 'model/gltf-binary');
+      saved.textContent = savedWords(made, files);
+    } catch (error) {
+      saved.textContent = error.message;
+    }
+    button.disabled = false;
+  }
+}
+
+function verdictOf(lint, name) {
+  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is drawn, but could not be judged.'), el('p', {}, lint.error.message)];
+  const green = lint.maps.filter(map => map.decided && !map.as_declared), changes = lint.run_would?.maps_converted > 0, empty = lint.maps.length === 0;
+  const distrusted = lint.primitives.some(({ stored_tangents: stored }) => stored && stored.turned + stored.reversed_w > 0.1);
+  const words = empty ? 'It has no normal map: there is nothing to judge.'
+    : green.length > 0 ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
+      : distrusted ? 'Its stored tangents contradict its texture coordinates.'
+        : changes ? 'Without stored tangents its maps want another frame.' : 'It needs no stored tangents: its maps can be read as they are.';
+  const off = frame => {
+    const means = lint.fits.map(fit => fit[frame].mean).filter(mean => typeof mean === 'number');
+    return means.length > 0 ? degrees(Math.max(...means)) : undefined;
+  };
+  return [el('p', { class: `verdict ${green.length > 0 || distrusted ? 'bad' : empty || changes ? '' : 'good'}` }, words),
+    el('p', {}, lint.recommendation),
+    table(`What is found in ${name}`, [
+      ['file', name], ['primitives, normal maps', `${lint.primitives.length}, ${lint.maps.length}`],
+      ['maps as they are, read by orthonormal: off by', off('orthonormal')], ['by cotangent', off('cotangent')], ['by smooth', off('smooth')],
+    ]),
+    el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst of the maps, where they were made for MikkTSpace.')];
+}
+
+function savedWords({ glb, report }, { model, beside }) {
+  const before = model.bytes.length + [...beside.values()].reduce((sum, bytes) => sum + bytes.length, 0), saved = before - glb.length;
+  const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
+  return `${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, ${size(report.tangents.bytes)} of tangents dropped; `
+    + `the file is ${saved >= 0 ? `${size(saved)} smaller` : `${size(-saved)} larger`}.${off.length > 0 ? ` With the new frame normals are off by ${degrees(Math.max(...off))}.` : ''}`;
+}

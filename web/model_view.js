@@ -1,0 +1,200 @@
+// A model in two halves, each with the frame that was chosen for it, or the angle between their normals in false colours.
+// three.js draws; its materials take other frames from cotan/three.
+import * as three from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { clone as cloneScene } from 'three/addons/utils/SkeletonUtils.js';
+import { untangle } from 'cotan/three';
+import { useSmooth } from './smooth_frame.js';
+
+// Of a canvas whose size follows its place in the page.
+export function modelView(canvas) {
+  const renderer = new three.WebGLRenderer({ canvas, antialias: true });
+  renderer.toneMapping = three.NeutralToneMapping;
+  renderer.autoClear = false;
+  const world = new three.Scene(), camera = new three.PerspectiveCamera(40, 1, 0.01, 100), controls = new OrbitControls(camera, canvas);
+  const light = new three.DirectionalLight(0xffffff, 2.2);
+  world.background = new three.Color(0x23262f);
+  world.environment = new three.PMREMGenerator(renderer).fromScene(new RoomEnvironment(), 0.03).texture;
+  world.environmentIntensity = 0.55;
+  world.add(light, light.target);
+  const what = { value: 0 }; // 0: shaded; 1: normals of the view
+  const targets = [0, 1].map(() => new three.WebGLRenderTarget(1, 1, { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter }));
+  const angles = angleQuad(targets);
+  const state = { gltf: null, variants: new Map(), names: ['stored', 'cotangent'], share: 0.5, angle: false, most: 10 };
+  let asked = 0;
+  controls.addEventListener('change', show);
+  new ResizeObserver(show).observe(canvas);
+
+  const variant = name => state.variants.get(name);
+
+  function show() {
+    if (asked === 0) asked = requestAnimationFrame(() => { asked = 0; drawNow(); });
+  }
+
+  function drawNow() {
+    if (!state.names.every(variant)) return;
+    const width = Math.max(1, Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2))), height = Math.round(width * 9 / 16);
+    if (canvas.width !== width || canvas.height !== height) renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    light.position.copy(camera.position).add(new three.Vector3(-1, 1.4, 0.6).applyQuaternion(camera.quaternion).multiplyScalar(camera.position.distanceTo(controls.target)));
+    light.target.position.copy(controls.target);
+    const pair = state.names.map(variant);
+    renderer.setRenderTarget(null);
+    renderer.setScissorTest(false);
+    renderer.clear();
+    if (state.angle) {
+      drawNormals(pair, width, height);
+      angles.draw(renderer, state.most);
+    } else {
+      const border = Math.round(state.share * width / renderer.getPixelRatio());
+      renderer.setScissorTest(true);
+      pair.forEach((model, k) => {
+        renderer.setScissor(k === 0 ? 0 : border, 0, k === 0 ? border : width - border, height);
+        drawOne(model);
+      });
+      renderer.setScissorTest(false);
+    }
+  }
+
+  function drawOne(model) {
+    world.add(model);
+    renderer.render(world, camera);
+    world.remove(model);
+  }
+
+  function drawNormals(pair, width, height) {
+    what.value = 1;
+    const background = world.background;
+    world.background = null;
+    pair.forEach((model, k) => {
+      targets[k].setSize(width, height);
+      renderer.setRenderTarget(targets[k]);
+      renderer.setClearColor(0, 0);
+      renderer.clear();
+      drawOne(model);
+    });
+    what.value = 0;
+    world.background = background;
+    renderer.setRenderTarget(null);
+  }
+
+  // Degrees between the normals of a part of the picture, where both show a surface.
+  function degreesOver(x, y, width, height) {
+    const pixels = targets.map(target => {
+      const values = new Float32Array(width * height * 4);
+      renderer.readRenderTargetPixels(target, x, y, width, height, values);
+      return values;
+    });
+    const found = [];
+    for (let k = 0; k < width * height * 4; k += 4) {
+      const [a, b] = pixels.map(values => values.subarray(k, k + 4));
+      if (a[3] < 0.5 || b[3] < 0.5) continue;
+      const cross = Math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+      found.push(Math.atan2(cross, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * 180 / Math.PI);
+    }
+    return found;
+  }
+
+  return {
+    show,
+    drawNow,
+    open(gltf) {
+      state.gltf = gltf;
+      state.variants.clear();
+      frameAll(gltf.scene, camera, controls);
+      show();
+    },
+    // Makes copies of the model where a frame is chosen for the first time.
+    async choose(left, right) {
+      const { gltf } = state;
+      for (const name of [left, right])
+        if (!variant(name)) {
+          const made = await makeVariant(gltf.scene, name, what);
+          if (gltf !== state.gltf) return;
+          state.variants.set(name, made);
+        }
+      state.names = [left, right];
+      show();
+    },
+    get names() { return state.names; },
+    set share(value) { state.share = value; show(); },
+    set angle(value) { state.angle = value; show(); },
+    set most(value) { state.most = value; show(); },
+    // Mean and 95 % over the surface that is visible now; undefined where none is.
+    statistics() {
+      if (!state.names.every(variant)) return undefined;
+      const small = [480, 270];
+      drawNormals(state.names.map(variant), ...small);
+      const found = degreesOver(0, 0, ...small).sort((a, b) => a - b);
+      return found.length === 0 ? undefined : { mean: found.reduce((sum, value) => sum + value, 0) / found.length, most: found[Math.floor(0.95 * (found.length - 1))] };
+    },
+    // Degrees at a place, shares of width and height from the top left; undefined beside the model.
+    at(u, v) {
+      if (!state.names.every(variant)) return undefined;
+      const [width, height] = [canvas.width, canvas.height];
+      drawNormals(state.names.map(variant), width, height);
+      return degreesOver(Math.min(width - 1, Math.floor(u * width)), Math.min(height - 1, Math.floor((1 - v) * height)), 1, 1)[0];
+    },
+    close() { renderer.dispose(); targets.forEach(target => target.dispose()); },
+  };
+}
+
+async function makeVariant(scene, name, what) {
+  const copy = cloneScene(scene), materials = new Map(), geometries = new Map();
+  const once = (known, source) => known.get(source) ?? known.set(source, source.clone()).get(source);
+  copy.traverse(object => {
+    if (!object.isMesh) return;
+    object.geometry = once(geometries, object.geometry);
+    object.material = Array.isArray(object.material) ? object.material.map(material => once(materials, material)) : once(materials, object.material);
+  });
+  for (const material of materials.values()) showNormals(material, what);
+  if (name !== 'stored') untangle(copy, { frame: name === 'smooth' ? 'cotangent' : name });
+  if (name === 'smooth') await useSmooth(copy);
+  return copy;
+}
+
+// Lets a material write its normal in place of its colour.
+function showNormals(material, what) {
+  const text = material.isMeshStandardMaterial ? 'vec4( normalize( normal ), 1.0 )' : 'vec4( 0.0 )';
+  material.onBeforeCompile = shader => {
+    shader.uniforms.cotanWhat = what;
+    shader.fragmentShader = `uniform int cotanWhat;\n${shader.fragmentShader}`.replace(/\}\s*$/, `if ( cotanWhat == 1 ) gl_FragColor = ${text};\n}`);
+  };
+  material.customProgramCacheKey = () => text;
+}
+
+function frameAll(scene, camera, controls) {
+  const box = new three.Box3().setFromObject(scene), middle = box.getCenter(new three.Vector3()), radius = box.getSize(new three.Vector3()).length() / 2 || 1;
+  const distance = 0.85 * radius / Math.sin(camera.fov * Math.PI / 360);
+  camera.near = radius / 100;
+  camera.far = distance + 20 * radius;
+  camera.position.copy(middle).add(new three.Vector3(0.5, 0.35, 1).normalize().multiplyScalar(distance));
+  controls.target.copy(middle);
+  controls.update();
+}
+
+// The angle between two pictures of normals, black at 0 to yellow at the most.
+function angleQuad(targets) {
+  const material = new three.ShaderMaterial({
+    uniforms: { a: { value: targets[0].texture }, b: { value: targets[1].texture }, most: { value: 10 } },
+    vertexShader: 'out vec2 at; void main() { at = uv; gl_Position = vec4( position.xy, 0.0, 1.0 ); }',
+    fragmentShader: `
+      uniform sampler2D a, b; uniform float most; in vec2 at;
+      void main() {
+        vec4 m = texture( a, at ), n = texture( b, at );
+        float x = clamp( degrees( atan( length( cross( m.xyz, n.xyz ) ), dot( m.xyz, n.xyz ) ) ) / most, 0.0, 1.0 ) * 4.0;
+        vec3 c = mix( vec3( 0.0 ), vec3( 0.21, 0.06, 0.54 ), clamp( x, 0.0, 1.0 ) );
+        c = mix( c, vec3( 0.76, 0.18, 0.37 ), clamp( x - 1.0, 0.0, 1.0 ) );
+        c = mix( c, vec3( 0.98, 0.56, 0.17 ), clamp( x - 2.0, 0.0, 1.0 ) );
+        c = mix( c, vec3( 0.99, 0.99, 0.69 ), clamp( x - 3.0, 0.0, 1.0 ) );
+        gl_FragColor = m.a > 0.5 && n.a > 0.5 ? vec4( c, 1.0 ) : vec4( 0.14, 0.15, 0.18, 1.0 );
+      }`,
+    depthTest: false, depthWrite: false, glslVersion: null,
+  });
+  const scene = new three.Scene(), camera = new three.Camera(), quad = new three.Mesh(new three.PlaneGeometry(2, 2), material);
+  quad.frustumCulled = false;
+  scene.add(quad);
+  return { draw(renderer, most) { material.uniforms.most.value = most; renderer.render(scene, camera); } };
+}

@@ -1,0 +1,65 @@
+// A flat patch of a surface with texture coordinates that are stretched, sheared and mirrored, and how frames read a normal
+// map on it. All angles in degrees; the patch lies in the plane z = 0, its normal is (0, 0, 1).
+
+export const kFrames = {
+  cotangent: { name: 'Cotangents', text: 'the gradients of u and v, the longer of length one' },
+  printed: { name: 'As printed in 2013', text: 'the same without its sign: turned over where rows run down' },
+  unit: { name: 'Tangents, each of unit length', text: 'dP/du and dP/dv taken for gradients' },
+  orthonormal: { name: 'Tangents at right angles', text: 'what is stored at vertices, as in MikkTSpace' },
+};
+
+// Columns of the matrix from uv to the plane: where u, and where v, leads.
+export function patch({ stretch, shear, mirrored }) {
+  const lean = shear * Math.PI / 180;
+  return { u: [(mirrored ? -1 : 1) * stretch, 0], v: [Math.sin(lean), Math.cos(lean)] };
+}
+
+export function gradients({ u, v }) {
+  const determinant = u[0] * v[1] - u[1] * v[0];
+  return { u: [v[1] / determinant, -v[0] / determinant], v: [-u[1] / determinant, u[0] / determinant] };
+}
+
+const length = a => Math.hypot(a[0], a[1]);
+const times = (a, s) => [a[0] * s, a[1] * s];
+
+// The two vectors in the plane that the frame multiplies the texel's x and y with. rowsDown: of the target drawn into.
+export function frameOf(name, lies, rowsDown) {
+  const g = gradients(lies);
+  if (name === 'cotangent' || name === 'printed') {
+    const scale = (name === 'printed' && rowsDown ? -1 : 1) / Math.max(length(g.u), length(g.v));
+    return { t: times(g.u, scale), b: times(g.v, scale) };
+  }
+  const t = times(lies.u, 1 / length(lies.u));
+  if (name === 'unit') return { t, b: times(lies.v, 1 / length(lies.v)) };
+  const side = Math.sign(lies.u[0] * lies.v[1] - lies.u[1] * lies.v[0]);
+  return { t, b: [-t[1] * side, t[0] * side] };
+}
+
+// Slopes of the relief along u and v, in the middle of a tile of 1 x 1: round domes. The shader has the same.
+export const kRelief = `
+vec2 slopes(vec2 uv) { // dh/du, dh/dv
+  vec2 d = fract(uv * 2.0) - 0.5;
+  float r2 = dot(d, d) / 0.14;
+  return r2 < 1.0 ? -d * 4.2 * (1.0 - r2) : vec2(0.0);
+}`;
+export function slopes(u, v) {
+  const d = [2 * u - Math.floor(2 * u) - 0.5, 2 * v - Math.floor(2 * v) - 0.5], r2 = (d[0] * d[0] + d[1] * d[1]) / 0.14;
+  return r2 < 1 ? times(d, -4.2 * (1 - r2)) : [0, 0];
+}
+
+// The mean angle between the normals of a frame and those of the relief that is stretched with the surface, over its domes.
+// Truth: normal minus the gradient of the height, h_u grad u + h_v grad v, both scaled so that the longer has length one.
+export function meanError(name, lies, rowsDown) {
+  const right = frameOf('cotangent', lies, false), frame = frameOf(name, lies, rowsDown), steps = 64;
+  let sum = 0, count = 0;
+  for (let i = 0; i < steps; ++i)
+    for (let j = 0; j < steps; ++j) {
+      const [hu, hv] = slopes((i + 0.5) / steps / 2, (j + 0.5) / steps / 2);
+      if (hu === 0 && hv === 0) continue;
+      const [a, b] = [right, frame].map(({ t, b }) => [-hu * t[0] - hv * b[0], -hu * t[1] - hv * b[1], 1]);
+      const cross = Math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+      sum += Math.atan2(cross, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+      ++count;
+    }
+  return sum / count * 180 / Math.PI;
+}

@@ -1,0 +1,75 @@
+// The text of the shader for a language and a frame, kept in the address: #shader?lang=wgsl&frame=cotangent&map=gltf
+import { choice, download, el } from './elements.js';
+import { cotan } from './library.js';
+
+const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', cpp: 'C++' };
+const kFrames = {
+  cotangent: 'cotangent: nothing stored, exact on stretched uv', orthonormal: 'orthonormal: for maps baked for MikkTSpace',
+  triangle: 'triangle: two vectors a triangle, the cheapest', smooth: 'smooth: cotangents at the vertices', mikktspace: 'mikktspace: stored tangents',
+};
+const kMaps = { gltf: 'glTF', opengl: 'OpenGL, green up', directx: 'DirectX, green down', unity: 'Unity', unreal: 'Unreal', godot: 'Godot', blender: 'Blender' };
+const kStages = { '': 'all', fragment: 'pixel', vertex: 'vertex', mesh: 'mesh', compute: 'compute' };
+const kEnds = { essl: 'glsl', glsl: 'glsl', wgsl: 'wgsl', hlsl: 'hlsl', msl: 'metal', cpp: 'hpp' };
+
+export async function showShader(panel) {
+  const words = new URLSearchParams(location.hash.startsWith('#shader?') ? location.hash.slice(8) : '');
+  const word = (name, known, otherwise) => words.get(name) in known ? words.get(name) : otherwise;
+  const state = { lang: word('lang', kLanguages, 'essl'), frame: word('frame', kFrames, 'cotangent'), map: word('map', kMaps, 'gltf'), stage: word('stage', kStages, '') };
+  const text = el('code', {}), said = el('p', { role: 'status', class: 'small' }), how = el('div', {}), stages = el('div', {});
+  const select = (label, known, name) => choice(label, known, state[name], value => { state[name] = value; chosen(true); });
+  const stage = select('Stage', kStages, 'stage');
+  stages.append(stage.element);
+
+  panel.replaceChildren(
+    el('div', { class: 'choices' }, select('Language', kLanguages, 'lang').element, select('Frame', kFrames, 'frame').element,
+      select('The map is stored for', kMaps, 'map').element, stages,
+      el('button', { type: 'button', class: 'main', onclick: copy }, 'Copy'),
+      el('button', { type: 'button', class: 'link', onclick: () => download(text.textContent, `cotan.${kEnds[state.lang]}`, 'text/plain') }, 'Download')),
+    said,
+    el('div', { class: 'shader' }, el('pre', { tabindex: 0, 'aria-label': 'Text of the shader' }, text), how));
+  await chosen(false);
+
+  async function chosen(keep) {
+    stages.hidden = state.frame !== 'triangle';
+    const library = await cotan();
+    try {
+      text.textContent = await library.shader({ language: state.lang, frame: state.frame, convention: state.map,
+        ...(state.frame === 'triangle' && state.stage ? { stage: state.stage } : {}) });
+      said.textContent = '';
+    } catch (error) {
+      text.textContent = '';
+      said.textContent = error.message;
+    }
+    how.replaceChildren(...instructions(state));
+    if (keep) history.replaceState(null, '', `#shader?${new URLSearchParams(Object.entries(state).filter(([, value]) => value))}`);
+  }
+  async function copy() {
+    try {
+      await navigator.clipboard.writeText(text.textContent);
+      said.textContent = 'Copied.';
+    } catch {
+      getSelection().selectAllChildren(text);
+      said.textContent = 'The browser does not let this page copy. The text is selected: press Ctrl+C.';
+    }
+  }
+}
+
+function instructions({ lang, frame }) {
+  const needs = {
+    cotangent: 'Call cotan_perturb_normal once in the pixel stage, before any branch.', orthonormal: 'Call cotan_perturb_normal once in the pixel stage, before any branch.',
+    triangle: 'Make the two vectors of a triangle where triangles are at hand (load, vertex, mesh or compute stage), hand them on without interpolation, and call cotan_perturb_normal_on_triangle.',
+    smooth: 'Make cotangents at the vertices once (npm cotan, or cotan tangents), interpolate them, and call cotan_perturb_normal_from_vertices.',
+    mikktspace: 'Interpolate normal and tangent as they are, without normalising, and call cotan_perturb_normal_from_vertices.',
+  };
+  const space = {
+    essl: 'Say "precision highp float; precision highp int;" first.', wgsl: 'Derivatives want uniform control flow: call it before any return or discard.',
+    hlsl: 'In Unity and Unreal the texel comes expanded: take the text of the command line with --unsigned signed.', glsl: 'Version 4.30 or higher, or Vulkan.',
+    msl: 'Include <metal_stdlib> first.', cpp: 'A header of its own: it includes nothing of Cotan.',
+  };
+  return [el('h3', {}, 'Where it goes'), el('ol', {},
+    el('li', {}, 'Paste the text above your pixel shader.'), el('li', {}, needs[frame]),
+    el('li', {}, 'Give it the position minus the eye’s, in the space of the normal; do not normalise it.'),
+    el('li', {}, 'Give it the uv that the texture is sampled with.'),
+    el('li', {}, space[lang])),
+  el('p', { class: 'small' }, 'The address of this page keeps your choice.')];
+}

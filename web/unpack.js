@@ -1,0 +1,19 @@
+// Models with Draco or meshopt geometry as plain ones, by the decoders of glTF-Transform.
+import { WebIO } from '@gltf-transform/core';
+import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
+import { MeshoptDecoder } from 'meshoptimizer';
+import createDecoder from 'draco3dgltf/draco_decoder_gltf_nodejs.js';
+
+// A GLB. json, beside: of a model that is no GLB.
+export async function unpack({ name, bytes }, json, beside) {
+  await MeshoptDecoder.ready;
+  const decoder = await createDecoder({ locateFile: () => new URL('draco/gltf.wasm', self.location.href).href });
+  const io = new WebIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'draco3d.decoder': decoder, 'meshopt.decoder': MeshoptDecoder });
+  try {
+    const document = await (json ? io.readJSON({ json, resources: beside }) : io.readBinary(bytes));
+    for (const extension of document.getRoot().listExtensionsUsed()) if (/draco|meshopt/.test(extension.extensionName)) extension.dispose();
+    return await io.writeBinary(document);
+  } catch (error) {
+    throw new Error(`${name}: expected geometry that can be unpacked, found: ${error.message}`);
+  }
+}

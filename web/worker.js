@@ -1,0 +1,14 @@
+// The thread that the library works in: { call, name, values } in, { call, result } or { call, error } out.
+import * as cotan from 'cotan/beside';
+import { convertModel, lintModel } from './model_files.js';
+
+const tasks = { ...cotan, lint: lintModel, convert: convertModel };
+
+self.onmessage = async ({ data: { call, name, values } }) => {
+  try {
+    await cotan.ready;
+    self.postMessage({ call, result: await tasks[name](...values) });
+  } catch (error) {
+    self.postMessage({ call, error: { name: error.name, message: error.message, code: error.code } });
+  }
+};
