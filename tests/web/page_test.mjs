@@ -9,6 +9,10 @@ import { basename, dirname, extname, join } from 'node:path';
 import { createRequire } from 'node:module';
 
 const [root, modules, tool, data, only] = process.argv.slice(2);
+if (!existsSync(join(root, 'index.html'))) {
+  console.error(`skipped: ${root} was not built`);
+  process.exit(77);
+}
 const require = createRequire(join(modules, 'x.js'));
 const { chromium } = require('playwright-core');
 const { decode } = await import(join(modules, 'fast-png/lib/index.js'));
