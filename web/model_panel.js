@@ -28,7 +28,7 @@ export async function showModel(result, files) {
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
   const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, 'Convert and download');
-  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, /--to-frame smooth/.test(lint.run ?? '') ? 'smooth' : 'cotangent', () => {});
+  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, /--to-frame (\w+)/.exec(lint.run)?.[1] ?? 'cotangent', () => {});
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),

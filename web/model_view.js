@@ -54,6 +54,9 @@ export function modelView(canvas) {
         renderer.setScissor(k === 0 ? 0 : border, 0, k === 0 ? border : width - border, height);
         drawOne(model);
       });
+      renderer.setScissor(border - 1, 0, 2, height);
+      renderer.setClearColor(0xffffff, 1);
+      renderer.clear();
       renderer.setScissorTest(false);
     }
   }

@@ -24,8 +24,8 @@ std::string keyOf(const State& s)
         key += commandLine(other, "", s.size) + "\n";
     }
     return key
-        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show, s.moving || s.playing,
-                      s.statisticsShown, s.model ? s.model->number : 0);
+        + fmt::format("{} {} {} {} {} {}", int(s.compare), s.second && s.compare == Compare::flip, s.show,
+                      s.moving || s.playing, s.statisticsShown, s.model ? s.model->number : 0);
 }
 
 } // namespace

@@ -127,8 +127,8 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
         if (f.size() != kFields)
             return inputError(fmt::format("{}: line {}: expected {} fields; found {}", name, line, kFields, f.size()));
         Measurement m{f[0], f[1], f[2], f[3], f[4], f[5]};
-        if (!parseNumber(f[6], m.samples) || !parseNumber(f[7], m.mean) || !parseNumber(f[8], m.percentile95) || !parseNumber(f[9], m.maximum)
-            || !parseNumber(f[10], m.invalid))
+        if (!parseNumber(f[6], m.samples) || !parseNumber(f[7], m.mean) || !parseNumber(f[8], m.percentile95)
+            || !parseNumber(f[9], m.maximum) || !parseNumber(f[10], m.invalid))
             return inputError(fmt::format("{}: line {}: expected numbers in columns 7 to 11", name, line));
         rows.push_back(std::move(m));
     }
