@@ -24,6 +24,8 @@ cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modu
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
     provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
+cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+    ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)
 
 # The page of web/, and what holds of it in Chromium.
 add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
