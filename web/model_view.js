@@ -28,6 +28,17 @@ export function modelView(canvas) {
 
   const variant = name => state.variants.get(name);
 
+  // Shaders for the picture and for the normals are compiled beside the page's own work, where the browser can.
+  async function compiled(model) {
+    if (!renderer.getContext().getExtension('KHR_parallel_shader_compile')) return;
+    await Promise.all([null, targets[0]].map(target => {
+      renderer.setRenderTarget(target);
+      const compiling = renderer.compileAsync(model, camera, world);
+      renderer.setRenderTarget(null);
+      return compiling;
+    }));
+  }
+
   function show() {
     if (asked === 0) asked = requestAnimationFrame(() => { asked = 0; drawNow(); });
   }
@@ -115,6 +126,7 @@ export function modelView(canvas) {
       for (const name of [left, right])
         if (!variant(name)) {
           const made = await makeVariant(gltf.scene, name, what);
+          await compiled(made);
           if (gltf !== state.gltf) return;
           state.variants.set(name, made);
         }

@@ -211,6 +211,7 @@ await fact('realModelsAreJudgedAndDrawn', async () => {
 await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
   const page = await open(), file = model('NormalTangentMirrorTest');
   await drop(page, [file]);
+  await page.locator('.result select').first().selectOption('cotangent');
   const { bytes } = await saved(page, () => page.click('text=Convert and download'));
   run('convert', file, '--to-frame', 'cotangent', '-o', 'tool.glb', '--overwrite', '--quiet');
   const [ours, tools] = [partsOfGlb(bytes), partsOfGlb(readFileSync(join(scratch, 'tool.glb')))];
