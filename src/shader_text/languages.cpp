@@ -90,6 +90,24 @@ const Names kMsl = {{{"cotan_real", "float"},
                     false,
                     false};
 
+// Of the language that Godot 3 and 4 share; OpenGL ES 2 has no bits of floats.
+const Names kGodot = {{{"cotan_real", "float"},
+                       {"cotan_vec2", "vec2"},
+                       {"cotan_vec3", "vec3"},
+                       {"cotan_vec4", "vec4"},
+                       {"cotan_inversesqrt", "inversesqrt"},
+                       {"cotan_mix", "mix"},
+                       {"cotan_ddx", "dFdx"},
+                       {"cotan_ddy", "dFdy"}},
+                      "",
+                      "",
+                      "dFdx",
+                      "dFdy",
+                      false,
+                      false,
+                      false,
+                      false};
+
 const Names kCpp = {{}, "", "inline ", "", "", true, true, false};
 
 constexpr std::string_view kMslPrelude = R"(#include <metal_stdlib>
@@ -214,7 +232,7 @@ inline cotan_vec2 cotan_unpack_half(cotan_uint word)
 
 )";
 
-constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp"};
+constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp", "godot"};
 
 } // namespace
 
@@ -236,6 +254,7 @@ const Names& namesOf(Language language)
     case Language::hlsl: return kHlsl;
     case Language::wgsl: return kWgsl;
     case Language::msl: return kMsl;
+    case Language::godot: return kGodot;
     case Language::cpp: break;
     }
     return kCpp;
@@ -254,7 +273,7 @@ std::string_view halfs(Language language)
     case Language::cpp: return kCppHalfs;
     default: break;
     }
-    return {}; // GLSL and WGSL have them
+    return {}; // GLSL and WGSL have them; Godot's text packs nothing
 }
 
 std::string_view postlude(Language language)
