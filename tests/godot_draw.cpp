@@ -103,8 +103,13 @@ std::string runGodot(const std::string& project, const std::string& driver, cons
         + " --audio-driver Dummy " + words + " > '" + h + "/log' 2>&1";
     const bool ran = std::system(line.c_str()) == 0;
     const std::string printed = readWhole(home / "log");
-    if (!ran || printed.find("SHADER ERROR") != std::string::npos || printed.find("SCRIPT ERROR") != std::string::npos)
-        throw std::runtime_error(driver + ": " + printed);
+    std::string wrong = ran ? "" : "it failed";
+    std::istringstream lines(printed); // shaders that do not compile are in there from their first line to their last
+    for (std::string text; std::getline(lines, text);)
+        if (text.find("SHADER ERROR") != std::string::npos || text.find("SCRIPT ERROR") != std::string::npos)
+            wrong += '\n' + text;
+    if (!wrong.empty())
+        throw std::runtime_error(driver + ": " + wrong);
     return printed;
 }
 

@@ -1,11 +1,11 @@
 // Godot 3 draws what `cotan shader --lang godot` prints. A door: without godot3 and xvfb-run it is skipped.
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include <fmt/format.h>
 
-#include "cotan/truth/patch.hpp"
+#include "cotan/tangents.hpp"
+#include "cotan/triangle.hpp"
+#include "cotan/truth/quad.hpp"
 #include "examples_sheets.hpp"
 #include "godot_draw.hpp"
 #include "godot_parity.hpp"
@@ -41,6 +41,206 @@ TEST_P(Godot, functionsGiveTheNormalsOfTheOtherLanguages)
             }
         fmt::print("| {:24} | {} | {:.1e} |\n", some[k].name, r.language, most);
         EXPECT_LT(most, 1.2e-3) << some[k].name;
+    }
+}
+
+// Four domes as glTF stores them, 256 x 256, RGBA: red along u, green up the image, flat is (128, 128, 255).
+constexpr int kMapSize = 256;
+const std::string& domeBytes()
+{
+    static const std::string bytes = [] {
+        std::string all;
+        for (int row = 0; row < kMapSize; ++row)
+            for (int column = 0; column < kMapSize; ++column) {
+                const Vec n = domes((column + 0.5) / kMapSize, (row + 0.5) / kMapSize);
+                const bool flat = dot(n, n) == 0;
+                for (const double c : {n[0], -n[1], flat ? 1.0 : n[2]})
+                    all += static_cast<char>(std::lround(127 * c + 128));
+                all += '\xff';
+            }
+        return all;
+    }();
+    return bytes;
+}
+
+// The texel at u and v, decoded with z from the other two; zero near its edge, where a rounding decides.
+Vec domeTexel(double u, double v)
+{
+    const double column = (u - std::floor(u)) * kMapSize, row = (v - std::floor(v)) * kMapSize;
+    for (const double c : {column, row})
+        if (std::abs(c - std::round(c)) < 0.05)
+            return {0, 0, 0};
+    const std::size_t at = (static_cast<std::size_t>(row) * kMapSize + static_cast<std::size_t>(column)) * 4;
+    const auto number = [&](std::size_t k) { return (static_cast<unsigned char>(domeBytes()[at + k]) - 128) / 127.0; };
+    const double x = number(0), y = -number(1);
+    return {x, y, std::sqrt(std::max(1 - x * x - y * y, 0.0))};
+}
+
+// The sheet's two halves, clockwise as Godot has it, with what a frame reads of the mesh.
+struct SheetMesh {
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<std::uint32_t> indices;
+};
+
+SheetMesh sheetMesh()
+{
+    SheetMesh mesh;
+    for (const float left : {-1.0f, 0.0f})
+        for (const glm::vec2 corner : {glm::vec2(0, 1), {1, -1}, {0, -1}, {0, 1}, {1, 1}, {1, -1}}) {
+            const glm::vec3 p(left + corner.x, corner.y, 0);
+            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back(p);
+            mesh.normals.push_back({0, 0, 1});
+            mesh.uvs.push_back({std::abs(p.x) + (1 - p.y) / 2, 1 - p.y});
+        }
+    return mesh;
+}
+
+template<class Vector> nlohmann::json numbersOf(const std::vector<Vector>& vectors)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (const Vector& v : vectors)
+        for (int k = 0; k < Vector::length(); ++k)
+            list.push_back(v[k]);
+    return list;
+}
+
+nlohmann::json sheetFor(Frame frame)
+{
+    const SheetMesh mesh = sheetMesh();
+    nlohmann::json sheet{{"positions", numbersOf(mesh.positions)},
+                         {"normals", numbersOf(mesh.normals)},
+                         {"uvs", numbersOf(mesh.uvs)}};
+    const MeshView view{mesh.positions, mesh.normals, mesh.uvs, mesh.indices};
+    std::vector<glm::vec4> first;
+    std::vector<glm::vec3> second;
+    if (frame == Frame::triangle)
+        for (const TriangleVectors& t : triangleVectors(view))
+            for (int corner = 0; corner < 3; ++corner) {
+                first.push_back({t.u, 1});
+                second.push_back(t.v);
+            }
+    if (frame == Frame::smooth) {
+        const Cotangents c = unitCotangents(smoothCotangents(view));
+        for (const glm::vec3& u : c.u)
+            first.push_back({u, 1});
+        second = c.v;
+    }
+    if (!second.empty()) {
+        sheet["tangents"] = numbersOf(first);
+        sheet["colors"] = numbersOf(second);
+    }
+    if (readsTangents(frame))
+        sheet["generate_tangents"] = true;
+    return sheet;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// The printed shader, its normal written as a colour.
+std::string normalShader(const Choice& choice)
+{
+    const auto made = makeShaderText(choice);
+    EXPECT_TRUE(made) << made.error().message;
+    const std::string start = "shader_type spatial;\n" + std::string(choice.twoSided ? "render_mode cull_disabled;\n" : "");
+    const std::string text =
+        replaced(made->text, start,
+                 "shader_type spatial;\nrender_mode unshaded, " + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
+                     + ";\nuniform float part;\n" + kGodotNumbers);
+    // fragment() is the last function.
+    return text.substr(0, text.rfind('}'))
+        + "    ALBEDO = cotan_test_unit(part < 0.5 ? NORMAL.x : (part < 1.5 ? NORMAL.y : NORMAL.z));\n}\n";
+}
+
+constexpr int kWidth = 480, kHeight = 240;
+
+struct SheetError {
+    double most = 0, mean = 0;
+    int count = 0;
+};
+
+// On the left sheet, which is seen from the front, or the right one, from behind. normalAt(pixel): from the top.
+template<class NormalAt> SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), NormalAt normalAt)
+{
+    SheetError e;
+    for (int row = 0; row < kHeight; ++row)
+        for (int column = right ? kWidth / 2 : 0; column < (right ? kWidth : kWidth / 2); ++column) {
+            const Vec ray{((2 * (column + 0.5) / kWidth) - 1) * 2 / 2.2, (1 - 2 * (row + 0.5) / kHeight) / 2.2, -1};
+            const Vec expected =
+                right ? truth(ray, 1.2, M_PI - 0.4, frame, map) : truth(ray, -1.2, 0.4, frame, map);
+            if (dot(expected, expected) == 0)
+                continue;
+            const double off = degreesBetween(normalAt(row * kWidth + column), expected);
+            e.most = off <= e.most ? e.most : off;
+            e.mean += off;
+            ++e.count;
+        }
+    e.mean /= e.count;
+    return e;
+}
+
+TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
+{
+    struct Row {
+        Frame frame;
+        SheetFrame truth;
+        std::optional<Form> form = {};
+    };
+    const Row frames[] = {{Frame::cotangent, SheetFrame::cotangent},
+                          {Frame::cotangent, SheetFrame::cotangent, Form::total},
+                          {Frame::gradient, SheetFrame::gradient},
+                          {Frame::orthonormal, SheetFrame::orthonormal},
+                          {Frame::triangle, SheetFrame::cotangent},
+                          {Frame::smooth, SheetFrame::cotangent},
+                          {Frame::smooth, SheetFrame::cotangent, Form::fused},
+                          {Frame::mikktspace, SheetFrame::orthonormal},
+                          {Frame::vertex, SheetFrame::orthonormal}};
+    struct Way : Row {
+        bool twoSided, mirrored; // the latter by the transform
+    };
+    std::vector<Way> rows;
+    for (const Row& row : frames)
+        if (GetParam() == "GLES3" || info(row.frame).source != FrameSource::differences) // GLES2 has no derivatives
+            for (const bool twoSided : {false, true})
+                for (const bool mirrored : {false, true})
+                    rows.push_back({row, twoSided, mirrored});
+    GodotJobs jobs;
+    const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
+    for (const Way& row : rows) {
+        Choice choice;
+        choice.twoSided = row.twoSided;
+        choice.language = Language::godot;
+        choice.frame = row.frame;
+        choice.form = row.form;
+        choice.convention.channels = Channels::orthographic;
+        jobs.add(normalShader(choice), kWidth, kHeight, 3,
+                 {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(row.frame)}, {"mirrored", row.mirrored}});
+    }
+    const std::vector<std::string> pictures = jobs.draw(GetParam());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto normalAt = [&](int pixel) {
+            Vec n{};
+            for (int part = 0; part < 3; ++part)
+                n[static_cast<std::size_t>(part)] = unitOfBytes(pictures[k].data() + 3 * (part * kWidth * kHeight + pixel));
+            return n;
+        };
+        for (const bool right : {false, true}) {
+            if (right && !rows[k].twoSided)
+                continue;
+            const SheetError e = sheetError(right, rows[k].truth, domeTexel, normalAt);
+            const std::string label =
+                fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(), rows[k].twoSided ? ", two-sided" : "",
+                            right ? "back" : "front", rows[k].mirrored ? ", mirrored" : "");
+            fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.most);
+            EXPECT_GT(e.count, 8000);
+            EXPECT_LT(e.most, 0.02) << label;
+        }
     }
 }
 

@@ -21,7 +21,7 @@ struct ShaderCommandOptions : CommonOptions {
     std::vector<std::string> sets;
     std::string differences = "shader";
     int uvSets = 1;
-    bool functions = false;
+    bool functions = false, twoSided = false;
 };
 
 Result<Convention> conventionOf(const ShaderCommandOptions& o)
@@ -93,7 +93,10 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     choice.uvSets = o.uvSets;
     if (o.functions && choice.language != shader_text::Language::godot)
         return usageError("--functions: for --lang godot; the other languages have nothing but functions");
+    if (o.twoSided && (choice.language != shader_text::Language::godot || o.functions))
+        return usageError("--two-sided: for --lang godot and a whole shader; functions are for either");
     choice.functionsOnly = o.functions;
+    choice.twoSided = o.twoSided;
     Words<std::vector<shader_text::Set>> sets{{"frame", {}}};
     std::vector<shader_text::Set> all;
     for (const shader_text::Set set : shader_text::kSets) {
@@ -173,6 +176,7 @@ void declare(Arguments& a, ShaderCommandOptions& o)
         .in("A,B");
     a.flag("--functions", o.functions,
            "Godot: the functions alone, to paste or as a .gdshaderinc, without shader_type, the map and fragment()");
+    a.flag("--two-sided", o.twoSided, "Godot: with back faces, as of a thin sheet: a bump in front is a dent behind");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")

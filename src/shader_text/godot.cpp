@@ -17,30 +17,46 @@ bool hasVectors(const Choice& choice)
     return choice.frame == Frame::triangle || readsCotangents(choice.frame);
 }
 
-// What fragment() calls; normal is the one of the front.
-std::string perturbed(const Choice& choice)
+// What fragment() calls.
+std::string perturbed(const Choice& choice, const std::string& normal)
 {
+    const std::string texel = "texture(normal_map, UV).xyz";
     if (choice.frame == Frame::triangle)
-        return "cotan_perturb_normal_on_triangle(normal, cotan_u, cotan_v, texture(normal_map, UV).xyz)";
+        return fill("cotan_perturb_normal_on_triangle({}, cotan_u, cotan_v, {})", normal, texel);
     if (readsCotangents(choice.frame))
-        return std::string(kVertexEntry) + "(normal, cotan_u, cotan_v, texture(normal_map, UV).xyz)";
+        return fill("{}({}, cotan_u, cotan_v, {})", kVertexEntry, normal, texel);
     if (readsVertices(choice.frame))
-        return std::string(kVertexEntry) + "(normal, TANGENT, handedness, texture(normal_map, UV).xyz)";
+        return fill("{}({}, TANGENT, handedness, {})", kVertexEntry, normal, texel);
     if (choice.uvSets == 1)
-        return std::string(kScreenEntry) + "(normal, VERTEX, UV, texture(normal_map, UV).xyz)";
-    return std::string(kScreenEntry)
-        + "(normal, VERTEX, UV, texture(normal_map, UV).xyz, UV2,\n        texture(normal_map2, UV2).xyz)";
+        return fill("{}({}, VERTEX, UV, {})", kScreenEntry, normal, texel);
+    return fill("{}({}, VERTEX, UV, {}, UV2,\n        texture(normal_map2, UV2).xyz)", kScreenEntry, normal, texel);
+}
+
+// Whether fragment() takes derivatives, which OpenGL ES 2 lacks.
+bool hasDerivatives(const Choice& choice) { return info(choice.frame).source == FrameSource::differences; }
+
+bool readsNormal(const Choice& choice) { return hasLight(choice) || choice.twoSided; }
+// Whether it must be known that the transform mirrors.
+bool readsSide(const Choice& choice)
+{
+    return choice.frame == Frame::triangle || (choice.twoSided && !hasDerivatives(choice));
 }
 
 std::string head(const Choice& choice)
 {
-    std::string text = "shader_type spatial;\n\nuniform sampler2D normal_map : hint_normal;\n";
+    std::string text = "shader_type spatial;\n";
+    if (choice.twoSided)
+        text += "render_mode cull_disabled;\n";
+    text += "\nuniform sampler2D normal_map : hint_normal;\n";
     if (choice.uvSets > 1)
         text += "uniform sampler2D normal_map2 : hint_normal;\n";
     if (hasLight(choice))
         text += "uniform float coat : hint_range(0.0, 1.0) = 1.0;\n"
-                "uniform float coat_roughness : hint_range(0.0, 1.0) = 0.05;\n"
-                "varying vec3 cotan_coat_normal;\n";
+                "uniform float coat_roughness : hint_range(0.0, 1.0) = 0.05;\n";
+    if (readsNormal(choice))
+        text += "varying vec3 cotan_normal;\n";
+    if (choice.twoSided && !hasDerivatives(choice))
+        text += "varying float cotan_side;\n";
     if (hasVectors(choice))
         text += "varying vec3 cotan_u;\nvarying vec3 cotan_v;\n";
     return text + '\n';
@@ -48,29 +64,42 @@ std::string head(const Choice& choice)
 
 std::string vertex(const Choice& choice)
 {
-    if (!hasLight(choice) && !hasVectors(choice))
-        return "";
-    std::string text = "\nvoid vertex()\n{\n";
-    if (hasLight(choice))
-        text += "    cotan_coat_normal = transpose(inverse(mat3(MODELVIEW_MATRIX))) * NORMAL;\n";
-    if (hasVectors(choice))
-        text += "    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For matrices that turn, move and scale evenly.\n"
-                "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz;\n"
-                "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz;\n";
-    return text + "}\n";
+    std::string text;
+    if (readsNormal(choice))
+        text += "    cotan_normal = normalize(transpose(inverse(mat3(MODELVIEW_MATRIX))) * NORMAL);\n";
+    if (readsSide(choice))
+        text += "    vec3 x = MODELVIEW_MATRIX[0].xyz;\n"
+                "    vec3 y = MODELVIEW_MATRIX[1].xyz;\n"
+                "    float side = dot(cross(x, y), MODELVIEW_MATRIX[2].xyz) < 0.0 ? -1.0 : 1.0; // mirrors?\n";
+    if (choice.twoSided && !hasDerivatives(choice))
+        text += "    cotan_side = side;\n";
+    if (hasVectors(choice)) {
+        const std::string_view factor = choice.frame == Frame::triangle ? " * side" : "";
+        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms that scale evenly.\n"
+                     "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz{0};\n"
+                     "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz{0};\n",
+                     factor);
+    }
+    return text.empty() ? text : "\nvoid vertex()\n{\n" + text + "}\n";
 }
 
 std::string fragment(const Choice& choice)
 {
-    std::string text = "\nvoid fragment()\n{\n"
-                       "    // With cull_disabled Godot turns NORMAL on back faces. The map is read with the normal of\n"
-                       "    // the front and the result turned: a bump in front is a dent behind.\n"
-                       "    float side = FRONT_FACING ? 1.0 : -1.0;\n"
-                       "    vec3 normal = NORMAL * side;\n";
-    if (readsVertices(choice.frame) && !readsCotangents(choice.frame))
-        text += "    // BINORMAL points up the image, +v down.\n"
-                "    float handedness = dot(cross(normal, TANGENT), BINORMAL) < 0.0 ? 1.0 : -1.0;\n";
-    return fill("{}    NORMAL = {} * side;\n}}\n", text, perturbed(choice));
+    const std::string normal = choice.twoSided ? "cotan_normal" : "NORMAL";
+    std::string text = "\nvoid fragment()\n{\n";
+    if (choice.twoSided && hasDerivatives(choice))
+        text += "    // Seen from behind? FRONT_FACING says the opposite in Godot 3 where the transform mirrors.\n"
+                "    vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));\n"
+                "    vec3 away = mix(VERTEX, vec3(0.0, 0.0, -1.0), PROJECTION_MATRIX[3][3]); // from the eye\n"
+                "    float side = dot(cotan_normal, seen) * dot(seen, away) > 0.0 ? -1.0 : 1.0;\n";
+    else if (choice.twoSided)
+        text += "    // FRONT_FACING says the opposite where the transform mirrors.\n"
+                "    float side = FRONT_FACING ? cotan_side : -cotan_side;\n";
+    if (readsTangents(choice.frame))
+        text += fill("    // BINORMAL points up the image, +v down.\n"
+                     "    float handedness = dot(cross({}, TANGENT), BINORMAL) < 0.0 ? 1.0 : -1.0;\n",
+                     normal);
+    return fill("{}    NORMAL = {}{};\n}}\n", text, perturbed(choice, normal), choice.twoSided ? " * side" : "");
 }
 
 // A coat with the normal of the surface without the map. All of the light goes to SPECULAR_LIGHT, which Godot 3 and 4
@@ -78,7 +107,7 @@ std::string fragment(const Choice& choice)
 constexpr std::string_view kLight = R"(
 void light()
 {
-    vec3 coat_n = normalize(cotan_coat_normal);
+    vec3 coat_n = normalize(cotan_normal);
     coat_n = dot(coat_n, VIEW) < 0.0 ? -coat_n : coat_n;
     vec3 beneath = cotan_reflect_pbr(ALBEDO, METALLIC, ROUGHNESS, 1.0, vec3(0.0), NORMAL, VIEW, LIGHT);
     float share = cotan_coat_share(coat, coat_roughness, coat_n, VIEW);
@@ -134,6 +163,7 @@ std::string godotNeeds(const Choice& choice)
         return text + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader does not see\n";
     return text
         + "//   VERTEX     the position in view space, as it is in fragment(); not normalised\n"
+          "//   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none\n"
           "//   No tangents: switch them off where the mesh is imported. Do not write NORMALMAP (NORMAL_MAP in\n"
           "//   Godot 4), which is the way through stored tangents.\n"
           "//   For ANISOTROPY, behind NORMAL = ...:  TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n"

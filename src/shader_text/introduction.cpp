@@ -17,7 +17,7 @@ std::string_view title(Language language)
     case Language::hlsl: return "HLSL, shader model 5 and later";
     case Language::wgsl: return "WGSL";
     case Language::msl: return "Metal shading language";
-    case Language::godot: return "Godot 3.2 and later, GLES3 and GLES2, and Godot 4";
+    case Language::godot: return "Godot 3.2 and later and Godot 4";
     case Language::cpp: break;
     }
     return "C++17";

@@ -64,6 +64,7 @@ struct Choice {
     Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
     bool functionsOnly = false;     // Godot: without shader_type, the map, vertex(), fragment() and light()
+    bool twoSided = false;          // Godot: back faces are seen too, those of a thin sheet
     std::vector<Set> sets;          // in any order
 };
 
