@@ -15,7 +15,6 @@ func _ready():
 	viewport.keep_3d_linear = true
 	viewport.own_world = true
 	viewport.render_target_update_mode = Viewport.UPDATE_ALWAYS
-	viewport.render_target_v_flip = true
 	add_child(viewport)
 	var camera = Camera.new()
 	# 2 * atan(1 / 2.2), as in tests/examples_sheets.hpp
@@ -82,6 +81,7 @@ func draw(job):
 		material.set_shader_param("part", float(part))
 		yield(VisualServer, "frame_post_draw")
 		var image = viewport.get_texture().get_data()
+		image.flip_y()
 		image.convert(Image.FORMAT_RGB8)
 		file.store_buffer(image.get_data())
 	file.close()
