@@ -47,6 +47,16 @@ enum class SheetFrame {
     orthonormal, // tangent first
 };
 
+// Where a ray from the eye meets the plane of a sheet: along the sheet's own axes, from its middle.
+inline std::array<double, 2> onSheet(Vec ray, double middle, double angle)
+{
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Vec normal{s, 0, c}, along{c, 0, -s}, toMiddle{middle, 0, -4};
+    const double depth = dot(normal, toMiddle) / dot(normal, ray);
+    const Vec hit{ray[0] * depth - toMiddle[0], ray[1] * depth, ray[2] * depth - toMiddle[2]};
+    return {dot(hit, along), hit[1]};
+}
+
 // u = |x| + (1 - y)/2, v = 1 - y on a sheet of which x and y are the axes, by hand: grad u = (sign x, -1/2),
 // grad v = (0, -1); the longer, grad u, is sqrt(5)/2; along u runs (sign x, 0). Zero where the ray misses, or near a rim
 // or an edge.
@@ -54,10 +64,8 @@ inline Vec truth(Vec ray, double middle, double angle, SheetFrame frame = SheetF
                  Vec (*map)(double, double) = domes)
 {
     const double c = std::cos(angle), s = std::sin(angle);
-    const Vec normal{s, 0, c}, along{c, 0, -s}, toMiddle{middle, 0, -4};
-    const double depth = dot(normal, toMiddle) / dot(normal, ray);
-    const Vec hit{ray[0] * depth - toMiddle[0], ray[1] * depth, ray[2] * depth - toMiddle[2]};
-    const double x = dot(hit, along), y = hit[1];
+    const Vec normal{s, 0, c}, along{c, 0, -s};
+    const auto [x, y] = onSheet(ray, middle, angle);
     if (!(std::abs(x) < 0.999 && std::abs(y) < 0.999 && std::abs(x) > 1e-3))
         return {0, 0, 0};
     const Vec m = map(std::abs(x) + (1 - y) / 2, 1 - y);

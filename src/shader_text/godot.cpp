@@ -51,7 +51,8 @@ std::string head(const Choice& choice)
     if (choice.uvSets > 1)
         text += "uniform sampler2D normal_map2 : hint_normal;\n";
     if (hasLight(choice))
-        text += "uniform float coat : hint_range(0.0, 1.0) = 1.0;\n"
+        text += "uniform float metallic : hint_range(0.0, 1.0) = 0.0;\n"
+                "uniform float coat : hint_range(0.0, 1.0) = 1.0;\n"
                 "uniform float coat_roughness : hint_range(0.0, 1.0) = 0.05;\n";
     if (readsNormal(choice))
         text += "varying vec3 cotan_normal;\n";
@@ -65,12 +66,14 @@ std::string head(const Choice& choice)
 std::string vertex(const Choice& choice)
 {
     std::string text;
-    if (readsNormal(choice))
-        text += "    cotan_normal = normalize(transpose(inverse(mat3(MODELVIEW_MATRIX))) * NORMAL);\n";
-    if (readsSide(choice))
+    if (readsNormal(choice) || readsSide(choice))
         text += "    vec3 x = MODELVIEW_MATRIX[0].xyz;\n"
                 "    vec3 y = MODELVIEW_MATRIX[1].xyz;\n"
-                "    float side = dot(cross(x, y), MODELVIEW_MATRIX[2].xyz) < 0.0 ? -1.0 : 1.0; // mirrors?\n";
+                "    vec3 z = MODELVIEW_MATRIX[2].xyz;\n"
+                "    float side = dot(cross(x, y), z) < 0.0 ? -1.0 : 1.0; // -1: it mirrors\n";
+    if (readsNormal(choice)) // inverse() is wrong in the GLES2 of Godot 3.2
+        text += "    vec3 n = cross(y, z) * NORMAL.x + cross(z, x) * NORMAL.y + cross(x, y) * NORMAL.z;\n"
+                "    cotan_normal = normalize(n * side);\n";
     if (choice.twoSided && !hasDerivatives(choice))
         text += "    cotan_side = side;\n";
     if (hasVectors(choice)) {
@@ -87,6 +90,8 @@ std::string fragment(const Choice& choice)
 {
     const std::string normal = choice.twoSided ? "cotan_normal" : "NORMAL";
     std::string text = "\nvoid fragment()\n{\n";
+    if (hasLight(choice))
+        text += "    METALLIC = metallic; // Godot 3 does not hand it on to light()\n";
     if (choice.twoSided && hasDerivatives(choice))
         text += "    // Seen from behind? FRONT_FACING says the opposite in Godot 3 where the transform mirrors.\n"
                 "    vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));\n"
@@ -109,7 +114,7 @@ void light()
 {
     vec3 coat_n = normalize(cotan_normal);
     coat_n = dot(coat_n, VIEW) < 0.0 ? -coat_n : coat_n;
-    vec3 beneath = cotan_reflect_pbr(ALBEDO, METALLIC, ROUGHNESS, 1.0, vec3(0.0), NORMAL, VIEW, LIGHT);
+    vec3 beneath = cotan_reflect_pbr(ALBEDO, metallic, ROUGHNESS, 1.0, vec3(0.0), NORMAL, VIEW, LIGHT);
     float share = cotan_coat_share(coat, coat_roughness, coat_n, VIEW);
     float above = cotan_reflect_coat(coat, coat_roughness, coat_n, VIEW, LIGHT);
     SPECULAR_LIGHT += (beneath * (1.0 - share) + vec3(above)) * LIGHT_COLOR * ATTENUATION;
@@ -138,6 +143,8 @@ Status checkGodot(const Choice& choice, Form form)
         return usageError(fill("uv sets: Godot has 2; found {}; expected fewer, or the functions alone", choice.uvSets));
     return Done{};
 }
+
+std::vector<std::string> functionsOfLight() { return {"cotan_reflect_pbr", "cotan_coat_share", "cotan_reflect_coat"}; }
 
 std::string godotNeeds(const Choice& choice)
 {

@@ -11,6 +11,9 @@ bool isGodotShader(const Choice& choice);
 // Errors (usage): what Godot's shaders cannot see.
 Status checkGodot(const Choice& choice, Form form);
 
+// What light() calls.
+std::vector<std::string> functionsOfLight();
+
 // The part "Needs" of the comment at the top.
 std::string godotNeeds(const Choice& choice);
 

@@ -60,12 +60,16 @@ void bindConvention(Module& module, const Convention& c)
 std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
 {
     std::set<std::string_view> parts = {"entry"};
+    std::vector<std::string> roots;
     for (const Set set : choice.sets) {
+        if (set == Set::light && isGodotShader(choice)) {
+            roots = functionsOfLight();
+            continue;
+        }
         parts.insert(name(set));
         if (set == Set::light)
             parts.insert("sheen");
     }
-    std::vector<std::string> roots;
     for (const Function& f : module.functions)
         if (parts.contains(f.part))
             roots.push_back(f.name);

@@ -85,7 +85,7 @@ export function frames(): string[];
 
 /** The function that perturbs the normal with that frame, self-contained. */
 export function shader(options?: {
-  language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp';
+  language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
   frame?: string;
   convention?: Convention;
 }): string;
