@@ -1,7 +1,6 @@
 #include "flatten.hpp"
 
 #include <map>
-#include <set>
 #include <stdexcept>
 
 namespace cotan::shader_text {
@@ -24,7 +23,7 @@ public:
     Function function(Function f)
     {
         variables_.clear();
-        taken_.clear();
+        names_.clear();
         given_ = givenBack(f);
         std::vector<Variable> parameters;
         for (const Variable& p : f.parameters)
@@ -69,9 +68,16 @@ private:
             parts.push_back({type, name, {}});
         }
         for (const Variable& part : parts)
-            if (!taken_.insert(part.name).second)
-                throw std::runtime_error("without structs: the name '" + part.name + "' is taken");
+            take(part.name, fields_.contains(type));
         return parts;
+    }
+
+    // Two scopes may use a name for plain variables, but none of them for a part.
+    void take(const std::string& name, bool part)
+    {
+        const auto [known, fresh] = names_.insert({name, part});
+        if (!fresh && (part || known->second))
+            throw std::runtime_error("without structs: the name '" + name + "' is taken");
     }
 
     bool isStruct(const Expression& e) const
@@ -165,6 +171,8 @@ private:
                 assign(into, s.name, s.value);
             return;
         }
+        if (s.kind == S::declare)
+            take(s.name, false);
         if (s.kind == S::assign && isStruct(s.target))
             return assign(into, s.target.text, s.value);
         if (s.kind == S::giveBack && !given_.empty()) {
@@ -201,7 +209,7 @@ private:
     std::map<std::string, std::vector<Variable>> fields_; // of each struct
     std::map<std::string, std::string> types_;            // of each function
     std::map<std::string, std::string> variables_;        // of structs, with their types
-    std::set<std::string> taken_;
+    std::map<std::string, bool> names_;                   // of variables; whether of a part
     std::string given_;
 };
 
