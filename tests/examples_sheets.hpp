@@ -58,8 +58,8 @@ inline std::array<double, 2> onSheet(Vec ray, double middle, double angle)
 }
 
 // u = |x| + (1 - y)/2, v = 1 - y on a sheet of which x and y are the axes, by hand: grad u = (sign x, -1/2),
-// grad v = (0, -1); the longer, grad u, is sqrt(5)/2; along u runs (sign x, 0). Zero where the ray misses, or near a rim
-// or an edge.
+// grad v = (0, -1); the longer, grad u, is sqrt(5)/2; along u runs (sign x, 0). Zero where the ray misses, or near a
+// rim or an edge.
 inline Vec truth(Vec ray, double middle, double angle, SheetFrame frame = SheetFrame::cotangent,
                  Vec (*map)(double, double) = domes)
 {

@@ -20,8 +20,8 @@ public:
     // A texture of RGBA bytes, for `more`.
     nlohmann::json texture(const std::string& bytes, int width, int height);
 
-    // RGB bytes of each job, rows from the top, part behind part. driver: GLES3 or GLES2. Throws std::runtime_error with
-    // what Godot printed where a shader does not compile or nothing came.
+    // RGB bytes of each job, rows from the top, part behind part. driver: GLES3 or GLES2. Throws std::runtime_error
+    // with what Godot printed where a shader does not compile or nothing came.
     std::vector<std::string> draw(const std::string& driver);
 
 private:
@@ -33,8 +33,8 @@ private:
 // Runs godot3 with a display of its own; throws where it printed a shader's or a script's error. What it printed.
 std::string runGodot(const std::string& project, const std::string& driver, const std::string& words);
 
-// Functions for shaders of jobs: cotan_test_unit(x), x of -1 to 1 in 24 bits of a colour; cotan_test_float(x, half), any
-// float in two colours.
+// Functions for shaders of jobs: cotan_test_unit(x), x of -1 to 1 in 24 bits of a colour; cotan_test_float(x, half),
+// any float in two colours.
 extern const char kGodotNumbers[];
 // What these stand for. at: the colour's first byte; of floats the two colours.
 double unitOfBytes(const char* at);

@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include "cotan/image/file.hpp"
-#include "cotan/tangents.hpp"
-#include "cotan/triangle.hpp"
 #include "cotan/truth/quad.hpp"
-#include "examples_sheets.hpp"
 #include "godot_draw.hpp"
 #include "godot_parity.hpp"
+#include "godot_sheet.hpp"
 
 namespace cotan::test {
 namespace {
@@ -45,98 +43,6 @@ TEST_P(Godot, functionsGiveTheNormalsOfTheOtherLanguages)
     }
 }
 
-// Four domes as glTF stores them, 256 x 256, RGBA: red along u, green up the image, flat is (128, 128, 255).
-constexpr int kMapSize = 256;
-const std::string& domeBytes()
-{
-    static const std::string bytes = [] {
-        std::string all;
-        for (int row = 0; row < kMapSize; ++row)
-            for (int column = 0; column < kMapSize; ++column) {
-                const Vec n = domes((column + 0.5) / kMapSize, (row + 0.5) / kMapSize);
-                const bool flat = dot(n, n) == 0;
-                for (const double c : {n[0], -n[1], flat ? 1.0 : n[2]})
-                    all += static_cast<char>(std::lround(127 * c + 128));
-                all += '\xff';
-            }
-        return all;
-    }();
-    return bytes;
-}
-
-// The texel at u and v, decoded with z from the other two; zero near its edge, where a rounding decides.
-Vec domeTexel(double u, double v)
-{
-    const double column = (u - std::floor(u)) * kMapSize, row = (v - std::floor(v)) * kMapSize;
-    for (const double c : {column, row})
-        if (std::abs(c - std::round(c)) < 0.05)
-            return {0, 0, 0};
-    const std::size_t at = (static_cast<std::size_t>(row) * kMapSize + static_cast<std::size_t>(column)) * 4;
-    const auto number = [&](std::size_t k) { return (static_cast<unsigned char>(domeBytes()[at + k]) - 128) / 127.0; };
-    const double x = number(0), y = -number(1);
-    return {x, y, std::sqrt(std::max(1 - x * x - y * y, 0.0))};
-}
-
-// The sheet's two halves, clockwise as Godot has it, with what a frame reads of the mesh.
-struct SheetMesh {
-    std::vector<glm::vec3> positions, normals;
-    std::vector<glm::vec2> uvs;
-    std::vector<std::uint32_t> indices;
-};
-
-SheetMesh sheetMesh()
-{
-    SheetMesh mesh;
-    for (const float left : {-1.0f, 0.0f})
-        for (const glm::vec2 corner : {glm::vec2(0, 1), {1, -1}, {0, -1}, {0, 1}, {1, 1}, {1, -1}}) {
-            const glm::vec3 p(left + corner.x, corner.y, 0);
-            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-            mesh.positions.push_back(p);
-            mesh.normals.push_back({0, 0, 1});
-            mesh.uvs.push_back({std::abs(p.x) + (1 - p.y) / 2, 1 - p.y});
-        }
-    return mesh;
-}
-
-template<class Vector> nlohmann::json numbersOf(const std::vector<Vector>& vectors)
-{
-    nlohmann::json list = nlohmann::json::array();
-    for (const Vector& v : vectors)
-        for (int k = 0; k < Vector::length(); ++k)
-            list.push_back(v[k]);
-    return list;
-}
-
-nlohmann::json sheetFor(Frame frame)
-{
-    const SheetMesh mesh = sheetMesh();
-    nlohmann::json sheet{{"positions", numbersOf(mesh.positions)},
-                         {"normals", numbersOf(mesh.normals)},
-                         {"uvs", numbersOf(mesh.uvs)}};
-    const MeshView view{mesh.positions, mesh.normals, mesh.uvs, mesh.indices};
-    std::vector<glm::vec4> first;
-    std::vector<glm::vec3> second;
-    if (frame == Frame::triangle)
-        for (const TriangleVectors& t : triangleVectors(view))
-            for (int corner = 0; corner < 3; ++corner) {
-                first.push_back({t.u, 1});
-                second.push_back(t.v);
-            }
-    if (frame == Frame::smooth) {
-        const Cotangents c = unitCotangents(smoothCotangents(view));
-        for (const glm::vec3& u : c.u)
-            first.push_back({u, 1});
-        second = c.v;
-    }
-    if (!second.empty()) {
-        sheet["tangents"] = numbersOf(first);
-        sheet["colors"] = numbersOf(second);
-    }
-    if (readsTangents(frame))
-        sheet["generate_tangents"] = true;
-    return sheet;
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to)
 {
     const std::size_t at = text.find(from);
@@ -149,11 +55,12 @@ std::string normalShader(const Choice& choice)
 {
     const auto made = makeShaderText(choice);
     EXPECT_TRUE(made) << made.error().message;
-    const std::string start = "shader_type spatial;\n" + std::string(choice.twoSided ? "render_mode cull_disabled;\n" : "");
-    const std::string text =
-        replaced(made->text, start,
-                 "shader_type spatial;\nrender_mode unshaded, " + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
-                     + ";\nuniform float part;\n" + kGodotNumbers);
+    const std::string start =
+        "shader_type spatial;\n" + std::string(choice.twoSided ? "render_mode cull_disabled;\n" : "");
+    const std::string text = replaced(made->text, start,
+                                      "shader_type spatial;\nrender_mode unshaded, "
+                                          + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
+                                          + ";\nuniform float part;\n" + kGodotNumbers);
     // fragment() is the last function.
     return text.substr(0, text.rfind('}'))
         + "    ALBEDO = cotan_test_unit(part < 0.5 ? NORMAL.x : (part < 1.5 ? NORMAL.y : NORMAL.z));\n}\n";
@@ -181,14 +88,14 @@ struct SheetError {
 };
 
 // On the left sheet, which is seen from the front, or the right one, from behind. normalAt(pixel): from the top.
-template<class NormalAt> SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), NormalAt normalAt)
+template<class NormalAt>
+SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), NormalAt normalAt)
 {
     SheetError e;
     for (int row = 0; row < kHeight; ++row)
         for (int column = right ? kWidth / 2 : 0; column < (right ? kWidth : kWidth / 2); ++column) {
             const Vec ray = rayAt(row, column);
-            const Vec expected =
-                right ? truth(ray, 1.2, M_PI - 0.4, frame, map) : truth(ray, -1.2, 0.4, frame, map);
+            const Vec expected = right ? truth(ray, 1.2, M_PI - 0.4, frame, map) : truth(ray, -1.2, 0.4, frame, map);
             if (dot(expected, expected) == 0)
                 continue;
             const double off = degreesBetween(normalAt(row * kWidth + column), expected);
@@ -244,9 +151,9 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
             if (right && !rows[k].twoSided)
                 continue;
             const SheetError e = sheetError(right, rows[k].truth, domeTexel, normalAt);
-            const std::string label =
-                fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(), rows[k].twoSided ? ", two-sided" : "",
-                            right ? "back" : "front", rows[k].mirrored ? ", mirrored" : "");
+            const std::string label = fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(),
+                                                  rows[k].twoSided ? ", two-sided" : "", right ? "back" : "front",
+                                                  rows[k].mirrored ? ", mirrored" : "");
             fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.most);
             EXPECT_GT(e.count, 8000);
             EXPECT_LT(e.most, 0.02) << label;
@@ -264,7 +171,8 @@ TEST_P(Godot, theDirectionOfUIsTheSheets)
     choice.convention.channels = Channels::orthographic;
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(std::string("\x80\x80\xff\xff", 4), 1, 1); // flat
-    jobs.add(replaced(normalShader(choice), "    ALBEDO =", "    NORMAL = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    ALBEDO ="),
+    jobs.add(replaced(normalShader(choice),
+                      "    ALBEDO =", "    NORMAL = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    ALBEDO ="),
              kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
     const std::string picture = jobs.draw(GetParam())[0];
     int count = 0;
@@ -285,8 +193,8 @@ TEST_P(Godot, theDirectionOfUIsTheSheets)
     EXPECT_GT(count, 8000);
 }
 
-// light(): metallic-roughness under a coat whose normal is the sheet's own, by one red light, against the portable text in
-// double. A colour's step is 1/255; rounding is half of it. The normal is 0.0012 degrees off, times the slope of a
+// light(): metallic-roughness under a coat whose normal is the sheet's own, by one red light, against the portable text
+// in double. A colour's step is 1/255; rounding is half of it. The normal is 0.0012 degrees off, times the slope of a
 // highlight of roughness 0.3, under 20 a radian: 4e-4.
 TEST_P(Godot, lightIsThatOfThePortableText)
 {
@@ -301,8 +209,10 @@ TEST_P(Godot, lightIsThatOfThePortableText)
     text = replaced(text, "void fragment()\n{\n",
                     "void fragment()\n{\n    ALBEDO = vec3(0.25, 0.5, 0.5);\n    ROUGHNESS = 0.4;\n");
     text = replaced(text, "metallic : hint_range(0.0, 1.0) = 0.0", "metallic : hint_range(0.0, 1.0) = 0.25");
-    text = replaced(text, "render_mode cull_disabled", "render_mode cull_disabled, shadows_disabled, ambient_light_disabled");
-    text = replaced(text, "coat_roughness : hint_range(0.0, 1.0) = 0.05", "coat_roughness : hint_range(0.0, 1.0) = 0.3");
+    text = replaced(text, "render_mode cull_disabled",
+                    "render_mode cull_disabled, shadows_disabled, ambient_light_disabled");
+    text =
+        replaced(text, "coat_roughness : hint_range(0.0, 1.0) = 0.05", "coat_roughness : hint_range(0.0, 1.0) = 0.3");
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
     const glm::dvec3 to = glm::normalize(glm::dvec3(-0.3, 0.4, 1.0));
@@ -321,11 +231,17 @@ TEST_P(Godot, lightIsThatOfThePortableText)
                     continue;
                 const double side = right ? -1 : 1;
                 const glm::dvec3 v = -glm::normalize(glm::dvec3(ray[0], ray[1], ray[2]));
-                const f64::cotan_surface s{glm::dvec3(0.25, 0.5, 0.5), 0.25, 0.4, 1, glm::dvec3(0),
-                                              glm::normalize(glm::dvec3(n[0], n[1], n[2])), v};
+                const f64::cotan_surface s{glm::dvec3(0.25, 0.5, 0.5),
+                                           0.25,
+                                           0.4,
+                                           1,
+                                           glm::dvec3(0),
+                                           glm::normalize(glm::dvec3(n[0], n[1], n[2])),
+                                           v};
                 const f64::cotan_coat c{1, 0.3, {side * std::sin(angle), 0, side * std::cos(angle)}};
                 const double expected = M_PI
-                    * (f64::cotan_reflect_pbr(s, to).x * (1 - f64::cotan_coat_share(c, v)) + f64::cotan_reflect_coat(c, v, to));
+                    * (f64::cotan_reflect_pbr(s, to).x * (1 - f64::cotan_coat_share(c, v))
+                       + f64::cotan_reflect_coat(c, v, to));
                 const char* at = picture.data() + 3 * (row * kWidth + column);
                 const double got = static_cast<unsigned char>(at[0]) / 255.0;
                 brightest = std::max(brightest, got);
@@ -369,8 +285,8 @@ TEST_P(Godot, theExampleDrawsTheAnalyticSheet)
             fmt::print("example {}{}, {}: {:.2f} degrees in the mean, {:.2f} at most\n", GetParam(), mirrored,
                        right ? "back" : "front", e.mean, e.most);
             EXPECT_GT(e.count, 5000);
-            // A step of the picture's 8 bits is 0.45 degrees along an axis: rounding, 0.13 in the mean along each of two.
-            // The map's 8 bits add as much, and its filter.
+            // A step of the picture's 8 bits is 0.45 degrees along an axis: rounding, 0.13 in the mean along each of
+            // two. The map's 8 bits add as much, and its filter.
             EXPECT_LT(e.mean, 0.3);
             EXPECT_LT(e.most, 1.0);
         }

@@ -160,8 +160,8 @@ Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& co
     return onFirstDevice(language, [&](cost::Device& device, Results& results) {
         Painter painter(device, corners);
         for (const Case& c : drawn)
-            results.values.push_back(painter.draw(
-                toSpirv(fragmentOf(c, language), "frag", language == Language::hlsl, c.name)));
+            results.values.push_back(
+                painter.draw(toSpirv(fragmentOf(c, language), "frag", language == Language::hlsl, c.name)));
     });
 }
 

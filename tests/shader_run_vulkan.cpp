@@ -73,8 +73,7 @@ private:
 
 } // namespace
 
-Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples,
-                  shader_text::Language language)
+Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, shader_text::Language language)
 {
     return onFirstDevice(language, [&](cost::Device& device, Results& results) {
         Computer computer(device, samples);

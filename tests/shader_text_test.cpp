@@ -119,18 +119,22 @@ TEST(WithoutStructs, whatIsReturnedIsWrittenToParametersAndFieldsAreVariables)
 TEST(WithoutStructs, whatIsReturnedEarlyEndsThere)
 {
     const std::string text = std::string(kPair)
-        + "COTAN_FUNCTION cotan_two early(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    t.b = cotan_vec3(x, x, x);\n"
+        + "COTAN_FUNCTION cotan_two early(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    t.b = cotan_vec3(x, x, "
+          "x);\n"
           "    if (x < cotan_real(0.0))\n        return t;\n    t.a = x * x;\n    return t;\n}\n";
-    EXPECT_TRUE(has(translate(Language::godot, text), "    if (x < 0.0) {\n        return;\n    }\n    t_a = x * x;\n}\n"));
+    EXPECT_TRUE(
+        has(translate(Language::godot, text), "    if (x < 0.0) {\n        return;\n    }\n    t_a = x * x;\n}\n"));
 }
 
 TEST(WithoutStructs, aNameThatIsTakenAndAStructBehindAConditionAreRefused)
 {
-    const std::string start = std::string(kPair) + "COTAN_FUNCTION cotan_real f(cotan_two t, cotan_two s, cotan_real x)\n{\n";
-    EXPECT_THROW(translate(Language::godot, start + "    cotan_real t_a = x;\n    return t_a;\n}\n"), std::runtime_error);
-    EXPECT_THROW(translate(Language::godot,
-                           start + "    cotan_two u = x < cotan_real(0.0) ? t : s;\n    return u.a;\n}\n"),
+    const std::string start =
+        std::string(kPair) + "COTAN_FUNCTION cotan_real f(cotan_two t, cotan_two s, cotan_real x)\n{\n";
+    EXPECT_THROW(translate(Language::godot, start + "    cotan_real t_a = x;\n    return t_a;\n}\n"),
                  std::runtime_error);
+    EXPECT_THROW(
+        translate(Language::godot, start + "    cotan_two u = x < cotan_real(0.0) ? t : s;\n    return u.a;\n}\n"),
+        std::runtime_error);
 }
 
 // ---- simplified functions -------------------------------------------------------------------
@@ -249,7 +253,9 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
             choice.callerDifferences = caller;
             const auto text = makeShaderText(choice);
             ASSERT_TRUE(text);
-            const auto taken = [](const ShaderText& t) { return std::ranges::count(t.functions, "cotan_perturb_normal"); };
+            const auto taken = [](const ShaderText& t) {
+                return std::ranges::count(t.functions, "cotan_perturb_normal");
+            };
             EXPECT_EQ(taken(*text), !caller && language != Language::cpp) << name(language);
             choice.frame = Frame::exact; // from edges
             choice.functionsOnly = true;

@@ -145,7 +145,9 @@ Status run(const ShaderCommandOptions& o)
 void declare(Arguments& a, ShaderCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
-    a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)").required().in("NAME");
+    a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
+        .required()
+        .in("NAME");
     a.option("--frame", o.frame, "one of " + frameNames()).in("NAME");
     a.option(
          "--form", o.form,

@@ -168,7 +168,8 @@ std::string fromScreen(int sets)
 
 // What Godot's ANISOTROPY asks for.
 const char* const kDirectionOfU =
-    "\n// The direction along increasing u on the surface, unit, perpendicular to n; zero for constant uv. For ANISOTROPY.\n"
+    "\n// The direction along increasing u on the surface, unit, perpendicular to n; zero for constant uv. For "
+    "ANISOTROPY.\n"
     "// n: the perturbed normal. position, uv: as above.\n"
     "COTAN_FUNCTION cotan_vec3 cotan_direction_of_u(cotan_vec3 n, cotan_vec3 position, cotan_vec2 uv)\n{\n"
     "    cotan_vec2 duvdx = cotan_ddx(uv);\n"

@@ -12,10 +12,7 @@ namespace {
 bool hasLight(const Choice& choice) { return std::ranges::find(choice.sets, Set::light) != choice.sets.end(); }
 
 // Whether two vectors come with the mesh: U and V of its triangles, or cotangents.
-bool hasVectors(const Choice& choice)
-{
-    return choice.frame == Frame::triangle || readsCotangents(choice.frame);
-}
+bool hasVectors(const Choice& choice) { return choice.frame == Frame::triangle || readsCotangents(choice.frame); }
 
 // What fragment() calls.
 std::string perturbed(const Choice& choice, const std::string& normal)
@@ -140,7 +137,8 @@ Status checkGodot(const Choice& choice, Form form)
                                "fused form, or the functions alone",
                                name(choice.frame)));
     if (choice.uvSets > 2)
-        return usageError(fill("uv sets: Godot has 2; found {}; expected fewer, or the functions alone", choice.uvSets));
+        return usageError(
+            fill("uv sets: Godot has 2; found {}; expected fewer, or the functions alone", choice.uvSets));
     return Done{};
 }
 
@@ -149,25 +147,29 @@ std::vector<std::string> functionsOfLight() { return {"cotan_reflect_pbr", "cota
 std::string godotNeeds(const Choice& choice)
 {
     const bool whole = isGodotShader(choice);
-    std::string text = whole ? "// A whole shader of a material; in one of yours, take what is between shader_type and\n"
-                               "// fragment() and the lines of fragment(). In Godot 4 take the functions alone (option\n"
-                               "// --functions) as a .gdshaderinc.\n//\n"
-                             : "// To paste above fragment() of any spatial shader, or in Godot 4 to #include as a\n"
-                               "// .gdshaderinc. All vectors are in view space.\n//\n";
+    std::string text = whole
+        ? "// A whole shader of a material; in one of yours, take what is between shader_type and\n"
+          "// fragment() and the lines of fragment(). In Godot 4 take the functions alone (option\n"
+          "// --functions) as a .gdshaderinc.\n//\n"
+        : "// To paste above fragment() of any spatial shader, or in Godot 4 to #include as a\n"
+          "// .gdshaderinc. All vectors are in view space.\n//\n";
     text += "// Needs:\n"
             "//   normal_map an image as it is in the file: imported without sRGB. Green up, as Godot has it\n";
     if (hasVectors(choice))
         return text
             + (choice.frame == Frame::triangle
-                   ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all three\n"
+                   ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all "
+                     "three\n"
                      "//              of its vertices, which it shares with none\n"
                    : "//   u, v       cotangents at the vertices (deriveVertexFrames of cotan/core)\n")
             + "//              as six floats with the mesh, not compressed: in Godot 3 the arrays of tangents and of\n"
               "//              colours, in Godot 4 those of CUSTOM0 and CUSTOM1. No stored tangents otherwise\n";
     if (readsVertices(choice.frame))
-        return text + "//   tangents   in the mesh; TANGENT is unit, so that it is not MikkTSpace's to the last digit\n";
+        return text
+            + "//   tangents   in the mesh; TANGENT is unit, so that it is not MikkTSpace's to the last digit\n";
     if (info(choice.frame).source == FrameSource::triangle)
-        return text + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader does not see\n";
+        return text
+            + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader does not see\n";
     return text
         + "//   VERTEX     the position in view space, as it is in fragment(); not normalised\n"
           "//   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none\n"

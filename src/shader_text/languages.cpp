@@ -90,23 +90,12 @@ const Names kMsl = {{{"cotan_real", "float"},
                     false,
                     false};
 
-// Of the language that Godot 3 and 4 share; OpenGL ES 2 has no bits of floats.
-const Names kGodot = {{{"cotan_real", "float"},
-                       {"cotan_vec2", "vec2"},
-                       {"cotan_vec3", "vec3"},
-                       {"cotan_vec4", "vec4"},
-                       {"cotan_inversesqrt", "inversesqrt"},
-                       {"cotan_mix", "mix"},
-                       {"cotan_ddx", "dFdx"},
-                       {"cotan_ddy", "dFdy"}},
-                      "",
-                      "",
-                      "dFdx",
-                      "dFdy",
-                      false,
-                      false,
-                      false,
-                      false};
+// What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees to.
+const Names kGodot = [] {
+    Names names = kGlsl;
+    names.structs = false;
+    return names;
+}();
 
 const Names kCpp = {{}, "", "inline ", "", "", true, true, false};
 
