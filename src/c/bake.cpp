@@ -4,6 +4,7 @@
 
 #include "call.hpp"
 #include "cotan/bake/bake_model.hpp"
+#include "cotan/scene/normal_format.hpp"
 #include "models.hpp"
 #include "pictures.hpp"
 
@@ -49,7 +50,7 @@ void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel&
                  + std::string(wanted) + "'");
     options.highFrame = frameOr(o.high_frame, Frame::mikktspace, "options.high_frame");
     if (o.high_convention)
-        options.highFormat = conventionOf(o.high_convention, "options.high_convention");
+        options.highFormat = inScene(conventionOf(o.high_convention, "options.high_convention"));
     require(o.high_map_count == 0 || o.high_maps, "options.high_maps: expected an array, found null");
     for (std::size_t i = 0; i < o.high_map_count; ++i)
         high.maps.push_back(imageOf(o.high_maps[i], ("options.high_maps[" + std::to_string(i) + "]").c_str()));
@@ -82,7 +83,8 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
-    options.stored.format = storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
+    options.stored.format =
+        inScene(storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type));
     options.mask = o.mask;
     return options;
 }

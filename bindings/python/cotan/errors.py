@@ -78,7 +78,7 @@ def _in_keywords(message):
     """A line about options in the names that they have here: --max-distance and options.max_distance are
     max_distance."""
     message = re.sub(r"^options\.(\w+)", lambda m: _KEYWORDS.get(m[1], m[1]), message)
-    message = re.sub(r"--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
+    message = re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
     return message.removesuffix(" (see help)")
 
 

@@ -17,14 +17,14 @@ from .models import Bytes, Path, Progress, Source
 
 def _word(name, value):
     """A keyword as a word of the command line; None for what it leaves out."""
-    option = "--" + name.replace("_", "-")
+    option = b"--" + name.replace("_", "-").encode()
     if value is None or value is False:
         return None
     if value is True:
         return option
     if isinstance(value, (tuple, list, np.ndarray)):
         value = ("x" if name == "size" else ",").join(str(v) for v in value)
-    return arrays.encoded(f"{option}=", name) + arrays.encoded(value if is_path(value) else str(value), name)
+    return option + b"=" + arrays.encoded(value if is_path(value) else str(value), name)
 
 
 def render(
