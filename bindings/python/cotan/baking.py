@@ -14,8 +14,8 @@ from ._library import call, taken
 from ._work import long_call
 from .geometry import Mesh
 from .maps import Map
-from .models import Model, Path, Progress, load
-from .pictures import pixels_of
+from .models import Model, Progress, load
+from .pictures import Path, pixels_of
 
 Geometry = Union[Mesh, Path, Model]
 

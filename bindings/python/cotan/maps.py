@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays as arrays
 from . import _structs as structs
+from ._handles import array_of_picture
 from ._library import call
 from .pictures import Path, pixels_of
 
@@ -191,14 +192,9 @@ def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list
     """
     pixels, levels, failures = pixels_of(map), [], []
 
-    def copied(given):
-        p = given[0]
-        flat = np.ctypeslib.as_array(structs.c.cast(p.pixels, structs.c.POINTER(structs.c.c_uint8)), (p.height * p.width * p.bits // 2,))
-        return flat.copy().view(arrays.DTYPES[p.bits]).reshape(p.height, p.width, 4)
-
     def take(_, number, level, rough):
         try:
-            levels.append(Level(copied(level), copied(rough)))
+            levels.append(Level(array_of_picture(level[0]), array_of_picture(rough[0])))
             return 0
         except BaseException as error:  # must not cross the library
             failures.append(error)

@@ -12,7 +12,8 @@ from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call, taken
 from ._work import long_call
-from .models import Bytes, Path, Progress, Source
+from .models import Bytes, Progress, Source
+from .pictures import Path
 
 
 def _word(name, value):
