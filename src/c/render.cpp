@@ -66,10 +66,9 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     report.update(countsOf(picture.scene));
     if (!painter->note.empty())
         report["note"] = painter->note;
-    Image image = valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
-                                   [&](const AngleStatistics& degrees) {
-                                       report["error_against_exact"] = toJson(degrees);
-                                   }));
+    Image image =
+        valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
+                         [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
     if (const Status laid = layEdges(*painter, picture.view, wanted.picture, picture.edges, image); !laid)
         throw Failure{laid.error()};
     return image;
