@@ -150,7 +150,8 @@ def map_from_height(
     """
     pixels = pixels_of(height, "height")
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
-    scale_y = scale_x if scale_y is None else scale_y
+    scale_x = arrays.number(scale_x, "scale_x")
+    scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
     call("cotan_map_from_height", arrays.picture(pixels), scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
     return out
 
@@ -180,7 +181,7 @@ def map_blend(
     out = _like(under, bits, out)
     call(
         "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
-        arrays.encoded(mode, "mode"), strength, arrays.picture(out),
+        arrays.encoded(mode, "mode"), arrays.number(strength, "strength"), arrays.picture(out),
     )  # fmt: skip
     return out
 
@@ -202,8 +203,8 @@ def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list
 
     try:
         call(
-            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"), roughness,
-            structs.TakeLevel(take), None,
+            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"),
+            arrays.number(roughness, "roughness"), structs.TakeLevel(take), None,
         )  # fmt: skip
     except Exception:
         if failures:

@@ -59,7 +59,7 @@ def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
     Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
-    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), memory, made, files=(file,))
+    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), arrays.memory_of(memory), made, files=(file,))
     model = Model.__new__(Model)
     model._hold(made)
     return model
@@ -232,7 +232,7 @@ def lint(
     source = None if is_path(model) or isinstance(model, Model) else Source(model, beside)
 
     def work(told):
-        options = structs.LintOptions(distance=distance, progress=told)
+        options = structs.LintOptions(distance=arrays.number(distance, "distance"), progress=told)
         if source is not None:
             source.call("cotan_lint_gltf", options, result, text)
             return
@@ -314,10 +314,10 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
     """The struct of the C API."""
     options = structs.ConvertOptions(
         to=arrays.encoded(to_frame, "to_frame"),
-        bits=bits,
+        bits=arrays.integer(bits, "bits", 0, 16),
         keep_tangents=int(keep_tangents),
         generate_tangents=int(tangents == "generated"),
-        threads=threads,
+        threads=arrays.threads_of(threads),
         progress=told,
     )
     setattr(options, "from", arrays.encoded(from_frame, "from_frame"))

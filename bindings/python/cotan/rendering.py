@@ -103,6 +103,7 @@ def render(
     source = None if model is None or is_path(model) else Source(model, beside)
     if is_path(model):
         words += [b"--", arrays.encoded(model, "model")]
+    threads = arrays.threads_of(threads)
     given = (ctypes.c_char_p * len(words))(*words)
     image, text = structs.handle(), structs.handle()
 
