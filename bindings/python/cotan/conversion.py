@@ -1,5 +1,5 @@
-"""Conversion in two steps, for those who encode pictures by a way of their own, later or side by side; and the pictures of
-a model as they are stored."""
+"""Conversion in two steps, for those who encode pictures by a way of their own, later or side by side; and the
+pictures of a model as they are stored."""
 
 import ctypes
 import json

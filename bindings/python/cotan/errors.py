@@ -14,7 +14,13 @@ _SAYINGS = [
     )
 ]
 # Options of the C API that keywords here have other names for.
-_KEYWORDS = {"occlusion_rays": "ao_rays", "tile": "udim", "tiles": "udim", "high_maps": "high_map", "maxDistance": "max_distance"}
+_KEYWORDS = {
+    "occlusion_rays": "ao_rays",
+    "tile": "udim",
+    "tiles": "udim",
+    "high_maps": "high_map",
+    "maxDistance": "max_distance",
+}
 
 
 class Error(Exception):

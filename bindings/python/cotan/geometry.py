@@ -217,9 +217,8 @@ def split_vertices(vertex_count: int, indices: ArrayLike, corners: ArrayLike) ->
     """
     indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
     corners = arrays.floats(corners, "corners", 4, len(indices))
-    return _split(
-        "cotan_split_vertices", vertex_count, len(indices), vertex_count, len(indices), arrays.at(indices), arrays.at(corners)
-    )
+    sizes = vertex_count, len(indices)
+    return _split("cotan_split_vertices", *sizes, *sizes, arrays.at(indices), arrays.at(corners))
 
 
 def split_mirrored(mesh: Mesh) -> tuple[Words, Words]:
@@ -239,8 +238,8 @@ def provoking(vertex_count: int, indices: ArrayLike, last: bool = False) -> tupl
     sources = np.empty(vertex_count + len(indices), np.uint32)
     count = ctypes.c_size_t()
     call(
-        "cotan_provoking", vertex_count, len(indices), arrays.at(indices), int(last), arrays.at(made), arrays.at(sources),
-        count, arrays.at(corners),
+        "cotan_provoking", vertex_count, len(indices), arrays.at(indices), int(last), arrays.at(made),
+        arrays.at(sources), count, arrays.at(corners),
     )  # fmt: skip
     return made, sources[: count.value].copy(), corners
 

@@ -1,7 +1,8 @@
 """Normal maps as arrays.
 
 A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
-three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf", "directx", "unity,xyz".
+three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
+"directx", "unity,xyz".
 """
 
 import dataclasses
@@ -152,7 +153,8 @@ def map_from_height(
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
     scale_x = arrays.number(scale_x, "scale_x")
     scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
-    call("cotan_map_from_height", arrays.picture(pixels), scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
+    given = arrays.picture(pixels)
+    call("cotan_map_from_height", given, scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
     return out
 
 
