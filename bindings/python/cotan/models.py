@@ -55,7 +55,7 @@ def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
     """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
 
     pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
-    picture, in MiB. The last five formats are read in this process, by Assimp.
+    picture, in MiB. Formats other than glTF are read by a child process.
     Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
