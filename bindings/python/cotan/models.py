@@ -91,7 +91,7 @@ class Lint:
     cotangent_degrees: Optional[float]
     smooth_degrees: Optional[float]
     recommendation: str
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,14 +108,14 @@ class Converted:
         report: all of it, map by map.
     """
 
-    glb: Optional[bytes]
+    glb: Optional[bytes] = dataclasses.field(repr=False)
     maps_converted: int
     maps_kept: int
     primitives_given: int
     tangent_bytes_dropped: int
     worst_degrees_before: Optional[float]
     worst_degrees_after: Optional[float]
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 class Source:
