@@ -30,7 +30,7 @@ button, input { font: inherit; color: inherit; }
 .tools button { border: 1px solid var(--line); border-radius: 1em; background: none; padding: .15em .8em; cursor: pointer; }
 .tools button[aria-pressed=true] { background: #8884; }
 .tools input { flex: 1 1 14rem; padding: .25em .6em; border: 1px solid var(--line); border-radius: 4px; background: none; }
-.row { display: grid; grid-template-columns: 72px minmax(10rem, 1fr) 8.5rem 6rem 6rem 6rem; gap: .8rem; align-items: center;
+.row { display: grid; grid-template-columns: 72px minmax(10rem, 1fr) 8rem 9rem 5rem 5rem; gap: .8rem; align-items: center;
   height: 64px; padding: 0 1rem; border-bottom: 1px solid var(--line); }
 .head { height: auto; padding: .3rem 1rem; border-top: 1px solid var(--line); font-size: .85em; scrollbar-gutter: stable; overflow: hidden auto; }
 .head button { border: 0; background: none; padding: 0; cursor: pointer; text-align: inherit; font-weight: 600; }
@@ -44,12 +44,13 @@ button, input { font: inherit; color: inherit; }
 .of { display: block; font-size: .7em; opacity: .75; line-height: 1.1; }
 .bad { color: var(--bad); font-weight: 600; } .warn { color: var(--warn); font-weight: 600; } .good { color: var(--good); }
 .row.bad { color: inherit; font-weight: inherit; box-shadow: inset 4px 0 var(--bad); }
+.row.good { color: inherit; }
 .row.warn { color: inherit; font-weight: inherit; box-shadow: inset 4px 0 var(--warn); }
 dialog { width: min(60rem, 94vw); max-height: 90vh; border: 1px solid var(--line); border-radius: 6px; }
 pre { background: var(--soft); padding: .6em; white-space: pre-wrap; overflow-wrap: anywhere; }
 dialog h2 { font-size: 1.1rem; margin: 0 0 .4rem; overflow-wrap: anywhere; } dialog ul { padding-left: 1.2em; overflow-wrap: anywhere; }
 footer { padding: .3rem 1rem; font-size: .8em; opacity: .75; }
-@media (max-width: 46rem) { .row { grid-template-columns: 68px minmax(6rem, 1fr) 7rem 5rem; } .wide { display: none; } }
+@media (max-width: 46rem) { .row { grid-template-columns: 68px minmax(6rem, 1fr) 7rem 6rem; } .wide { display: none; } }
 )";
 
 // Rows are numbers and texts in the order of kColumns; whatever they hold is shown as text and never as HTML.
@@ -88,10 +89,12 @@ function rowOf(i, place) {
   }
   const name = make('div', 'what');
   name.style.minWidth = 0;
-  name.append(make('div', 'name', r[NAME]), make('div', 'why', r[REASON] || r[COMMAND]));
+  name.append(make('div', 'name', r[NAME]), make('div', 'why', r[REASON] || (r[COMMAND] === r[NAME] ? '' : r[COMMAND])));
   const angle = make('div', 'number', degrees(r[DEGREES]));
   if (r[DEGREES] !== null) angle.append(make('span', 'of', r[OF]));
-  const cells = [picture, name, make('div', levelOf(r), states[r[STATE]] + (r[KEPT] ? ' (kept)' : '')), angle,
+  const how = make('div', levelOf(r), states[r[STATE]]);
+  if (r[KEPT]) how.append(make('span', 'of', 'kept from before'));
+  const cells = [picture, name, how, angle,
     make('div', 'number wide', seconds(r[SECONDS])), make('div', 'number wide', Math.round(r[MEGABYTES]).toLocaleString('en'))];
   for (const cell of cells) cell.setAttribute('role', 'cell');
   e.append(...cells);
