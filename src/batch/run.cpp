@@ -357,7 +357,7 @@ std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<
     FileStates states(list.folder);
     std::vector<JobResult> results;
     for (std::size_t job = 0; job < list.jobs.size(); ++job) {
-        JobResult result{job, {}, true};
+        JobResult result{job, {}, /*kept*/ false};
         result.record.reason = "no store has a result of it with these inputs";
         for (const Store& store : stores) {
             auto record = store.find(list.jobs[job].words);
