@@ -8,3 +8,6 @@ cotan_test(batch_command_test SOURCES batch_command_test.cpp
   LIBRARIES cotan_model cotan_shapes cotan_sandbox nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(batch_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(batch_command_test cotan)
+# A cluster of each kind, started for the test.
+cotan_door(Farm.slurm COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/batch_slurm $<TARGET_FILE:cotan>)
+cotan_door(Farm.dask COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/batch_dask.py $<TARGET_FILE:cotan>)
