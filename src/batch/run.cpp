@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kTick = 50;                                  // milliseconds between two looks at deadlines
+constexpr int kSoon = 1;                                   // where a process has closed its output and is about to end
 constexpr auto kTryAgain = std::chrono::milliseconds(200); // where all that is left runs elsewhere
 constexpr std::size_t kMostReportBytes = std::size_t(256) << 20;
 
@@ -219,9 +220,13 @@ private:
             return Done{};
         }
         std::vector<pollfd> descriptors;
-        for (const Running& r : running_)
+        int tick = kTick;
+        for (const Running& r : running_) {
             descriptors.push_back({r.process.descriptor(), POLLIN, 0});
-        ::poll(descriptors.data(), descriptors.size(), kTick);
+            if (r.process.descriptor() < 0)
+                tick = kSoon;
+        }
+        ::poll(descriptors.data(), descriptors.size(), tick);
         for (auto at = running_.begin(); at != running_.end();) {
             const pid_t number = at->process.number();
             const auto ending = at->process.look();
