@@ -191,3 +191,56 @@ def test_models_keep_their_warnings(model):
     loaded, expected = cotan.load(model), cotan.lint(model).report["warnings"]
     assert loaded.warnings == expected
     assert isinstance(np.array(loaded.warnings), np.ndarray)
+
+
+def test_the_callers_own_readers_and_writers_are_asked(model, tmp_path):
+    expected = cotan.convert(model).glb
+    asked = []
+
+    def decode(name, content):
+        asked.append(name)
+        (tmp_path / "asked.png").write_bytes(content)
+        return cotan.read_picture(tmp_path / "asked.png")
+
+    def encode(picture):
+        asked.append(picture.shape)
+        cotan.write_picture(tmp_path / "written.png", picture)
+        return (tmp_path / "written.png").read_bytes()
+
+    converted = cotan.convert(model, decode=decode, encode=encode)
+    assert asked[0].endswith("the%20map.png") and asked[1:] == [(8, 8, 4)]
+    (tmp_path / "a.glb").write_bytes(expected)
+    (tmp_path / "b.glb").write_bytes(converted.glb)
+    assert cotan.lint(tmp_path / "a.glb").cotangent_degrees == cotan.lint(tmp_path / "b.glb").cotangent_degrees
+
+    def broken(*_):
+        raise ZeroDivisionError
+
+    for own in ({"decode": broken}, {"encode": broken}):
+        with pytest.raises(ZeroDivisionError):
+            cotan.convert(model, **own)
+    with pytest.raises(cotan.UsageError, match="decode: expected shape"):
+        cotan.convert(model, decode=lambda name, content: np.zeros(3, np.uint8))
+
+
+def test_conversion_in_two_steps_is_that_in_one(model, tmp_path):
+    def png(picture):
+        cotan.write_picture(tmp_path / "step.png", picture)
+        return (tmp_path / "step.png").read_bytes()
+
+    conversion = cotan.Conversion(model)
+    assert [p.shape for p in conversion.pictures] == [(8, 8, 4)]
+    with pytest.raises(cotan.UsageError):
+        conversion.end()
+    with pytest.raises(cotan.UsageError):
+        conversion.set(1, b"")
+    conversion.set(0, png(conversion.pictures[0]))
+    steps, whole = conversion.end(), cotan.convert(model, encode=png)
+    assert len(steps.glb) == len(whole.glb) and steps.worst_degrees_after == whole.worst_degrees_after
+    assert steps.report["maps"] == whole.report["maps"]
+
+
+def test_the_pictures_of_a_model_are_listed_as_they_are_stored(model, tmp_path):
+    stored = (tmp_path / "the map.png").read_bytes()
+    for maps_only in (False, True):
+        assert [content for _, content in cotan.model_pictures(model, maps_only)] == [stored]

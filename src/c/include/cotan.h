@@ -237,9 +237,8 @@ void cotan_model_free(cotan_model* model);
 cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
                               size_t message_size);
 
-/* A model of copies of meshes, whose texcoords may be null. names: of the meshes, null: they have none. Since
- * version 3.
- */
+/* A model of copies of meshes, whose normals and texcoords may be null; missing normals are smooth ones. names: of the
+ * meshes; null, or a null among them: none. Since version 3. */
 cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
                                    cotan_model** model, char* message, size_t message_size);
 
