@@ -366,7 +366,7 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
     add("limit", JobState::limit, 3);
     add("late", JobState::late, -1);
     EXPECT_EQ(worstFirst(results), (std::vector<std::size_t>{3, 5, 4, 1, 0, 2}));
-    const std::string page = batchPage(list, results, "</title><script>", "<footer>", "/report");
+    const std::string page = batchPage(list, results, "</title><script>", "<footer>", "/report", 100);
     const auto count = [&](const std::string& what) {
         std::size_t n = 0;
         for (std::size_t at = 0; (at = page.find(what, at)) != std::string::npos; ++at)
@@ -379,6 +379,10 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
     EXPECT_EQ(count("<b>"), 0u);
     EXPECT_EQ(count("<!--"), 0u);
     EXPECT_NE(page.find("\"../out/%22%3E%3Cscript%3E%2520%20%C3%BC\""), std::string::npos);
+    const std::string two = batchPage(list, results, "t", "f", "/report", 2);
+    EXPECT_NE(two.find("the worst 2 of 6; f"), std::string::npos);
+    EXPECT_NE(two.find("crash"), std::string::npos);
+    EXPECT_EQ(two.find("\"unknown\""), std::string::npos);
     EXPECT_EQ(summaryOf(results), "6 jobs: 3 done, 1 over limit, 1 too slow, 1 crashed");
 }
 

@@ -18,7 +18,7 @@ namespace {
 struct BatchOptions : CommonOptions {
     std::string jobs, shard, thumbnails = "pictures";
     std::vector<std::string> stores;
-    int processes = 0, memory = -1; // memory: below 0, the machine's share
+    int processes = 0, rows = 50000, memory = -1; // memory: below 0, the machine's share
     double seconds = 3600;
     bool merge = false, again = false;
 };
@@ -159,7 +159,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
     if (!o.output.empty()) {
         const std::string title = fmt::format("{}{}", o.jobs, o.shard.empty() ? "" : ", shard " + o.shard);
         const auto folder = std::filesystem::absolute(o.output).lexically_normal().parent_path();
-        const std::string page = batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder);
+        const std::string page = batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder, std::size_t(o.rows));
         if (Status written = writeFileWhole(o.output, page); !written)
             return written;
     }
@@ -194,6 +194,9 @@ void declare(Arguments& a, BatchOptions& o)
         .within(0, 1 << 24)
         .in("MIB")
         .withoutDefault();
+    a.option("--rows", o.rows, "most jobs that the page shows, the worst ones; --json has all")
+        .within(1, 250000)
+        .in("N");
     a.option("--thumbnails", o.thumbnails,
              "pictures: of the first picture that a job writes; models: else of the model that it reads, drawn for it; "
              "none")

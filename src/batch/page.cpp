@@ -253,7 +253,7 @@ std::string head(int column, std::string_view text, std::string_view className)
 } // namespace
 
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
-                      const std::string& footer, const fs::path& folder)
+                      const std::string& footer, const fs::path& folder, std::size_t mostRows)
 {
     ordered_json data = {{"states", ordered_json::array()},
                          {"bad", ordered_json::array()},
@@ -271,7 +271,13 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
         else if (JobState(i) > JobState::done)
             data["warn"].push_back(i);
     }
-    for (const std::size_t i : worstFirst(results))
+    std::vector<std::size_t> order = worstFirst(results);
+    std::string more;
+    if (order.size() > mostRows) {
+        more = fmt::format("the worst {} of {}; ", mostRows, order.size());
+        order.resize(mostRows);
+    }
+    for (const std::size_t i : order)
         data["rows"].push_back(rowOf(list, results[i], folder));
     const std::string safeTitle = escapeHtml(title);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -284,7 +290,7 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
           "<div class=\"row head\" role=\"row\"><div></div>"
         + head(0, "Job", "") + head(1, "State", "") + head(2, "Degrees", "number") + head(4, "Seconds", "number wide")
         + head(5, "MiB", "number wide") + "</div>\n<div id=\"list\" role=\"table\" aria-label=\"jobs, worst first\">"
-        + "<div id=\"space\" role=\"rowgroup\"></div></div>\n<footer>" + escapeHtml(footer) + "</footer>\n"
+        + "<div id=\"space\" role=\"rowgroup\"></div></div>\n<footer>" + escapeHtml(more + footer) + "</footer>\n"
         + "<dialog></dialog>\n<script type=\"application/json\" id=\"data\">" + inPage(data) + "</script>\n<script>"
         + std::string(kScript) + "</script>\n</body>\n</html>\n";
 }
