@@ -70,7 +70,7 @@ TEST(BatchPage, ofTenThousandRowsOnlyThoseInViewAreThereAndTheyFilterAndSort)
     for (int i = 0; i < 10000; ++i)
         shown.add(fmt::format("rock {}", i), i % 100 == 7 ? JobState::crashed : JobState::done,
                   i % 2 ? std::optional<Degrees>(Degrees{i / 100.0, "of"}) : std::nullopt);
-    const json got = titleAfter(shown, R"(
+    json got = titleAfter(shown, R"(
         const names = () => [...document.querySelectorAll('#space .name')].map(e => e.textContent);
         const result = { rows: names().length, first: names()[0], height: space.offsetHeight };
         find.value = 'ROCK 99'; find.dispatchEvent(new Event('input'));
@@ -107,7 +107,7 @@ TEST(BatchPage, whatJobsAreCalledIsShownAsTextAndRunsNowhere)
     shown.add(evil, JobState::failed, Degrees{1, evil});
     shown.results[0].record.said = evil;
     shown.results[0].record.thumbnail = {1, 1, "\" onerror=\"window.ran = 3"};
-    const json got = titleAfter(shown, R"(
+    json got = titleAfter(shown, R"(
         document.querySelector('#space .row').click();
         return { name: document.querySelector('#space .name').textContent, ran: window.ran || 0,
                  heading: document.querySelector('dialog h2').textContent, open: document.querySelector('dialog').open,

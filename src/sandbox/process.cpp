@@ -98,8 +98,9 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     Descriptor socket[2], messages[2];
     if (!makeChannels(socket, messages))
         return failed(errno);
-    const std::string program = request.limits.sandbox.program.string();
-    const SpawnRequest child{program, {kReaderWord}, socket[1].get(), messages[1].get()};
+    std::vector<std::string> words = request.limits.sandbox.arguments;
+    words.emplace_back(kReaderWord);
+    const SpawnRequest child{request.limits.sandbox.program.string(), words, socket[1].get(), messages[1].get()};
     if (const int problem = spawn(child, started->process_))
         return failed(problem);
     socket[1].close(); // while one of the child's ends is ours, it never hangs up

@@ -20,7 +20,7 @@ from .pictures import Path, pixels_of
 Geometry = Union[Mesh, Path, Model]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Baked:
     """A map, and what became of its texels.
 
@@ -36,8 +36,8 @@ class Baked:
         warnings: one line each.
     """
 
-    map: NDArray[np.generic]
-    mask: Optional[NDArray[np.uint8]]
+    map: NDArray[np.generic] = dataclasses.field(repr=False)
+    mask: Optional[NDArray[np.uint8]] = dataclasses.field(repr=False)
     texels: int
     covered: int
     missed: int
