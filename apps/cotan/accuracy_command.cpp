@@ -158,8 +158,10 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
              "device for the table `rendered`: auto, reference, a part of a Vulkan device's name, or none")
         .in("DEVICE");
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
-    a.option("--csv", o.csv, "write all figures as CSV").in("FILE");
-    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
+    a.option("--csv", o.csv, "write all figures as CSV").in("FILE").writes();
+    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse")
+        .in("FILE")
+        .reads();
     a.flag("--list", o.list, "print the names of the tables and stop");
 }
 

@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#ifdef COTAN_WITH_BATCH
+#include "cotan/batch/child.hpp"
+#endif
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
 #include "cotan/files/sandbox.hpp"
@@ -39,9 +42,9 @@ int runCommandLine(std::vector<std::string> words)
     using namespace cotan::app;
     cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    for (const auto add :
-         {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,
-          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand, addViewCommand})
+    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
+                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
+                           addCostCommand, addViewCommand, addBatchCommand})
         add(tool);
     return finish(tool.run(std::move(words), print));
 }
@@ -55,6 +58,10 @@ int main(int argc, char** argv)
     cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
+#ifdef COTAN_WITH_BATCH
+        if (cotan::isJobProcess(argc, argv))
+            return cotan::runJobProcess(argc, argv, runCommandLine);
+#endif
         return runCommandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({cotan::ErrorKind::unavailable, "not enough memory"});

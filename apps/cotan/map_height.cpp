@@ -172,7 +172,7 @@ Status runTo(const MapToHeightCommandOptions& o)
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "heights: grey, or the red channel").required();
+    a.option("FILE", o.file, "heights: grey, or the red channel").required().reads();
     a.option("--to", o.convention, "how to store the map: " + conventionWords()).in("WORDS");
     a.option("--metres", o.metres, "size of the picture in metres; with --range").in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
@@ -190,7 +190,7 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
+    a.option("FILE", o.file, "the map").required().reads();
     a.option("--from", o.convention, "how the map is stored: " + conventionWords()).in("WORDS");
     a.option("--metres", o.metres, "size of the picture in metres; heights are then in metres, without this in texels")
         .in("W[xH]");

@@ -90,6 +90,18 @@ Argument& Argument::above0Or(const std::string& word)
     return *this;
 }
 
+Argument& Argument::reads()
+{
+    (*uses_)[option_] = FileUse::reads;
+    return *this;
+}
+
+Argument& Argument::writes()
+{
+    (*uses_)[option_] = FileUse::writes;
+    return *this;
+}
+
 Argument& Argument::required()
 {
     option_->required();
@@ -128,6 +140,7 @@ int Argument::count() const { return int(option_->count()); }
 struct Arguments::Tool {
     CLI::App app;
     std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
+    Argument::FileUses uses;
 };
 
 Arguments::Arguments(const std::string& name, const std::string& summary, const std::string& version)
@@ -153,7 +166,7 @@ template<class Value> Argument Arguments::option(const std::string& names, Value
         empty = value.empty();
     if (!empty)
         option->capture_default_str();
-    return Argument(*option);
+    return Argument(*option, tool_->uses);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -168,7 +181,7 @@ void Arguments::flag(const std::string& name, bool& value, const std::string& he
     app_->add_flag(name, value, help);
 }
 
-Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name)); }
+Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name), tool_->uses); }
 
 void Arguments::takesAnything() { app_->allow_extras(); }
 
@@ -178,7 +191,8 @@ void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(a
 
 std::string Arguments::name() const { return app_->get_name(); }
 
-Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+// help: the text of --help or --version, where that is asked for.
+Status Arguments::read(std::vector<std::string> words, std::string& help) const
 {
     if (Status known = checkCommandWords(namesOf(*app_), words); !known)
         return known;
@@ -186,20 +200,56 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
         std::ranges::reverse(words); // CLI11 takes them from the back
         app_->parse(std::move(words));
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) { // help or version
+        if (e.get_exit_code() == 0) {
             std::ostringstream text;
             app_->exit(e, text, text);
-            print(text.str());
+            help = text.str();
             return Done{};
         }
         std::string message = e.what();
         std::ranges::replace(message, '\n', ' ');
         return usageError(message + " (see --help)");
     }
+    return Done{};
+}
+
+Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known;
+    if (!help.empty()) {
+        print(help);
+        return Done{};
+    }
     for (const auto& [app, work] : tool_->works)
         if (app->parsed())
             return work();
     return usageError("expected a command; found none");
+}
+
+Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known.error();
+    if (!help.empty())
+        return usageError("expected a command that does something; found --help or --version");
+    GivenCommand given;
+    const CLI::App* app = app_;
+    while (!app->get_subcommands().empty()) { // those that were given
+        app = app->get_subcommands().front();
+        given.name += (given.name.empty() ? "" : " ") + app->get_name();
+        for (const CLI::Option* option : app->get_options())
+            if (option->count() > 0) {
+                const auto use = tool_->uses.find(option);
+                given.options.push_back({option->get_single_name(), option->results(),
+                                         use == tool_->uses.end() ? FileUse::none : use->second});
+            }
+    }
+    if (given.name.empty())
+        return usageError("expected a command; found none");
+    return given;
 }
 
 } // namespace cotan
