@@ -52,19 +52,26 @@ inline Progress progressOf(cotan_progress progress, void* user)
 }
 
 // Structs of newer callers are longer; of this version they have to be whole.
-template<class T> const T& checked(const T* argument, const char* name)
+template<class T> const T& checked(const T* argument, const char* name, std::size_t least = sizeof(T))
 {
     if (!argument)
         fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
-    if (argument->size < sizeof(T))
+    if (argument->size < least)
         fail(ErrorKind::usage,
-             std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
+             std::string(name) + ".size: expected " + std::to_string(least) + " or more, found "
                  + std::to_string(argument->size));
     return *argument;
 }
 
-// Options, or all of them 0 where they are left out.
-template<class T> T optionsOf(const T* given, const char* name) { return given ? checked(given, name) : T{}; }
+// Options, or all of them 0 where they are left out. Callers of an older version know less of them: `least` is what the
+// first version had.
+template<class T> T optionsOf(const T* given, const char* name, std::size_t least = sizeof(T))
+{
+    T options{};
+    if (given)
+        std::memcpy(&options, given, std::min(checked(given, name, least).size, sizeof(T)));
+    return options;
+}
 
 inline std::string_view word(const char* text, const char* name)
 {

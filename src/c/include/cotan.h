@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 2
+#define COTAN_API_VERSION 3
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) { sizeof(type) }
@@ -238,6 +238,10 @@ typedef struct cotan_bake_options {
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
+    /* Positions, 3 for each vertex of the simple mesh, around both meshes: rays run from there through the simple one
+     * and take the first surface they meet. Null: none. Since version 3. */
+    const float* cage;
+    float cage_reach; /* how far those rays run; 0: as far behind the simple mesh as the cage is before it. Since 3 */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
