@@ -58,6 +58,8 @@ class BakeOptions(Struct):
         (integer, "threads"),
         (Progress, "progress"),
         (pointer, "user"),
+        (pointer, "cage"),
+        (c.c_float, "cage_reach"),
     )
 
 

@@ -4,7 +4,7 @@ import dataclasses
 from typing import Any, Callable, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays as arrays
 from . import _structs as structs
@@ -51,6 +51,8 @@ def bake(
     dither: bool = False,
     ao_rays: int = 64,
     max_distance: float = 0.0,
+    cage: Optional[ArrayLike] = None,
+    cage_reach: float = 0.0,
     threads: int = 0,
     out: Optional[NDArray[np.generic]] = None,
     progress: Optional[Callable[[float], Any]] = None,
@@ -71,6 +73,9 @@ def bake(
         ao_rays: rays per sample for "ao", 1 to 65536.
         max_distance: how far rays reach to both sides of the low mesh, in units of the positions; 0: 5 % of the
             diagonal of the high mesh.
+        cage: (n, 3), a position for each vertex of the low mesh, around both: rays run from there through the low mesh
+            and take the first surface they meet.
+        cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
         threads: 0 for all cores; the result does not depend on it.
         out: (height, width, 4) to write into.
         progress: called on this thread, about twenty times a second, with the share that is done, 0 to 1; False
@@ -83,6 +88,7 @@ def bake(
         raise arrays.wrong("samples", "1, 4 or 16", samples)
     width, height = arrays.size_of(size)
     made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
+    around = None if cage is None else arrays.floats(cage, "cage", 3, len(low.positions))
     result = structs.BakeResult()
 
     def work(told):
@@ -97,6 +103,8 @@ def bake(
             max_distance=max_distance,
             threads=threads,
             progress=told,
+            cage=arrays.at(around),
+            cage_reach=cage_reach,
         )
         call("cotan_bake", low._c(), high._c(), options, arrays.picture(made), result)
 
