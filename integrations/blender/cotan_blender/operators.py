@@ -1,10 +1,12 @@
 """What the buttons do."""
 
 import bpy
-from bpy.props import EnumProperty
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty
+from bpy_extras.io_utils import ExportHelper
 
-from . import bake, pairs
-from .refused import Refused
+from . import bake, check, gltf, pairs
+from .refused import Refused, packages
 
 
 def say(operator, outcome):
@@ -104,3 +106,72 @@ def _redraw(context):
         for area in window.screen.areas:
             if area.type in {"PROPERTIES", "IMAGE_EDITOR", "VIEW_3D"}:
                 area.tag_redraw()
+
+
+class CotanCheck(bpy.types.Operator):
+    """Say what is wrong with the active mesh and its normal maps, and select the faces in question"""
+
+    bl_idname = "object.cotan_check"
+    bl_label = "Check Mesh"
+    bl_options = {"UNDO"}
+
+    kind: EnumProperty(name="Select", items=check.KINDS, default="ALL", description="Which faces")
+
+    def execute(self, context):
+        thing = context.view_layer.objects.active
+        lines = context.window_manager.cotan_lines
+        lines.clear()
+        try:
+            if context.mode != "OBJECT" and thing is not None and thing.type == "MESH":
+                bpy.ops.object.mode_set(mode="OBJECT")
+            said, asked = check.verdict(context, thing, context.scene.cotan.degrees)
+        except (Refused, packages().Error) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for question in asked:
+            self._add(lines, f"{len(question.faces)} faces {question.text}", question.kind)
+        for text in said:
+            self._add(lines, text, "")
+        if not asked:
+            self._add(lines, "No face is in question", "")
+        chosen = [q.faces for q in asked if self.kind in ("ALL", q.kind)]
+        if chosen and thing.data.library is not None:
+            self._add(lines, f"The mesh of '{thing.name}' comes from a library file: its faces cannot be selected", "")
+        elif chosen:
+            check.select(context, thing, np.concatenate(chosen))
+        return {"FINISHED"}
+
+    def _add(self, lines, text, kind):
+        line = lines.add()
+        line.text, line.kind = text, kind
+        self.report({"WARNING"} if kind else {"INFO"}, text)
+
+
+class CotanExport(bpy.types.Operator, ExportHelper):
+    """Export the selected objects as glTF without tangents, with their normal maps made for a frame that needs none"""
+
+    bl_idname = "export_scene.cotan_gltf"
+    bl_label = "Export glTF without Tangents"
+    filename_ext = ".glb"
+
+    apply_modifiers: BoolProperty(name="Apply Modifiers", default=True, description="Shape keys stay as they stand then")
+
+    def execute(self, context):
+        frame = context.scene.cotan.to_frame
+        try:
+            if context.mode != "OBJECT":
+                raise Refused("Go back to Object Mode first")
+            things = context.selected_objects
+            if not any(t.type == "MESH" for t in things):
+                raise Refused("No mesh is selected: select what is to be exported")
+            notes = gltf.warnings(context, things, self.apply_modifiers)
+            made_for = gltf.frame_of_all(things)
+            model = gltf.exported(context, things, self.apply_modifiers)
+            done = packages().convert(model, self.filepath, to_frame=frame, from_frame=made_for, tangents="generated")
+        except (Refused, packages().Error) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for note in notes:
+            self.report({"WARNING"}, note)
+        self.report({"INFO"}, f"Exported for the frame {frame}: {done.maps_converted} maps converted, {done.maps_kept} kept as they are")
+        return {"FINISHED"}

@@ -1,5 +1,7 @@
 """The panel in the object's properties."""
 
+import textwrap
+
 import bpy
 
 
@@ -82,4 +84,35 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         column.operator("object.cotan_bake", text="Bake Pairs by Name", icon="SORTALPHA").which = "NAMES"
 
 
-CLASSES = [CotanPanel, CotanBakePanel]
+class CotanCheckPanel(_Part, bpy.types.Panel):
+    bl_idname = "OBJECT_PT_cotan_check"
+    bl_label = "Check"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(context.scene.cotan, "degrees")
+        layout.operator("object.cotan_check", icon="VIEWZOOM").kind = "ALL"
+        letters = max(20, int(context.region.width / (7.5 * context.preferences.system.ui_scale)))
+        for line in context.window_manager.cotan_lines:
+            box = layout.box().column(align=True)
+            for text in textwrap.wrap(line.text, letters):
+                box.label(text=text)
+            if line.kind:
+                box.operator("object.cotan_check", text="Select These", icon="RESTRICT_SELECT_OFF").kind = line.kind
+
+
+class CotanExportPanel(_Part, bpy.types.Panel):
+    bl_idname = "OBJECT_PT_cotan_export"
+    bl_label = "Export"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(context.scene.cotan, "to_frame")
+        layout.operator("export_scene.cotan_gltf", icon="EXPORT")
+
+
+CLASSES = [CotanPanel, CotanBakePanel, CotanCheckPanel, CotanExportPanel]

@@ -1,7 +1,7 @@
 """What the panel asks."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 FRAMES = [
     ("mikktspace", "MikkTSpace", "Blender's own Normal Map node and most engines. With stored or generated tangents"),
@@ -62,15 +62,24 @@ class CotanSettings(bpy.types.PropertyGroup):
     )
 
 
+class CotanLine(bpy.types.PropertyGroup):
+    text: StringProperty()
+    kind: StringProperty()  # of faces in question; "": it is not about faces
+
+
 def register():
     bpy.utils.register_class(CotanSettings)
+    bpy.utils.register_class(CotanLine)
     bpy.types.Scene.cotan = PointerProperty(type=CotanSettings)
-    bpy.types.WindowManager.cotan_progress = FloatProperty(name="Baking", subtype="PERCENTAGE", min=0, max=100, default=-0.0)
+    bpy.types.WindowManager.cotan_progress = FloatProperty(name="Baking", subtype="PERCENTAGE", min=0, max=100, default=0)
     bpy.types.WindowManager.cotan_running = BoolProperty(default=False)
+    bpy.types.WindowManager.cotan_lines = CollectionProperty(type=CotanLine)
 
 
 def unregister():
+    del bpy.types.WindowManager.cotan_lines
     del bpy.types.WindowManager.cotan_running
     del bpy.types.WindowManager.cotan_progress
     del bpy.types.Scene.cotan
+    bpy.utils.unregister_class(CotanLine)
     bpy.utils.unregister_class(CotanSettings)
