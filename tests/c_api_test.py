@@ -54,7 +54,7 @@ class MapInfo(Struct):
 class BakeOptions(Struct):
     _fields_ = [("size", sizes_t)] + [(n, text) for n in ("frame", "kind", "convention")] + [
         (n, c.c_int) for n in ("samples", "padding", "dither", "occlusion_rays")] + [
-        ("max_distance", c.c_float), ("threads", c.c_int), ("progress", Progress), ("user", c.c_void_p), ("cage", floats), ("cage_reach", c.c_float)]
+        ("max_distance", c.c_float), ("threads", c.c_int), ("progress", Progress), ("user", c.c_void_p)]
 
 
 class BakeResult(Struct):
@@ -111,7 +111,7 @@ def call(name, *arguments, expect=0):
 # What is exported is what is written down, no more and no less.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
-exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2"}
+exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3"}
 assert exported == listed, exported ^ listed
 assert cotan.cotan_api_version() == 3 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
@@ -252,21 +252,13 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     options.progress = Progress(lambda user, done: 1)
     assert call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=6) == "stopped by the caller"
     options.progress = Progress()
-    # A cage 2 above reaches what half a unit does not; and no further than it is told.
-    far = Mesh(4, array([w for x, y in xy for w in (3 * x - 1, 3 * y - 1, 1)]), array([0, 0, 1] * 4), None, 6, six)
-    caged = array([w for x, y in xy for w in (x, y, 2)])
-    for cage, reach, missed in ((None, 0, 256), (caged, 0, 0), (caged, 0.9, 256), (caged, 1.1, 0)):
-        options.cage, options.cage_reach = cage, reach
-        call("cotan_bake", c.byref(low), c.byref(far), c.byref(options), c.byref(baked_map), c.byref(baked))
-        assert baked.missed == missed, (reach, baked.missed)
-    # A caller of an earlier version does not know of cages: what stands behind its struct is not read.
-    options.size = BakeOptions.cage.offset
-    call("cotan_bake", c.byref(low), c.byref(far), c.byref(options), c.byref(baked_map), c.byref(baked))
-    assert baked.missed == 256
-    options.size = c.sizeof(BakeOptions)
-    options.cage_reach = -1
-    assert call("cotan_bake", c.byref(low), c.byref(far), c.byref(options), c.byref(baked_map), None, expect=1) == "options.cage_reach: expected 0 or more"
-    options.cage, options.cage_reach = None, 0
+    # Green is as the convention says, whichever way v runs in it. This plane rises up the picture.
+    rising = Mesh(4, array([w for x, y in xy for w in (3 * x - 1, 3 * y - 1, 0.3 * y - 0.15)]), array([0, -0.1 / slope, 1 / slope] * 4), None, 6, six)
+    for convention, up in ((b"gltf", 1), (b"opengl", 1), (b"blender", 1), (b"directx", -1), (b"3dsmax", -1)):
+        options.convention = convention
+        call("cotan_bake", c.byref(low), c.byref(rising), c.byref(options), c.byref(baked_map), None)
+        assert abs(pixels8[1] - (128 - up * 127 * 0.1 / slope)) <= 1, (convention, pixels8[1])
+    options.convention = None
     options.frame = b"cotangent-2013"
     assert "depends on the view" in call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=1)
     six[5] = 4

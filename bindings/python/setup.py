@@ -11,7 +11,7 @@ class Wheel(bdist_wheel):
     def finalize_options(self):
         super().finalize_options()
         folder = pathlib.Path(__file__).parent / "cotan"
-        self.root_is_pure = not any(folder.glob("libcotan*"))
+        self.root_is_pure = not any(f for name in ("libcotan*", "cotan.dll") for f in folder.glob(name))
 
     def get_tag(self):
         python, abi, platform = super().get_tag()

@@ -1,9 +1,10 @@
 """Cotan: normal mapping without precomputed tangents.
 
     import cotan
-    baked = cotan.bake(low, high, size=2048, frame="smooth")     # cotan.Mesh of numpy arrays
+    baked = cotan.bake(low, high, size=2048, frame="smooth")     # cotan.Mesh of numpy arrays, or paths
     report = cotan.lint("model.glb")                             # degrees, in a dataclass
     cotan.convert("model.glb", "out.glb", to_frame="smooth")
+    picture = cotan.render("model.glb", size=(640, 360), frame="smooth")
     green = cotan.detect(map).green                              # "up", "down" or "undecidable"
 
 Arrays go in and out without copies where dtype and layout fit (float32, uint32, C order). Long calls release the GIL,
@@ -44,7 +45,9 @@ from .maps import (
     map_mips,
     map_to_height,
 )
-from .models import Converted, Lint, convert, lint
+from .models import Converted, Lint, Model, convert, lint, load
+from .pictures import read_picture, write_picture
+from .rendering import render
 from .shaders import shader
 
 __all__ = [name for name in dir() if not name.startswith("_")]

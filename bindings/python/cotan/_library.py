@@ -12,7 +12,7 @@ from .errors import UnavailableError, error_of
 API_VERSION = 3  # of cotan.h, the least that the library must have
 
 if sys.platform == "win32":
-    _NAMES = ("libcotan-0.dll", "libcotan.dll", "cotan.dll")
+    _NAMES = ("cotan.dll", "libcotan.dll")
 elif sys.platform == "darwin":
     _NAMES = ("libcotan.0.dylib", "libcotan.dylib")
 else:

@@ -58,7 +58,11 @@ class BakeOptions(Struct):
         (integer, "threads"),
         (Progress, "progress"),
         (pointer, "user"),
-        (pointer, "cage"),
+        (handle, "cage"),
+        (integer, "match_by_name material tile"),
+        (text, "tangents high_normals high_frame high_convention"),
+        (size_t, "high_map_count"),
+        (pointer, "high_maps mask"),
         (c.c_float, "cage_reach"),
     )
 
@@ -77,7 +81,7 @@ TakeFile = c.CFUNCTYPE(integer, pointer, text, pointer, size_t)
 
 
 class ModelFiles(Struct):
-    _fields_ = _fields((pointer, "user"), (Read, "read"), (Decode, "decode"), (Encode, "encode"), (Done, "done"))
+    _fields_ = _fields((pointer, "user"), (Read, "read"), (Decode, "decode"), (Encode, "encode"), (Done, "done"), (text, "name"))
 
 
 class LintOptions(Struct):
@@ -113,6 +117,16 @@ class ConvertResult(Struct):
     )
 
 
+class RenderOptions(Struct):
+    _fields_ = _fields(
+        (size_t, "word_count"),
+        (c.POINTER(text), "words"),
+        (integer, "floats threads"),
+        (Progress, "progress"),
+        (pointer, "user"),
+    )
+
+
 STRUCTS = {
     "cotan_places": Places,
     "cotan_vertex_places": VertexPlaces,
@@ -127,6 +141,7 @@ STRUCTS = {
     "cotan_lint_result": LintResult,
     "cotan_convert_options": ConvertOptions,
     "cotan_convert_result": ConvertResult,
+    "cotan_render_options": RenderOptions,
 }
 
 # What a function takes before `message` and `message_size`; it returns a cotan_status.
@@ -154,6 +169,16 @@ _STATUS = {
     "cotan_map_mips": (Picture, text, double, TakeLevel, pointer),
     "cotan_shader_text": (text, text, text, pointer, size_out),
     "cotan_bake": (CMesh, CMesh, BakeOptions, Picture, BakeResult),
+    "cotan_bake_models": (
+        handle, size_t, c.POINTER(handle), BakeOptions, Picture, BakeResult, c.POINTER(handle),
+    ),
+    "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
+    "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
+    "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),
+    "cotan_image_picture": (handle, Picture),
+    "cotan_image_read": (text, integer, c.POINTER(handle)),
+    "cotan_image_write": (text, Picture),
+    "cotan_render": (pointer, size_t, ModelFiles, RenderOptions, c.POINTER(handle), c.POINTER(handle)),
     "cotan_gltf_pictures": (pointer, size_t, ModelFiles, integer, TakeFile, pointer),
     "cotan_lint_gltf": (pointer, size_t, ModelFiles, LintOptions, LintResult, c.POINTER(handle)),
     "cotan_convert_gltf": (
@@ -176,6 +201,9 @@ _OTHERS = {
     "cotan_frame_name": (text, integer),
     "cotan_conversion_count": (size_t, handle),
     "cotan_conversion_free": (None, handle),
+    "cotan_model_free": (None, handle),
+    "cotan_model_warnings": (text, handle),
+    "cotan_image_free": (None, handle),
 }
 
 

@@ -2,8 +2,18 @@
 
 import re
 
-# The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field.
-_EXPECTED = re.compile(r"^(?:(?P<where>.*?): )?expected (?P<expected>.+?)[,;] found (?P<found>.+)$", re.DOTALL)
+# The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field. What reads words
+# of the command line for it says the rest.
+_SAYINGS = [
+    re.compile(pattern, re.DOTALL)
+    for pattern in (
+        r"(?:(?P<where>.*?): )?expected (?P<expected>.+?)[,;] found (?P<found>.+)",
+        r"(?P<where>\w+): (?P<found>.*) not in \{(?P<expected>.+)\}",
+        r"(?P<where>\w+): Value (?P<found>.*) not in range (?P<expected>.+)",
+    )
+]
+# Options of the C API that keywords here have other names for.
+_KEYWORDS = {"occlusion_rays": "ao_rays", "tile": "udim", "tiles": "udim", "high_maps": "high_map", "maxDistance": "max_distance"}
 
 
 class Error(Exception):
@@ -64,15 +74,25 @@ class StoppedError(Error, RuntimeError):
 _OF_STATUS = {c.status: c for c in (UsageError, InputError, UnavailableError, OutputError, LimitError, StoppedError)}
 
 
+def _in_keywords(message):
+    """A line about options in the names that they have here: --max-distance and options.max_distance are
+    max_distance."""
+    message = re.sub(r"^options\.(\w+)", lambda m: _KEYWORDS.get(m[1], m[1]), message)
+    message = re.sub(r"--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
+    return message.removesuffix(" (see help)")
+
+
 def error_of(status, message, files=()):
     """The exception for a status and a line of the library. files: names that the line may begin with."""
+    if status == UsageError.status:
+        message = _in_keywords(message)
     rest, file = message, None
     for name in map(str, files):
         if name and message.startswith(name + ": "):
             file, rest = name, message[len(name) + 2 :]
             break
     field = expected = found = None
-    parts = _EXPECTED.match(rest)
+    parts = next((match for saying in _SAYINGS if (match := saying.fullmatch(rest))), None)
     if parts:
         field, expected, found = parts["where"], parts["expected"], parts["found"]
     elif ": " in rest:

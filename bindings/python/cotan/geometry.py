@@ -22,7 +22,7 @@ class Mesh:
     Attributes:
         positions: (n, 3) float32, in any unit.
         indices: (3 t,) uint32, three for each triangle, each below n; given as (3 t,) or (t, 3) of any integers.
-        normals: (n, 3) float32, of length one.
+        normals: (n, 3) float32, of length one; None: `bake` makes smooth ones, all else needs them.
         texcoords: (n, 2) float32, v down as in glTF (OBJ and Blender: 1 - v); None where the mesh has none.
         name: for messages, and for `bake` with match_by_name.
 
@@ -31,7 +31,7 @@ class Mesh:
 
     positions: Floats
     indices: Words
-    normals: Floats
+    normals: Optional[Floats] = None
     texcoords: Optional[Floats] = None
     name: str = ""
 
@@ -39,7 +39,8 @@ class Mesh:
         self.positions = arrays.floats(self.positions, "positions", 3)
         count = len(self.positions)
         self.indices = arrays.triangles(self.indices)
-        self.normals = arrays.floats(self.normals, "normals", 3, count)
+        if self.normals is not None:
+            self.normals = arrays.floats(self.normals, "normals", 3, count)
         if self.texcoords is not None:
             self.texcoords = arrays.floats(self.texcoords, "texcoords", 2, count)
 

@@ -1,11 +1,11 @@
 """Normal maps as arrays.
 
 A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
-three channels or one are taken too, and copied to four. A convention is words: "gltf", "directx", "unity,xyz".
+three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf", "directx", "unity,xyz".
 """
 
 import dataclasses
-from typing import Literal, NamedTuple, Optional
+from typing import Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _structs as structs
 from ._library import call
+from .pictures import Path, pixels_of
 
 Pixels = NDArray[np.generic]
+Map = Union[ArrayLike, Path]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,9 +73,9 @@ class Level(NamedTuple):
     roughness: Pixels
 
 
-def detect(map: ArrayLike) -> Green:
+def detect(map: Map) -> Green:
     """Which way green of a tangent-space normal map points. map: a picture."""
-    pixels, green = arrays.pixels(map), structs.CGreen()
+    pixels, green = pixels_of(map), structs.CGreen()
     call("cotan_map_green", arrays.picture(pixels), green)
     return Green(
         green={1: "up", -1: "down"}.get(green.direction, "undecidable"),
@@ -84,9 +86,9 @@ def detect(map: ArrayLike) -> Green:
     )
 
 
-def describe(map: ArrayLike) -> MapInfo:
+def describe(map: Map) -> MapInfo:
     """What the numbers of a picture say about it as a normal map."""
-    pixels, info = arrays.pixels(map), structs.CMapInfo()
+    pixels, info = pixels_of(map), structs.CMapInfo()
     call("cotan_map_describe", arrays.picture(pixels), info)
     return MapInfo(
         content=info.content.decode(),
@@ -110,7 +112,7 @@ def _like(pixels, bits, out):
 
 
 def map_convert(
-    map: ArrayLike, source: str, to: str, bits: Optional[int] = None, out: Optional[Pixels] = None
+    map: Map, source: str, to: str, bits: Optional[int] = None, out: Optional[Pixels] = None
 ) -> Pixels:
     """The map stored another way.
 
@@ -120,7 +122,7 @@ def map_convert(
         bits: of the result: 8, 16 or 32; as the map where it is left out.
         out: a picture of the map's size to write into.
     """
-    pixels = arrays.pixels(map)
+    pixels = pixels_of(map)
     out = _like(pixels, bits, out)
     call(
         "cotan_map_convert", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.encoded(to, "to"),
@@ -130,7 +132,7 @@ def map_convert(
 
 
 def map_from_height(
-    height: ArrayLike,
+    height: Map,
     scale_x: float,
     scale_y: Optional[float] = None,
     to: str = "gltf",
@@ -145,24 +147,24 @@ def map_from_height(
         to: the convention of the map.
         bits: of the map: 8, 16 or 32.
     """
-    pixels = arrays.pixels(height, "height")
+    pixels = pixels_of(height, "height")
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
     scale_y = scale_x if scale_y is None else scale_y
     call("cotan_map_from_height", arrays.picture(pixels), scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
     return out
 
 
-def map_to_height(map: ArrayLike, source: str = "gltf") -> NDArray[np.float32]:
+def map_to_height(map: Map, source: str = "gltf") -> NDArray[np.float32]:
     """The height (height, width) float32 whose slopes are nearest to the map's, in widths of a texel, mean 0."""
-    pixels = arrays.pixels(map)
+    pixels = pixels_of(map)
     heights = np.empty(pixels.shape[:2], np.float32)
     call("cotan_map_to_height", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.at(heights))
     return heights
 
 
 def map_blend(
-    base: ArrayLike,
-    detail: ArrayLike,
+    base: Map,
+    detail: Map,
     convention: str = "gltf",
     mode: str = "reoriented",
     strength: float = 1.0,
@@ -173,7 +175,7 @@ def map_blend(
 
     mode: "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes.
     """
-    under, over = arrays.pixels(base, "base"), arrays.pixels(detail, "detail")
+    under, over = pixels_of(base, "base"), pixels_of(detail, "detail")
     out = _like(under, bits, out)
     call(
         "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
@@ -182,12 +184,12 @@ def map_blend(
     return out
 
 
-def map_mips(map: ArrayLike, convention: str = "gltf", roughness: float = 0.5) -> list[Level]:
+def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list[Level]:
     """Levels of half the size each, filtered as vectors: the map's own size first, 1 x 1 last.
 
     roughness: of the material, 0 to 1.
     """
-    pixels, levels, failures = arrays.pixels(map), [], []
+    pixels, levels, failures = pixels_of(map), [], []
 
     def copied(given):
         p = given[0]

@@ -1,4 +1,4 @@
-"""glTF models: what to expect of them, and their maps made for another frame."""
+"""Models: read, judged, and their maps made for another frame."""
 
 import ctypes
 import dataclasses
@@ -6,18 +6,61 @@ import json
 import os
 import pathlib
 import tempfile
-from typing import Any, Callable, Mapping, Optional, Union
+import weakref
+from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _arrays as arrays
 from . import _structs as structs
-from ._library import call, taken
+from ._handles import is_path
+from ._library import call, library, taken
 from ._work import long_call
 from .errors import InputError, OutputError, UsageError
+from .geometry import Mesh
 
-Model = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview]
+Path = Union[str, "os.PathLike[str]"]
+Bytes = Union[bytes, bytearray, memoryview]
 Progress = Callable[[float], Any]
+
+
+class Model:
+    """A model in the library's memory: what `load` returns, or a copy of meshes. For reading once and using often.
+
+    Attributes:
+        warnings: what was odd about it, one line each.
+    """
+
+    def __init__(self, meshes: Union[Mesh, Sequence[Mesh]]):
+        meshes = [meshes] if isinstance(meshes, Mesh) else list(meshes)
+        for i, mesh in enumerate(meshes):
+            if not isinstance(mesh, Mesh):
+                raise arrays.wrong(f"meshes[{i}]", "a cotan.Mesh", type(mesh).__name__)
+        given = [mesh._c() for mesh in meshes]
+        pointers = (ctypes.POINTER(structs.CMesh) * len(given))(*map(ctypes.pointer, given))
+        names = (ctypes.c_char_p * len(given))(*(arrays.encoded(mesh.name, "name") for mesh in meshes))
+        made = structs.handle()
+        call("cotan_model_of_meshes", len(given), pointers, names, made)
+        self._hold(made)
+
+    def _hold(self, made):
+        self._handle = made
+        weakref.finalize(self, library().cotan_model_free, made.value)
+        self.warnings = [w for w in library().cotan_model_warnings(made).decode("utf-8", "replace").split("\n") if w]
+
+
+def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
+    """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
+
+    pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
+    picture, in MiB. The last five formats are read in this process, by Assimp.
+    Raises InputError for a missing or broken file or one over a limit.
+    """
+    made = structs.handle()
+    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), memory, made, files=(file,))
+    model = Model.__new__(Model)
+    model._hold(made)
+    return model
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,7 +76,7 @@ class Lint:
         orthonormal_degrees, cotangent_degrees, smooth_degrees: how far maps for MikkTSpace are off when they are read
             with that frame: the mean over the surface, of the worst of the maps; None where nothing was judged.
         recommendation: in sentences.
-        report: all of it, as `cotan lint --json` has it.
+        report: the figures of every primitive and map, and `warnings`, as `cotan lint --json` has them.
     """
 
     primitives: int
@@ -73,26 +116,29 @@ class Converted:
     report: dict
 
 
-class _Source:
-    """A model's bytes, and what its URIs name, as the library asks for them."""
+class Source:
+    """A glTF model's bytes, and what its URIs name, as the library asks for them."""
 
-    def __init__(self, model: Model, beside: Optional[Mapping[str, bytes]]):
+    def __init__(self, model, beside=None):
         self.path = None
-        if isinstance(model, (str, os.PathLike)):
+        if is_path(model):
             self.path = pathlib.Path(model)
-            self.bytes = self._read_file(self.path)
-        elif isinstance(model, (bytes, bytearray, memoryview, np.ndarray)):
-            self.bytes = model
-        else:
-            raise arrays.wrong("model", "a path or bytes", type(model).__name__)
-        self.array = np.frombuffer(self.bytes, np.uint8)
+            model = self._read_file(self.path)
+        try:
+            self.array = np.frombuffer(model, np.uint8)
+        except (TypeError, ValueError, BufferError):
+            raise arrays.wrong("model", "a path or bytes", type(model).__name__) from None
         self.beside, self.kept, self.failures = beside or {}, [], []
         self.files = structs.ModelFiles(read=structs.Read(self._read), done=structs.Done(self._done))
+        if self.path is not None:
+            self.files.name = arrays.encoded(self.path, "model")
 
     @staticmethod
     def _read_file(path):
         try:
             return path.read_bytes()
+        except FileNotFoundError:
+            raise InputError(f"{path}: no such file", file=str(path)) from None
         except OSError as error:
             raise InputError(f"{path}: {error.strerror or error}", file=str(path)) from None
 
@@ -125,16 +171,13 @@ class _Source:
         self.kept.clear()
 
     def call(self, name, *arguments):
+        names = ("model.glb", "model.gltf") if self.path is None else (self.path,)
         try:
-            call(name, arrays.at(self.array), self.array.nbytes, self.files, *arguments, files=self.names())
+            call(name, arrays.at(self.array), self.array.nbytes, self.files, *arguments, files=names)
         except Exception:
             if self.failures:
                 raise self.failures[0] from None
             raise
-
-    def names(self):
-        """What messages may begin with."""
-        return ("model.glb", "model.gltf")
 
 
 def _degrees(value):
@@ -142,27 +185,33 @@ def _degrees(value):
 
 
 def lint(
-    model: Model,
+    model: Union[Path, Bytes, Model],
     distance: float = 0.0,
+    memory: int = 640,
     progress: Optional[Progress] = None,
     beside: Optional[Mapping[str, bytes]] = None,
 ) -> Lint:
-    """What to expect of a glTF model whose normal maps are read without stored tangents.
+    """What to expect of a model whose normal maps are read without stored tangents, before anything is drawn.
 
     Args:
-        model: a path to .glb or .gltf, or the bytes of one.
+        model: a path to a model of any format, the bytes of a glTF one, or a Model.
         distance: from eye to surface, in units of the model; 0: where the whole model fills the picture.
-        progress: called on this thread with the share that is done, 0 to 1; False stops.
+        memory: of the largest picture, in MiB, for a path.
+        progress: called on this thread with the share that is done, 0 to 1; False stops. Ctrl-C stops, too.
         beside: files that a model in bytes names, by their URIs.
 
     Raises InputError for a broken or missing file, StoppedError where `progress` stopped it.
     """
-    source = _Source(model, beside)
     result, text = structs.LintResult(), structs.handle()
+    source = None if is_path(model) or isinstance(model, Model) else Source(model, beside)
 
     def work(told):
         options = structs.LintOptions(distance=distance, progress=told)
-        source.call("cotan_lint_gltf", options, result, text)
+        if source is not None:
+            source.call("cotan_lint_gltf", options, result, text)
+            return
+        opened = model if isinstance(model, Model) else load(model, memory=memory)
+        call("cotan_lint_model", opened._handle, options, result, text)
 
     long_call(work, progress)
     return Lint(
@@ -181,8 +230,8 @@ def lint(
 
 
 def convert(
-    model: Model,
-    out: Union[str, "os.PathLike[str]", None] = None,
+    model: Union[Path, Bytes],
+    out: Optional[Path] = None,
     to_frame: str = "cotangent",
     from_frame: str = "mikktspace",
     tangents: str = "stored",
@@ -209,11 +258,11 @@ def convert(
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError; nothing is written then.
     """
-    source = _Source(model, beside)
-    if out is not None:
-        out = _output(out, source.path, overwrite)
     if tangents not in ("stored", "generated"):
         raise arrays.wrong("tangents", "'stored' or 'generated'", repr(tangents))
+    source = Source(model, beside)
+    if out is not None:
+        out = _output(out, source.path, overwrite)
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
@@ -231,7 +280,7 @@ def convert(
     long_call(work, progress)
     report, made = json.loads(taken(text)), taken(glb)
     if out is not None:
-        write_whole(out, made)
+        _write_whole(out, made)
     return Converted(
         glb=made if out is None else None,
         maps_converted=result.maps_converted,
@@ -245,6 +294,7 @@ def convert(
 
 
 def _output(out, model, overwrite):
+    """The file to write, looked at before the work."""
     out = pathlib.Path(out)
     if out.suffix.lower() != ".glb":
         raise arrays.wrong("out", "a file that ends in .glb", f"'{out}'")
@@ -255,7 +305,7 @@ def _output(out, model, overwrite):
     return out
 
 
-def write_whole(path: pathlib.Path, data: bytes) -> None:
+def _write_whole(path, data):
     """Writes a file that appears whole or not at all. Raises OutputError."""
     temporary = None
     try:
@@ -267,6 +317,7 @@ def write_whole(path: pathlib.Path, data: bytes) -> None:
         os.chmod(temporary, 0o666 & ~umask)
         os.replace(temporary, path)
     except OSError as error:
+        raise OutputError(f"{path}: {error.strerror or error}", file=str(path)) from None
+    finally:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
-        raise OutputError(f"{path}: {error.strerror or error}", file=str(path)) from None

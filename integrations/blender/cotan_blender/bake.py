@@ -92,7 +92,10 @@ def prepare(context, settings, pair):
         chosen = surface.triangles[shown]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
-        maps.append(Map(name, slots, {"low": mesh, "high": high, **common, **rays}, images.file_for(settings, name)))
+        arguments = {"low": mesh, "high": high, **common, **rays}
+        if "cage" in rays:
+            arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
+        maps.append(Map(name, slots, arguments, images.file_for(settings, name)))
     return maps, surface.uv_map, _notes_on(low, matrix)
 
 

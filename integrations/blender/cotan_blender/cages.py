@@ -23,7 +23,7 @@ def _around(surface, cage, depsgraph, low):
 
 
 def cage_for(settings, bake, surface, low, named, depsgraph):
-    """Arguments for cotan.bake: max_distance, or cage and cage_reach.
+    """Arguments for cotan.bake: max_distance, or cage_reach and cage, the positions of the vertices of `surface`.
 
     surface: of the object `low`, in its own space. bake: Blender's own settings. named: a cage found by name, or None.
     """
