@@ -1,6 +1,8 @@
 """From a pair of meshes to maps in their materials, in steps that a window can be drawn between."""
 
 import dataclasses
+import os
+import tempfile
 import threading
 
 import bpy
@@ -107,12 +109,12 @@ def _notes_on(low, matrix):
 
 
 class Work(threading.Thread):
-    """cotan.bake on a thread of its own."""
+    """A bake into a PNG file, on a thread of its own."""
 
-    def __init__(self, arguments):
+    def __init__(self, arguments, file):
         super().__init__(name="cotan bake")
-        self.arguments, self.share, self.stop = arguments, 0.0, False
-        self.baked = self.floats = self.error = None
+        self.arguments, self.file, self.share, self.stop = arguments, file, 0.0, False
+        self.baked = self.error = None
         self.start()
 
     def _told(self, share):
@@ -122,8 +124,7 @@ class Work(threading.Thread):
     def run(self):
         try:
             self.baked = packages().bake(progress=self._told, **self.arguments)
-            if self.baked.map.dtype == np.uint8:
-                self.floats = images.floats_of(self.baked.map)
+            packages().write_picture(self.file, self.baked.map)
         except BaseException as error:  # for the thread that waits
             self.error = error
 
@@ -160,17 +161,18 @@ def run(context, settings, pairs, outcome):
             maps, uv_map, notes = prepare(context, settings, pair)
             outcome.notes += notes
             for index, made in enumerate(maps):
-                work = Work(made.arguments)
-                try:
-                    while work.is_alive():
-                        work.join(0.02)
-                        yield (number + (index + work.share) / len(maps)) / len(pairs)
-                finally:
-                    work.stop = True
-                    work.join()
-                if work.error is not None:
-                    raise work.error
-                image = images.stored(made.name, work.baked.map, work.floats, made.path, settings.frame)
+                with tempfile.TemporaryDirectory() as folder:
+                    work = Work(made.arguments, made.path or os.path.join(folder, "map.png"))
+                    try:
+                        while work.is_alive():
+                            work.join(0.02)
+                            yield (number + (index + work.share) / len(maps)) / len(pairs)
+                    finally:
+                        work.stop = True
+                        work.join()
+                    if work.error is not None:
+                        raise work.error
+                    image = images.stored(made.name, work.file, not made.path, settings.frame)
                 outcome.made.append(image)
                 outcome.notes += _notes_of(work.baked, image.name)
                 if settings.assign:
