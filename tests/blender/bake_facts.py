@@ -377,4 +377,4 @@ def theMapIsThatOfTheCommandLine():
         assert degrees(ours, (0, 0, 1)).mean() > 1  # there is something to compare
 
 
-facts.hold([value for value in list(globals().values()) if callable(value) and getattr(value, "__module__", "") == __name__ and value.__name__[0].islower() and "_" not in value.__name__])
+facts.hold_all(__name__)

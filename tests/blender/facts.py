@@ -1,5 +1,6 @@
 """Facts inside Blender: each is a function that asserts, on an empty scene."""
 
+import inspect
 import math
 import os
 import subprocess
@@ -17,8 +18,11 @@ TOOL = os.environ["COTAN_TOOL"]
 FOLDER = tempfile.mkdtemp()  # Blender's own folder for temporary files goes with each file that is read
 
 
-def hold(facts):
-    """Runs all of them, each on an empty scene; leaves Blender with exit code 1 where one does not hold."""
+def hold_all(module):
+    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers. Leaves
+    Blender with exit code 1 where one does not hold."""
+    own = [value for value in vars(sys.modules[module]).values() if inspect.isfunction(value) and value.__module__ == module]
+    facts = [fact for fact in own if not inspect.signature(fact).parameters and "_" not in fact.__name__]
     cotan_blender.register()
     failed = 0
     for fact in facts:
