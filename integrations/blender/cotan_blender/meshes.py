@@ -97,15 +97,15 @@ def surface_of(mesh, name, with_uv=False, uv_map=""):
 
 
 def placed(surface, matrix, name):
-    """The Surface in the world. Raises Refused where the matrix flattens it or a position is not finite."""
+    """The Surface in the world. Raises Refused where the matrix flattens it or rays could not start at a position."""
     m = np.array(matrix, np.float64)
     turn, size = m[:3, :3], abs(np.linalg.det(m[:3, :3]))
     if not size > 1e-12 * np.linalg.norm(turn) ** 3:
         raise Refused(f"'{name}' is scaled to nothing along an axis")
     positions = surface.positions @ turn.T.astype(np.float32) + m[:3, 3].astype(np.float32)
-    bad = np.unique(surface.vertices[~np.isfinite(positions).all(axis=1)])
+    bad = np.unique(surface.vertices[~(np.abs(positions) <= 1e17).all(axis=1)])
     if len(bad):
-        raise Refused(f"'{name}': {len(bad)} of its vertices have no place (NaN or infinite), the first is number {bad[0]}")
+        raise Refused(f"'{name}': {len(bad)} of its vertices have no place (NaN, infinite or too far away), the first is number {bad[0]}")
     triangles = surface.triangles if np.linalg.det(turn) > 0 else np.ascontiguousarray(surface.triangles[:, ::-1])
     inverse = np.linalg.inv(turn).astype(np.float32)
     return dataclasses.replace(
