@@ -13,7 +13,7 @@ SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}  # objects that have faces
 
 @dataclasses.dataclass
 class Surface:
-    """Triangles. Vertices are Blender's, taken apart where corners differ in normal or uv."""
+    """Triangles. Vertices are Blender's, or one for each corner of its faces."""
 
     positions: np.ndarray  # (n, 3) float32
     normals: np.ndarray  # (n, 3) float32, unit
@@ -46,20 +46,6 @@ def _one_normal_a_vertex(mesh):
     return not mesh.use_auto_smooth and bool(got(mesh.polygons, "use_smooth", dtype=bool).all())
 
 
-def _welded(vertex, normals, texcoords):
-    """Corners with the same vertex, normal and uv are one: the first of each, and which one each corner is."""
-    keys = [vertex] + [(column + np.float32(0)).view(np.int32) for column in (*normals.T.copy(), *texcoords.T.copy())]
-    order = np.lexsort(keys)
-    new = np.zeros(len(order), bool)
-    for key in keys:
-        row = key[order]
-        new[1:] |= row[1:] != row[:-1]
-    new[:1] = True
-    number = np.empty(len(order), np.uint32)
-    number[order] = np.cumsum(new) - 1
-    return order[new], number
-
-
 def _uv_of(mesh, name, wanted):
     layer = mesh.uv_layers.get(wanted) if wanted else mesh.uv_layers.active
     if layer is None:
@@ -81,19 +67,15 @@ def surface_of(mesh, name, with_uv=False, uv_map=""):
     if not with_uv and _one_normal_a_vertex(mesh):
         triangles = got(mesh.loop_triangles, "vertices", 3, np.int32).astype(np.uint32)
         return Surface(positions, smooth, triangles, slots, np.arange(len(positions), dtype=np.int32), len(positions), smooth)
-    triangles = got(mesh.loop_triangles, "loops", 3, np.int32)
+    # One vertex for each corner: Cotan finds those that are equal where its frames are averaged.
+    triangles = got(mesh.loop_triangles, "loops", 3, np.int32).astype(np.uint32)
     vertex = got(mesh.loops, "vertex_index", dtype=np.int32)
-    normals = _corner_normals(mesh)
-    if not with_uv:
-        return Surface(positions[vertex], normals, triangles.astype(np.uint32), slots, vertex, len(positions), smooth[vertex])
-    layer = _uv_of(mesh, name, uv_map)
-    texcoords = got(layer.data, "uv", 2)
-    texcoords[:, 1] = 1 - texcoords[:, 1]
-    first, number = _welded(vertex, normals, texcoords)
-    vertex = vertex[first]
-    return Surface(
-        positions[vertex], normals[first], number[triangles], slots, vertex, len(positions), smooth[vertex], texcoords[first], layer.name
-    )
+    made = Surface(positions[vertex], _corner_normals(mesh), triangles, slots, vertex, len(positions), smooth[vertex])
+    if with_uv:
+        layer = _uv_of(mesh, name, uv_map)
+        made.texcoords, made.uv_map = got(layer.data, "uv", 2), layer.name
+        made.texcoords[:, 1] = 1 - made.texcoords[:, 1]
+    return made
 
 
 def placed(surface, matrix, name):

@@ -112,7 +112,7 @@ class CotanExportPanel(_Part, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(context.scene.cotan, "to_frame")
-        layout.operator("export_scene.cotan_gltf", icon="EXPORT")
+        layout.operator("export_scene.cotan_gltf", text="Export glTF", icon="EXPORT")
 
 
 CLASSES = [CotanPanel, CotanBakePanel, CotanCheckPanel, CotanExportPanel]

@@ -43,7 +43,7 @@ class CotanSettings(bpy.types.PropertyGroup):
         name="As Rendered", default=True, description="Modifiers and levels of subdivision as in a render, not as in the viewport"
     )
     each_material: BoolProperty(
-        name="Map per Material", default=False, description="A map for each material, of its faces only; else one for the whole mesh"
+        name="Per Material", default=False, description="A map for each material, of its faces only; else one for the whole mesh"
     )
     assign: BoolProperty(name="Assign", default=True, description="Put the map into the Normal Map node of the simple mesh's materials")
     store: EnumProperty(
