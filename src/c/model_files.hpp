@@ -31,9 +31,7 @@ public:
     // As the caller calls it, or by its first bytes.
     const char* name() const
     {
-        return f_.name                                           ? f_.name
-            : size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb"
-                                                                 : "model.gltf";
+        return f_.name ? f_.name : size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb" : "model.gltf";
     }
 
     // What the library reads it with; lives no longer than this.

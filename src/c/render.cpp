@@ -57,19 +57,18 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     const Frame frame = valueOf(parseFrame(wanted.frame));
     if (const Status fits = checkLighting(wanted.picture, frame); !fits)
         throw Failure{fits.error()};
-    Picture picture = valueOf(openPicture(wanted.picture, {frame, Frame::exact}));
+    Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
     picture.view.frame = frame;
     picture.view.output = outputOf(wanted.picture.show);
-    const auto painter = valueOf(openPicturePainter(wanted.picture, o.threads, picture));
+    const auto painter = valueOf(openPicturePainter(wanted.picture, picture));
     painter->progress = progressOf(o.progress, o.user);
     report = {{"frame", wanted.frame}, {"view", wanted.picture.show}, {"device", painter->device()}};
     report.update(countsOf(picture.scene));
     if (!painter->note.empty())
         report["note"] = painter->note;
-    Image image = valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
-                                   [&](const AngleStatistics& degrees) {
-                                       report["error_against_exact"] = toJson(degrees);
-                                   }));
+    Image image =
+        valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
+                         [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
     if (const Status laid = layEdges(*painter, picture.view, wanted.picture, picture.edges, image); !laid)
         throw Failure{laid.error()};
     return image;
@@ -87,7 +86,7 @@ cotan_status cotan_render(const void* model, size_t model_size, const cotan_mode
         require(o.threads >= 0, "options.threads: expected 0 or more");
         Wanted wanted = readWords(o);
         const ModelFiles source(model, model_size, files);
-        if (model_size > 0)
+        if (model)
             readFrom(source, wanted.picture);
         Json report;
         auto made = std::make_unique<cotan_image>();

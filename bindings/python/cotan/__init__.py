@@ -14,6 +14,7 @@ call `progress` on the thread that called them, and end at Ctrl-C. Everything th
 from ._library import library_path, library_version
 from ._version import __version__
 from .baking import Baked, bake
+from .conversion import Conversion, model_pictures
 from .errors import Error, InputError, LimitError, OutputError, StoppedError, UnavailableError, UsageError
 from .geometry import (
     Mesh,

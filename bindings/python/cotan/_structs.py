@@ -29,7 +29,10 @@ class VertexPlaces(Struct):
 
 class CMesh(Struct):
     _fields_ = _fields(
-        (size_t, "vertex_count"), (pointer, "positions normals texcoords"), (size_t, "index_count"), (pointer, "indices")
+        (size_t, "vertex_count"),
+        (pointer, "positions normals texcoords"),
+        (size_t, "index_count"),
+        (pointer, "indices"),
     )
 
 
@@ -81,7 +84,14 @@ TakeFile = c.CFUNCTYPE(integer, pointer, text, pointer, size_t)
 
 
 class ModelFiles(Struct):
-    _fields_ = _fields((pointer, "user"), (Read, "read"), (Decode, "decode"), (Encode, "encode"), (Done, "done"), (text, "name"))
+    _fields_ = _fields(
+        (pointer, "user"),
+        (Read, "read"),
+        (Decode, "decode"),
+        (Encode, "encode"),
+        (Done, "done"),
+        (text, "name"),
+    )
 
 
 class LintOptions(Struct):

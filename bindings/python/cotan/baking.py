@@ -14,8 +14,8 @@ from ._library import call, taken
 from ._work import long_call
 from .geometry import Mesh
 from .maps import Map
-from .models import Model, Path, Progress, load
-from .pictures import pixels_of
+from .models import Model, Progress, load
+from .pictures import Path, pixels_of
 
 Geometry = Union[Mesh, Path, Model]
 
@@ -135,9 +135,9 @@ def bake(
     for field, value, known in (("samples", samples, (1, 4, 16)), ("bits", bits, (8, 16, 32))):
         if value not in known:
             raise arrays.wrong(field, ", ".join(map(str, known[:-1])) + f" or {known[-1]}", value)
-    for field, value, least, most in (("material", material, -1, 100000), ("udim", udim, 1001, 1999)):
-        if not least <= value <= most:
-            raise arrays.wrong(field, f"{least} to {most}", value)
+    material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
+    padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
+    max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
     width, height = arrays.size_of(size)
     made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
     mask_made = np.empty((height, width, 4), np.uint8) if mask else None

@@ -12,19 +12,20 @@ from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call, taken
 from ._work import long_call
-from .models import Bytes, Path, Progress, Source
+from .models import Bytes, Progress, Source
+from .pictures import Path
 
 
 def _word(name, value):
     """A keyword as a word of the command line; None for what it leaves out."""
-    option = "--" + name.replace("_", "-")
+    option = b"--" + name.replace("_", "-").encode()
     if value is None or value is False:
         return None
     if value is True:
         return option
     if isinstance(value, (tuple, list, np.ndarray)):
         value = ("x" if name == "size" else ",").join(str(v) for v in value)
-    return arrays.encoded(f"{option}=", name) + arrays.encoded(value if is_path(value) else str(value), name)
+    return option + b"=" + arrays.encoded(value if is_path(value) else str(value), name)
 
 
 def render(
@@ -102,6 +103,7 @@ def render(
     source = None if model is None or is_path(model) else Source(model, beside)
     if is_path(model):
         words += [b"--", arrays.encoded(model, "model")]
+    threads = arrays.threads_of(threads)
     given = (ctypes.c_char_p * len(words))(*words)
     image, text = structs.handle(), structs.handle()
 

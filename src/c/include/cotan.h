@@ -231,14 +231,14 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
 typedef struct cotan_model cotan_model;
 void cotan_model_free(cotan_model* model);
 
-/* Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds, the last five in this process by Assimp. Missing
- * normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape. memory: of
- * the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
+/* Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds, the last five in this process by Assimp.
+ * Missing normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape.
+ * memory: of the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
 cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
                               size_t message_size);
 
-/* A model of copies of meshes, whose texcoords may be null. names: of the meshes, null: they have none. Since version 3.
- */
+/* A model of copies of meshes, whose normals and texcoords may be null; missing normals are smooth ones. names: of the
+ * meshes; null, or a null among them: none. Since version 3. */
 cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
                                    cotan_model** model, char* message, size_t message_size);
 
@@ -423,7 +423,7 @@ typedef struct cotan_render_options {
 } cotan_render_options;
 
 /* The picture that `cotan render` draws for these words, -o and what else is about files left out. model: bytes of a
- * .glb or .gltf; null and 0: the file that the words name, or the built-in scene. options, files and json may be null;
+ * .glb or .gltf; null: the file that the words name, or the built-in scene. options, files and json may be null;
  * json: what was drawn, on which device, and warnings. Since version 3. */
 cotan_status cotan_render(const void* model, size_t model_size, const cotan_model_files* files,
                           const cotan_render_options* options, cotan_image** image, cotan_bytes** json, char* message,

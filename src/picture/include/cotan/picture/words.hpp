@@ -1,5 +1,5 @@
-// The words of `render` and `compare`, which say which model, seen how, drawn by what: declared once, for the command line
-// and for the C API.
+// The words of `render` and `compare`, which say which model, seen how, drawn by what: declared once, for the command
+// line and for the C API.
 #pragma once
 
 #include <string>
