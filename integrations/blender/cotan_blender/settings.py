@@ -15,8 +15,8 @@ FRAMES = [
 
 class CotanSettings(bpy.types.PropertyGroup):
     frame: EnumProperty(name="Frame", items=FRAMES, default="mikktspace", description="Frame of the shader that will read the map")
-    width: IntProperty(name="Width", default=2048, min=1, max=65535, subtype="PIXEL", description="Of the map, in texels")
-    height: IntProperty(name="Height", default=2048, min=1, max=65535, subtype="PIXEL", description="Of the map, in texels")
+    width: IntProperty(name="Width", default=2048, min=1, max=16384, subtype="PIXEL", description="Of the map, in texels")
+    height: IntProperty(name="Height", default=2048, min=1, max=16384, subtype="PIXEL", description="Of the map, in texels")
     bits: EnumProperty(name="Bits", items=[("8", "8", ""), ("16", "16", "")], default="8", description="Per component")
     samples: EnumProperty(
         name="Samples", items=[("1", "1", ""), ("4", "4", ""), ("16", "16", "")], default="1", description="Per texel"
