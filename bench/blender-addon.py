@@ -61,8 +61,9 @@ with tempfile.TemporaryDirectory() as folder:
             file.write(cotan_blender.gltf.exported(bpy.context, [thing]))
     picture = os.path.join(folder, "map.png")
     tool = os.environ.get("COTAN", str(root / "build/release/bin/cotan"))
-    subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame, "--size", f"{size}x{size}",
-                    "--padding", "-1", "--max-distance", str(settings.distance), "--quiet", "-o", picture], check=True)
+    subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame,
+                    "--size", f"{size}x{size}", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
+                    "-o", picture], check=True)
     wanted = cotan.read_picture(picture)
 inside = ((found != (128, 128, 255, 255)) | (wanted != (128, 128, 255, 255))).any(axis=2)
 a, b = ((p[inside][:, :3].astype(np.float32) - 128) / 127 for p in (found, wanted))

@@ -1,4 +1,4 @@
-"""Maps against what mathematics says: a square below spheres and tori, in all the ways in which Blender makes meshes."""
+"""Maps against what mathematics says: a square below spheres and tori, in all the ways that Blender makes meshes."""
 
 import math
 import os
@@ -61,8 +61,8 @@ def mirroredObjectsKeepTheirBumps():
     expect_sphere(baked(square(matrix=mirrored), ball(centre=(0.25, 0.1, 0)), distance=2), x + 0.25, y - 0.1, least=500)
     # The other way round, too: a mirrored detailed mesh below.
     bpy.data.objects.remove(bpy.data.objects["high"])
-    other = square("other")
-    expect_sphere(baked(other, ball("mirror", centre=(0.25, 0.1, 0), matrix=mirrored), distance=2), x + 0.25, y - 0.1, least=500)
+    high = ball("mirror", centre=(0.25, 0.1, 0), matrix=mirrored)
+    expect_sphere(baked(square("other"), high, distance=2), x + 0.25, y - 0.1, least=500)
 
 
 def stretchedDetailHasTheNormalsOfTheEllipsoid():
@@ -103,7 +103,8 @@ def modifiersAreApplied():
     high = ball(centre=(-0.5, 0, 0), radius=0.45)
     array = high.modifiers.new("twice", "ARRAY")
     array.use_relative_offset, array.use_constant_offset, array.constant_offset_displace = False, True, (1, 0, 0)
-    low = thing("low", [(-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 0, 0)], [(0, 1, 2, 3)], [(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
+    half = [(-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 0, 0)]
+    low = thing("low", half, [(0, 1, 2, 3)], [(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
     mirror = low.modifiers.new("both halves", "MIRROR")
     mirror.use_axis = (False, True, False)
     mirror.use_mirror_v = True
@@ -176,7 +177,8 @@ def customNormalsOfTheSimpleMeshCount():
 
 def flatFacesStayFlat():
     # A roof over the y axis: smooth it would have one normal on the ridge.
-    roof = thing("high", [(-1, -1, 0), (0, -1, 0.5), (1, -1, 0), (1, 1, 0), (0, 1, 0.5), (-1, 1, 0)], [(0, 1, 4, 5), (1, 2, 3, 4)], smooth=False)
+    corners = [(-1, -1, 0), (0, -1, 0.5), (1, -1, 0), (1, 1, 0), (0, 1, 0.5), (-1, 1, 0)]
+    roof = thing("high", corners, [(0, 1, 4, 5), (1, 2, 3, 4)], smooth=False)
     found = baked(square(), roof, distance=1)
     assert degrees(found[:, :32], (-0.5, 0, 1)).max() < 0.01 and degrees(found[:, 32:], (0.5, 0, 1)).max() < 0.01
 
@@ -184,7 +186,8 @@ def flatFacesStayFlat():
 def nGonsAreCutAsBlenderCutsThem():
     # A hollow pentagon: a fan from its first corner would leave it.
     outline = [(-1, -1), (1, -1), (1, 1), (0, -0.5), (-1, 1)]
-    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3, 4)], [((x + 1) / 2, (y + 1) / 2) for x, y in outline])
+    uv = [((x + 1) / 2, (y + 1) / 2) for x, y in outline]
+    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3, 4)], uv)
     found = baked(low, square("high", half=3, z=0.1), distance=1, width=128, height=128, bits="8")
     image = bpy.data.images["low_normal"]
     from cotan_blender import meshes
@@ -235,7 +238,8 @@ def blendersOwnCageCounts():
     near, far, leaning = two_hills()
     low, bake = square(), bpy.context.scene.render.bake
     # The nearer one is above by 0.5, the leaning one 0.4 to 0.8 below.
-    for extrusion, distance, truth in ((0.6, 0, (0, 0, 1)), (0.3, 0, leaning), (0.3, 1.3, leaning), (0.6, 0.2, (0, 0, 1))):
+    flat = (0, 0, 1)
+    for extrusion, distance, truth in ((0.6, 0, flat), (0.3, 0, leaning), (0.3, 1.3, leaning), (0.6, 0.2, flat)):
         for use_cage in (False, True):
             bake.cage_extrusion, bake.max_ray_distance, bake.use_cage = extrusion, distance, use_cage
             found = baked(low, near, far, cage="BLENDER")
@@ -273,7 +277,8 @@ def aMeshIsACage():
 
 def pairsAreFoundByName():
     x, y = places()
-    for number, (stem, low, high) in enumerate((("door", "door_low", "door_high"), ("bolt", "bolt.lo", "Bolt.HI.001"), ("Wall", "Wall_low", "wall_high_a"))):
+    names = (("door_low", "door_high"), ("bolt.lo", "Bolt.HI.001"), ("Wall_low", "wall_high_a"))
+    for number, (low, high) in enumerate(names):
         square(low, matrix=moved(4 * number))
         ball(high, matrix=moved(4 * number), centre=(0.1 * number, 0, 0))
     ball("wall_high_b", centre=(-0.8, 0.8, 0), radius=0.15, matrix=moved(8))
@@ -293,7 +298,8 @@ def pairsAreFoundByName():
     assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
     assert [i.name for i in bpy.data.images] == ["door_low_normal"]
     select(bpy.data.objects["alone_low"])
-    assert facts.said(bpy.ops.object.cotan_bake, which="NAMES").startswith("There is no visible object named like 'alone_low'")
+    found = facts.said(bpy.ops.object.cotan_bake, which="NAMES")
+    assert found.startswith("There is no visible object named like 'alone_low'"), found
 
 
 def theNormalNodeReadsTheMap():
@@ -363,14 +369,14 @@ def theMapIsThatOfTheCommandLine():
     for vertex in high.data.vertices:
         vertex.co *= 1 + 0.03 * math.sin(9 * vertex.co.x) * math.sin(7 * vertex.co.y + 5 * vertex.co.z)
     for each in (low, high):
-        for modifier in ("TRIANGULATE",):
-            each.modifiers.new(modifier, modifier)
+        each.modifiers.new("triangles", "TRIANGULATE")
         each.matrix_world = moved(1, 2, 3) @ Euler((0.3, 0.4, 0.5)).to_matrix().to_4x4()
-    files = [exported for exported in (facts.exported("low", low), facts.exported("high", high))]
+    files = facts.exported("low", low), facts.exported("high", high)
     for frame in ("mikktspace", "smooth", "cotangent"):
         ours = baked(low, high, frame=frame, width=256, height=256)
         out = os.path.join(facts.FOLDER, f"{frame}.png")
-        facts.command("bake", "--low", files[0], "--high", files[1], "--frame", frame, "--size", "256x256", "--bits", "16", "--padding", "-1", "--tangents", "generated", "-o", out)
+        words = ["--frame", frame, "--size", "256x256", "--bits", "16", "--padding", "-1", "--tangents", "generated"]
+        facts.command("bake", "--low", files[0], "--high", files[1], *words, "-o", out)
         theirs = (cotan.read_picture(out)[..., :3].astype(float) - 32768) / 32767
         off = degrees(ours, theirs)
         assert off.mean() < 0.01, (frame, off.mean(), off.max())

@@ -34,7 +34,8 @@ def checked(each, kind="ALL"):
 def strip(uv_of, count=5):
     """Unit squares in a row; uv_of(number): the four uv of each."""
     vertices = [(x, y, 0) for x in range(count + 1) for y in (0, 1)]
-    made = thing("strip", vertices, [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(count)], [(0, 0)] * len(vertices))
+    faces = [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(count)]
+    made = thing("strip", vertices, faces, [(0, 0)] * len(vertices))
     for polygon in made.data.polygons:
         for loop, uv in zip(polygon.loop_indices, uv_of(polygon.index)):
             made.data.uv_layers[0].data[loop].uv = uv
@@ -69,7 +70,7 @@ def stretchedFacesAreSelectedFromTheirDegreesOn():
         said = checked(made)
         found = selected(made.data) if expected else []
         assert found == expected and (said[0][0] == "STRETCH") == bool(expected), (limit, said, off)
-    # The frame that keeps lengths reads both axes by their mean: each is off by less than all of it, and by over a third.
+    # The frame that keeps lengths reads both axes by their mean: each is off by less than all of it, over a third.
     from cotan_blender import check
 
     uv = np.array([[(0, 1), (stretch, 1), (stretch, 0)]], np.float32)
@@ -79,7 +80,8 @@ def stretchedFacesAreSelectedFromTheirDegreesOn():
 
 def nGonsAndFacesWithoutAreaAreSelected():
     outline = [(math.cos(a), math.sin(a), 0) for a in np.arange(6)]
-    made = thing("mixed", outline + [(3, 0, 0), (4, 0, 0), (5, 0, 0)], [(0, 1, 2, 3, 4, 5), (6, 7, 8)], [(v[0], v[1]) for v in outline] + [(0, 0), (1, 0), (0, 1)])
+    line, uv = [(3, 0, 0), (4, 0, 0), (5, 0, 0)], [(x, y) for x, y, _ in outline] + [(0, 0), (1, 0), (0, 1)]
+    made = thing("mixed", outline + line, [(0, 1, 2, 3, 4, 5), (6, 7, 8)], uv)
     said = checked(made)
     assert {kind for kind, _ in said if kind} == {"NGON", "AREA"}, said
     assert selected(made.data) == [0, 1]
@@ -97,7 +99,8 @@ def wavy_high(cells=96):
     x, y = (a.ravel() for a in np.meshgrid(along, along))
     z = 0.04 * np.sin(9 * x + 4 * y) + 0.03 * np.sin(7 * y - 6 * x) + 0.02 * np.sin(13 * x + 2) * np.sin(11 * y)
     first = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    return thing("high", np.stack([x, y, z], -1), np.stack([first, first + 1, first + cells + 2, first + cells + 1], -1))
+    faces = np.stack([first, first + 1, first + cells + 2, first + cells + 1], -1)
+    return thing("high", np.stack([x, y, z], -1), faces)
 
 
 def aMapIsJudgedInPlainWords():
@@ -223,7 +226,7 @@ def silenceIsBroken():
     warned(ngon, "more than four corners", "without its modifiers", apply_modifiers=False)
     bare = thing("bare", pentagon[:3], [(0, 1, 2)])
     mapped(bare)
-    warned(bare, "'bare' has no uv map: the normal map of 'mapped' cannot be shown")
+    warned(bare, "'bare' has no uv map: no program can show the normal map of 'mapped'")
     wide = square("wide", matrix=Matrix.Diagonal((1, 2, 1, 1)))
     warned(wide, "scaled by different factors")
     leaning = square("leaning")
@@ -243,7 +246,7 @@ def severalUvMapsAreNamed():
     low = square()
     low.data.uv_layers.new(name="second")
     material = mapped(low, "second")
-    warned(low, "'low' has 2 uv maps: its normal map is read with 'second', and programs that know only the first read 'UVMap'")
+    warned(low, "2 uv maps: its normal map is read with 'second', and programs that know only the first read 'UVMap'")
     reader = next(n for n in material.node_tree.nodes if n.type == "NORMAL_MAP")
     reader.uv_map = "UVMap"
     warned(low, "reads its normal map with uv 'second' and its tangents with 'UVMap'")

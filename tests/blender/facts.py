@@ -19,9 +19,10 @@ FOLDER = tempfile.mkdtemp()  # Blender's own folder for temporary files goes wit
 
 
 def hold_all(module):
-    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers. Leaves
-    Blender with exit code 1 where one does not hold."""
-    own = [value for value in vars(sys.modules[module]).values() if inspect.isfunction(value) and value.__module__ == module]
+    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers.
+    Leaves Blender with exit code 1 where one does not hold."""
+    functions = filter(inspect.isfunction, vars(sys.modules[module]).values())
+    own = [function for function in functions if function.__module__ == module]
     facts = [fact for fact in own if not inspect.signature(fact).parameters and "_" not in fact.__name__]
     cotan_blender.register()
     failed = 0
@@ -70,7 +71,8 @@ def thing(name, vertices, faces, uv=None, matrix=None, smooth=True):
 def square(name="low", half=1.0, z=0.0, matrix=None):
     """A square in the plane z, whose uv fill the unit square: u along x, v along y."""
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    return thing(name, [(half * x, half * y, z) for x, y in corners], [(0, 1, 2, 3)], [((x + 1) / 2, (y + 1) / 2) for x, y in corners], matrix)
+    uv = [((x + 1) / 2, (y + 1) / 2) for x, y in corners]
+    return thing(name, [(half * x, half * y, z) for x, y in corners], [(0, 1, 2, 3)], uv, matrix)
 
 
 def ball(name="high", centre=(0, 0, 0), radius=1.0, cells=128, matrix=None):
@@ -86,7 +88,9 @@ def ball(name="high", centre=(0, 0, 0), radius=1.0, cells=128, matrix=None):
 
 def torus(name="high", major=0.6, minor=0.3, segments=256):
     """A torus around z, smooth."""
-    bpy.ops.mesh.primitive_torus_add(major_segments=segments, minor_segments=segments // 2, major_radius=major, minor_radius=minor)
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=segments, minor_segments=segments // 2, major_radius=major, minor_radius=minor
+    )
     made = bpy.context.object
     made.name = name
     bpy.ops.object.shade_smooth()

@@ -33,7 +33,8 @@ with tempfile.TemporaryDirectory() as folder:
     environment["PATH"] = os.pathsep.join(("/usr/bin", environment["PATH"]))
     paths = []
     if given.installed:
-        subprocess.run([root / "scripts/blender-addon", folder], env=dict(environment, LIBRARY=given.library), check=True)
+        built = dict(environment, LIBRARY=given.library)
+        subprocess.run([root / "scripts/blender-addon", folder], env=built, check=True)
         environment["COTAN_ZIP"] = f"{folder}/cotan_blender.zip"
     else:
         paths = [str(root / "integrations/blender"), str(root / "bindings/python"), str(here)]

@@ -56,9 +56,9 @@ def check_low(low, settings):
         raise Refused(f"'{low.name}' is being edited: go back to Object Mode first")
     if settings.assign:
         if not low.material_slots and low.data.library is not None:
-            raise Refused(f"'{low.name}' has no material, and its mesh comes from a library file: make it local first, or do not assign the map")
+            raise Refused(f"'{low.name}' has no material, and its mesh comes from a library file: {nodes.MEND}")
         if low.library is not None and any(slot.material is None for slot in low.material_slots):
-            raise Refused(f"'{low.name}' has an empty material slot and comes from a library file: make it local first, or do not assign the map")
+            raise Refused(f"'{low.name}' has an empty material slot and comes from a library file: {nodes.MEND}")
         for slot in low.material_slots:
             nodes.writable(slot.material)
 
@@ -90,7 +90,8 @@ def prepare(context, settings, pair):
     parts = _slots_of(low, surface, settings.each_material)
     for slots, shown in parts:
         material = low.material_slots[slots[0]].material if slots else None
-        name = f"{low.name}_normal" if len(parts) == 1 else f"{low.name}_{material.name if material else slots[0]}_normal"
+        part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
+        name = f"{low.name}{part}_normal"
         chosen = surface.triangles[shown]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
@@ -104,7 +105,7 @@ def prepare(context, settings, pair):
 def _notes_on(low, matrix):
     sizes = matrix.to_scale()
     if max(map(abs, sizes)) > 1.001 * min(map(abs, sizes)):
-        return [f"'{low.name}' is scaled by different factors along its axes: apply the scale, or other programs will show the map differently"]
+        return [f"'{low.name}' is scaled by different factors along its axes: apply the scale, or programs differ"]
     return []
 
 
@@ -147,9 +148,11 @@ def _put(low, made, image, uv_map, outcome):
 def _notes_of(baked, name):
     notes = []
     if baked.covered and baked.missed > 0.001 * baked.covered:
-        notes.append(f"{name}: {100 * baked.missed / baked.covered:.1f} % of the texels found no detailed surface: let rays run further, or use a cage")
+        share = f"{100 * baked.missed / baked.covered:.1f} %"
+        notes.append(f"{name}: {share} of the texels found no detailed surface: let rays run further, or use a cage")
     if baked.covered and baked.twice > 0.01 * baked.covered:
-        notes.append(f"{name}: {100 * baked.twice / baked.covered:.1f} % of the texels belong to several faces: the uv map overlaps itself")
+        share = f"{100 * baked.twice / baked.covered:.1f} %"
+        notes.append(f"{name}: {share} of the texels belong to several faces: the uv map overlaps itself")
     return notes
 
 

@@ -17,9 +17,11 @@ def _around(surface, cage, depsgraph, low):
         positions = got(mesh.vertices, "co", 3)
     if len(positions) != surface.vertex_count:
         raise Refused(
-            f"The cage '{cage.name}' has {len(positions)} vertices where '{low.name}' has {surface.vertex_count}: make it from a copy of it"
+            f"The cage '{cage.name}' has {len(positions)} vertices where '{low.name}' has {surface.vertex_count}: "
+            "make it from a copy of it"
         )
-    return placed(dataclasses.replace(surface, positions=positions[surface.vertices]), cage.matrix_world, cage.name).positions
+    moved = dataclasses.replace(surface, positions=positions[surface.vertices])
+    return placed(moved, cage.matrix_world, cage.name).positions
 
 
 def cage_for(settings, bake, surface, low, named, depsgraph):

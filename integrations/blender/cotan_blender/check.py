@@ -40,7 +40,8 @@ def _differences(positions, texcoords):
     for turn in np.arange(8) * np.pi / 4:
         texel = np.array([np.sin(_TILT) * np.cos(turn), np.sin(_TILT) * np.sin(turn), np.cos(_TILT)], np.float32)
         texels = np.tile(texel, (count, 1))
-        one, other = (cotan.frame_apply(frame, texels, normals, e1, e2, t1, t2) for frame in ("orthonormal", "cotangent"))
+        frames = ("orthonormal", "cotangent")
+        one, other = (cotan.frame_apply(frame, texels, normals, e1, e2, t1, t2) for frame in frames)
         most = np.maximum(most, np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1, 1))))
     return most
 
@@ -63,13 +64,15 @@ def questions(mesh, degrees):
         uv[..., 1] = 1 - uv[..., 1]
         u, v = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
         spread = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 0
-        found.append(Question("UV", "have no area in uv: no frame has a direction there", _all_of(polygon, solid & ~spread)))
+        text = "have no area in uv: no frame has a direction there"
+        found.append(Question("UV", text, _all_of(polygon, solid & ~spread)))
         judged = np.flatnonzero(solid & spread)
         off = judged[_differences(positions[judged], uv[judged]) > degrees] if len(judged) else judged
         text = f"have stretched uv: a map for MikkTSpace, read with cotangent, is off by over {degrees:g} degrees"
         found.append(Question("STRETCH", text, polygon[off]))
     corners = meshes.got(mesh.polygons, "loop_total", dtype=np.int32)
-    found.append(Question("NGON", "have more than four corners: no tangents are exported for such a mesh", np.flatnonzero(corners > 4)))
+    text = "have more than four corners: no tangents are exported for such a mesh"
+    found.append(Question("NGON", text, np.flatnonzero(corners > 4)))
     for each in found:
         each.faces = np.unique(each.faces)
     return [each for each in found if len(each.faces)]
@@ -88,13 +91,15 @@ def _on_maps(context, thing):
     said = []
     foreign = [image for image in maps if gltf.frame_of(image) != "mikktspace"]
     for image in foreign:
-        said.append(f"'{image.name}' was baked for {gltf.frame_of(image)}: read it with that frame; Blender's own node reads MikkTSpace")
+        frame = gltf.frame_of(image)
+        said.append(f"'{image.name}' was baked for {frame}: read it with that; Blender's own node reads MikkTSpace")
     report = packages().lint(gltf.exported(context, [thing]))
     if len(foreign) < len(maps) and report.recommendation:
         said.append(report.recommendation)
     for image in maps:
         if image.colorspace_settings.name not in {"Non-Color", "Raw", "Generic Data"}:
-            said.append(f"'{image.name}' is read as a colour ({image.colorspace_settings.name}): set its colour space to Non-Color")
+            space = image.colorspace_settings.name
+            said.append(f"'{image.name}' is read as a colour ({space}): set its colour space to Non-Color")
         said.append(gltf.detected(image))
     return said
 

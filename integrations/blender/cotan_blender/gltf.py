@@ -23,7 +23,11 @@ def exported(context, things, apply_modifiers=True):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "model.glb")
             bpy.ops.export_scene.gltf(
-                filepath=path, export_format="GLB", use_selection=True, export_tangents=False, export_apply=apply_modifiers
+                filepath=path,
+                export_format="GLB",
+                use_selection=True,
+                export_tangents=False,
+                export_apply=apply_modifiers,
             )
             with open(path, "rb") as file:
                 return file.read()
@@ -85,14 +89,20 @@ def _on_uv(thing):
         if texture is None:
             continue
         if not layers:
-            said.append(f"'{thing.name}' has no uv map: the normal map of '{slot.material.name}' cannot be shown by any program")
+            said.append(f"'{thing.name}' has no uv map: no program can show the normal map of '{slot.material.name}'")
             continue
         active = next((layer.name for layer in layers if layer.active_render), layers[0].name)
         of_texture, of_tangents = _uv_of_texture(thing, texture), reader.uv_map or active
         if of_texture and of_texture != of_tangents:
-            said.append(f"'{slot.material.name}' reads its normal map with uv '{of_texture}' and its tangents with '{of_tangents}': glTF knows one for both")
+            said.append(
+                f"'{slot.material.name}' reads its normal map with uv '{of_texture}' and its tangents with "
+                f"'{of_tangents}': glTF knows one for both"
+            )
         elif len(layers) > 1:
-            said.append(f"'{thing.name}' has {len(layers)} uv maps: its normal map is read with '{of_tangents}', and programs that know only the first read '{layers[0].name}'")
+            said.append(
+                f"'{thing.name}' has {len(layers)} uv maps: its normal map is read with '{of_tangents}', and programs "
+                f"that know only the first read '{layers[0].name}'"
+            )
     return said
 
 
@@ -102,8 +112,9 @@ def _on_mesh(thing, mesh, apply_modifiers):
     corners = meshes.got(mesh.polygons, "loop_total", dtype=np.int32)
     if (corners > 4).any():
         said.append(
-            f"'{thing.name}' has {int((corners > 4).sum())} faces of more than four corners: Blender writes no tangents for such a mesh, without a word, "
-            "and each program cuts them in its own way. Add a Triangulate modifier before you bake and export"
+            f"'{thing.name}' has {int((corners > 4).sum())} faces of more than four corners: Blender writes no "
+            "tangents for such a mesh, without a word, and each program cuts them in its own way. Add a Triangulate "
+            "modifier before you bake and export"
         )
     if not np.isfinite(meshes.got(mesh.vertices, "co", 3)).all():
         raise Refused(f"'{thing.name}' has vertices without a place (NaN or infinite)")
@@ -112,7 +123,10 @@ def _on_mesh(thing, mesh, apply_modifiers):
     elif own.has_custom_normals and not mesh.has_custom_normals:
         said.append(f"'{thing.name}' loses its custom normals to a modifier")
     if apply_modifiers and own.shape_keys and len(own.shape_keys.key_blocks) > 1:
-        said.append(f"'{thing.name}' has shape keys: they are exported as they stand and cannot be moved any more, since modifiers are applied")
+        said.append(
+            f"'{thing.name}' has shape keys: they are exported as they stand and cannot be moved any more, since "
+            "modifiers are applied"
+        )
     if not apply_modifiers and any(m.show_viewport and m.type != "ARMATURE" for m in thing.modifiers):
         said.append(f"'{thing.name}' is exported without its modifiers")
     return said
@@ -126,7 +140,10 @@ def warnings(context, things, apply_modifiers=True):
         said += _on_uv(thing)
         sizes = [abs(s) for s in thing.matrix_world.to_scale()]
         if max(sizes) > 1.001 * min(sizes):
-            said.append(f"'{thing.name}' is scaled by different factors along its axes: programs differ in what they do to tangents then. Apply the scale")
+            said.append(
+                f"'{thing.name}' is scaled by different factors along its axes: programs differ in what they do to "
+                "tangents then. Apply the scale"
+            )
         if apply_modifiers:
             with meshes.mesh_of(thing.evaluated_get(depsgraph), depsgraph) as mesh:
                 said += _on_mesh(thing, mesh, apply_modifiers)
@@ -137,7 +154,8 @@ def warnings(context, things, apply_modifiers=True):
 
 def detected(image):
     """One sentence: which way green of a normal map points, judged by the map alone. In Blender it has to point up."""
-    if not image.has_data and not image.packed_file and image.source == "FILE" and not os.path.exists(bpy.path.abspath(image.filepath)):
+    in_file = image.source == "FILE" and not image.has_data and not image.packed_file
+    if in_file and not os.path.exists(bpy.path.abspath(image.filepath)):
         return f"'{image.name}': its file is missing"
     if 0 in tuple(image.size):
         return f"'{image.name}' has no pixels"

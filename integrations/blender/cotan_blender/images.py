@@ -22,7 +22,7 @@ def file_for(settings, name):
     if settings.store != "FILE":
         return ""
     if settings.folder.startswith("//") and not bpy.data.filepath:
-        raise Refused("The maps' folder is beside the .blend file, which is not saved yet: save it, or choose another folder")
+        raise Refused("The maps' folder is beside the .blend file, which is not saved yet: save it, or choose another")
     folder = bpy.path.abspath(settings.folder)
     if not os.path.isdir(folder):
         raise Refused(f"There is no folder '{folder}' for the maps")

@@ -50,9 +50,9 @@ def _uv_of(mesh, name, wanted):
     layer = mesh.uv_layers.get(wanted) if wanted else mesh.uv_layers.active
     if layer is None:
         have = ", ".join(f"'{each.name}'" for each in mesh.uv_layers)
-        raise Refused(
-            f"'{name}' has no uv map '{wanted}', only {have}" if wanted and have else f"'{name}' has no uv map: unwrap it first"
-        )
+        if wanted and have:
+            raise Refused(f"'{name}' has no uv map '{wanted}', only {have}")
+        raise Refused(f"'{name}' has no uv map: unwrap it first")
     return layer
 
 
@@ -66,7 +66,8 @@ def surface_of(mesh, name, with_uv=False, uv_map=""):
     slots = got(mesh.loop_triangles, "material_index", dtype=np.int32)
     if not with_uv and _one_normal_a_vertex(mesh):
         triangles = got(mesh.loop_triangles, "vertices", 3, np.int32).astype(np.uint32)
-        return Surface(positions, smooth, triangles, slots, np.arange(len(positions), dtype=np.int32), len(positions), smooth)
+        vertex = np.arange(len(positions), dtype=np.int32)
+        return Surface(positions, smooth, triangles, slots, vertex, len(positions), smooth)
     # One vertex for each corner: Cotan finds those that are equal where its frames are averaged.
     triangles = got(mesh.loop_triangles, "loops", 3, np.int32).astype(np.uint32)
     vertex = got(mesh.loops, "vertex_index", dtype=np.int32)
@@ -87,11 +88,18 @@ def placed(surface, matrix, name):
     positions = surface.positions @ turn.T.astype(np.float32) + m[:3, 3].astype(np.float32)
     bad = np.unique(surface.vertices[~(np.abs(positions) <= 1e17).all(axis=1)])
     if len(bad):
-        raise Refused(f"'{name}': {len(bad)} of its vertices have no place (NaN, infinite or too far away), the first is number {bad[0]}")
+        raise Refused(
+            f"'{name}': {len(bad)} of its vertices have no place (NaN, infinite or too far away), the first is number "
+            f"{bad[0]}"
+        )
     triangles = surface.triangles if np.linalg.det(turn) > 0 else np.ascontiguousarray(surface.triangles[:, ::-1])
     inverse = np.linalg.inv(turn).astype(np.float32)
     return dataclasses.replace(
-        surface, positions=positions, normals=_unit(surface.normals @ inverse), smooth=_unit(surface.smooth @ inverse), triangles=triangles
+        surface,
+        positions=positions,
+        normals=_unit(surface.normals @ inverse),
+        smooth=_unit(surface.smooth @ inverse),
+        triangles=triangles,
     )
 
 

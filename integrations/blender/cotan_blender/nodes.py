@@ -3,6 +3,9 @@
 from .refused import Refused
 
 
+MEND = "make it local first, or do not assign the map"
+
+
 def _principled(material):
     """The Principled BSDF that the material shows, or any; None."""
     nodes = material.node_tree.nodes if material.use_nodes and material.node_tree else []
@@ -34,7 +37,7 @@ def map_of(material):
 def writable(material):
     """Raises Refused where the material cannot be changed."""
     if material is not None and material.library is not None:
-        raise Refused(f"The material '{material.name}' comes from a library file: make it local first, or do not assign the map")
+        raise Refused(f"The material '{material.name}' comes from a library file: {MEND}")
 
 
 def assign(material, image, uv_map):

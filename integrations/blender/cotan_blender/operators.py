@@ -33,7 +33,7 @@ class CotanBake(bpy.types.Operator):
         name="Which",
         items=[
             ("ACTIVE", "Selected to Active", "The selected objects onto the active mesh"),
-            ("NAMES", "Pairs by Name", "Every selected mesh x_low, or each there is, with what is named x_high or x_hi"),
+            ("NAMES", "Pairs by Name", "Each selected mesh x_low, or each there is, from what is named x_high"),
         ],
         default="ACTIVE",
     )
@@ -154,7 +154,9 @@ class CotanExport(bpy.types.Operator, ExportHelper):
     bl_label = "Export glTF without Tangents"
     filename_ext = ".glb"
 
-    apply_modifiers: BoolProperty(name="Apply Modifiers", default=True, description="Shape keys stay as they stand then")
+    apply_modifiers: BoolProperty(
+        name="Apply Modifiers", default=True, description="Shape keys stay as they stand then"
+    )
 
     def execute(self, context):
         frame = context.scene.cotan.to_frame
@@ -173,5 +175,6 @@ class CotanExport(bpy.types.Operator, ExportHelper):
             return {"CANCELLED"}
         for note in notes:
             self.report({"WARNING"}, note)
-        self.report({"INFO"}, f"Exported for the frame {frame}: {done.maps_converted} maps converted, {done.maps_kept} kept as they are")
+        maps = f"{done.maps_converted} maps converted, {done.maps_kept} kept as they are"
+        self.report({"INFO"}, f"Exported for the frame {frame}: {maps}")
         return {"FINISHED"}

@@ -13,5 +13,5 @@ def packages():
         try:
             import cotan
         except ImportError:
-            raise Refused("The Python package cotan is missing: install the add-on from the zip that scripts/blender-addon makes") from None
+            raise Refused("The Python package cotan is missing: install the add-on from its zip") from None
     return cotan
