@@ -98,6 +98,33 @@ def instancesOnVerticesCount():
         assert inside.sum() > 300 and degrees(found[inside], truth[inside]).max() < 0.1
 
 
+def instancesOfGeometryNodesCount():
+    x, y = places()
+    high = ball(radius=0.5, centre=(0, 0, 0), matrix=moved(9))
+    placer = thing("placer", [(0, 0, 0)], [], matrix=moved(0.2, -0.3))
+    tree = bpy.data.node_groups.new("place", "GeometryNodeTree")
+    tree.outputs.new("NodeSocketGeometry", "Geometry")
+    info, out = tree.nodes.new("GeometryNodeObjectInfo"), tree.nodes.new("NodeGroupOutput")
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = high, True
+    tree.links.new(info.outputs["Geometry"], out.inputs[0])
+    placer.modifiers.new("place", "NODES").node_group = tree
+    expect_sphere(baked(square(), placer, distance=2), x - 0.2, y + 0.3, 0.5, least=500)
+
+
+def textAndCurvesCount():
+    curve = bpy.data.curves.new("disc", "CURVE")
+    curve.dimensions, curve.fill_mode = "2D", "BOTH"
+    spline = curve.splines.new("POLY")
+    spline.points.add(3)
+    for point, (x, y) in zip(spline.points, ((-2, -2), (2, -2), (2, 2), (-2, 2))):
+        point.co = (x, y, 0, 1)
+    spline.use_cyclic_u = True
+    disc = bpy.data.objects.new("disc", curve)
+    disc.matrix_world = moved(z=-0.2) @ Matrix.Rotation(0.1, 4, "Y")
+    bpy.context.collection.objects.link(disc)
+    assert degrees(baked(square(), disc, distance=2), (math.sin(0.1), 0, math.cos(0.1))).max() < 0.01
+
+
 def modifiersAreApplied():
     x, y = places()
     high = ball(centre=(-0.5, 0, 0), radius=0.45)
@@ -354,6 +381,22 @@ def mapsAreSavedAsFiles():
     assert "is there already" in facts.said(bpy.ops.object.cotan_bake)
     bpy.context.scene.cotan.overwrite = True
     assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+
+
+def mapsAreThereAfterSavingAndOpening():
+    folder = os.path.join(facts.FOLDER, "project")
+    os.mkdir(folder)
+    blend, elsewhere = os.path.join(folder, "scene.blend"), os.path.join(facts.FOLDER, "moved")
+    bpy.ops.wm.save_as_mainfile(filepath=blend)
+    packed = baked(square("packed"), ball(), distance=2, frame="smooth")
+    filed = baked(square("filed"), bpy.data.objects["high"], distance=2, store="FILE", folder="//")
+    bpy.ops.wm.save_mainfile()
+    os.rename(folder, elsewhere)
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(elsewhere, "scene.blend"))
+    for name, expected, frame in (("packed", packed, "smooth"), ("filed", filed, "smooth")):
+        image = bpy.data.images[f"{name}_normal"]
+        assert (directions(image) == expected).all() and image["cotan_frame"] == frame
+        assert image.colorspace_settings.name == "Non-Color"
 
 
 def theMapIsThatOfTheCommandLine():

@@ -44,6 +44,8 @@ def stored(name, file, packed, frame):
         if packed:
             image.pack()
             image.filepath_raw = f"//{bpy.path.clean_name(name)}.png"
+        elif bpy.data.filepath and file.startswith(os.path.dirname(bpy.data.filepath) + os.sep):
+            image.filepath_raw = bpy.path.relpath(file)  # goes where the .blend goes
     except RuntimeError as error:
         raise Refused(f"Blender cannot read the map of '{name}': {str(error).strip()}") from None
     if old is not None and old.library is None:
