@@ -61,7 +61,7 @@ bool makeChannels(Descriptor (&socket)[2], Descriptor (&messages)[2])
 
 // The child has the socket as standard input, `messages` as standard output and error, and nothing else. It is in a
 // process group of its own: Ctrl-C is for us, and it goes when we go.
-int spawn(const std::string& program, int socket, int messages, pid_t& process)
+int spawn(const Sandbox& reader, int socket, int messages, pid_t& process)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -78,9 +78,14 @@ int spawn(const std::string& program, int socket, int messages, pid_t& process)
     ::posix_spawnattr_setsigdefault(&attributes, &all);
     ::posix_spawnattr_setpgroup(&attributes, 0);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    std::string name = program, word = kReaderWord;
-    char* const words[] = {name.data(), word.data(), nullptr};
-    const int problem = ::posix_spawn(&process, program.c_str(), &files, &attributes, words, environ);
+    std::vector<std::string> texts = {reader.program.string()};
+    texts.insert(texts.end(), reader.arguments.begin(), reader.arguments.end());
+    texts.emplace_back(kReaderWord);
+    std::vector<char*> words;
+    for (std::string& text : texts)
+        words.push_back(text.data());
+    words.push_back(nullptr);
+    const int problem = ::posix_spawn(&process, texts[0].c_str(), &files, &attributes, words.data(), environ);
     ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&files);
     return problem;
@@ -125,8 +130,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     Descriptor socket[2], messages[2];
     if (!makeChannels(socket, messages))
         return failed(errno);
-    const std::string program = request.limits.sandbox.program.string();
-    if (const int problem = spawn(program, socket[1].get(), messages[1].get(), started->process_))
+    if (const int problem = spawn(request.limits.sandbox, socket[1].get(), messages[1].get(), started->process_))
         return failed(problem);
     socket[1].close(); // while one of the child's ends is ours, it never hangs up
     messages[1].close();

@@ -183,3 +183,10 @@ def test_errors_survive_pickle():
     error = refused(cotan.UsageError, "positions", lambda: cotan.Mesh(P[:, :2], I))
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and vars(again) == vars(error) and str(again) == str(error)
+
+
+def test_results_print_in_a_line_and_meshes_compare_by_identity():
+    mesh = square("panel")
+    assert repr(mesh) == "Mesh(name='panel', vertices=4, triangles=2)"
+    assert mesh == mesh and mesh != square("panel") and {mesh: 1}[mesh] == 1
+    assert len(repr(cotan.bake(mesh, slope(0), size=64))) < 300

@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -244,3 +246,40 @@ def test_the_pictures_of_a_model_are_listed_as_they_are_stored(model, tmp_path):
     stored = (tmp_path / "the map.png").read_bytes()
     for maps_only in (False, True):
         assert [content for _, content in cotan.model_pictures(model, maps_only)] == [stored]
+
+
+def run(program):
+    """What a Python of its own prints; it must come to its end."""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+LOAD = """
+import cotan, ctypes, sys
+from cotan._library import library
+{before}
+try:
+    cotan.load({file!r})
+    print("read")
+except cotan.Error as error:
+    print(type(error).__name__, error.file, str(error))
+"""
+
+
+def test_a_reader_that_ends_costs_one_line(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    file = str(tmp_path / "a.obj")
+    assert run(LOAD.format(before="", file=file)) == "read\n"
+    before = 'library().cotan_set_reader(1, (ctypes.c_char_p * 1)(b"/bin/false"), None, 0)'
+    said = run(LOAD.format(before=before, file=file))
+    assert said.startswith(f"InputError {file} {file}: the reader of OBJ files") and said.count("\n") == 1, said
+    assert run(LOAD.format(before="library(); library().cotan_set_reader(0, None, None, 0)", file=file)) == "read\n"
+
+
+def test_a_file_that_crashes_its_reader_is_an_input_error(data):
+    file = str(data / "found/cycle.fbx")
+    if not os.path.exists(file):
+        pytest.skip(f"skipped: {file} is not there")
+    said = run(LOAD.format(before="", file=file))
+    assert said.startswith(f"InputError {file} ") and said.count("\n") == 1, said

@@ -88,6 +88,12 @@ def test_everything_public_says_what_it_does():
             assert inspect.getdoc(thing), thing
 
 
+def test_everything_imported_is_listed_for_type_checkers():
+    """They read the list, and take what is not in it for private."""
+    imported = {name for name, thing in vars(cotan).items() if not name.startswith("_") and not inspect.ismodule(thing)}
+    assert imported | {"__version__"} == set(cotan.__all__)
+
+
 def test_everything_public_is_typed():
     assert (pathlib.Path(cotan.__file__).parent / "py.typed").exists()
     for thing in public():

@@ -184,6 +184,7 @@ _STATUS = {
     ),
     "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
     "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
+    "cotan_set_reader": (size_t, c.POINTER(text)),
     "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),
     "cotan_image_picture": (handle, Picture),
     "cotan_image_read": (text, integer, c.POINTER(handle)),
@@ -214,6 +215,7 @@ _OTHERS = {
     "cotan_model_free": (None, handle),
     "cotan_model_warnings": (text, handle),
     "cotan_image_free": (None, handle),
+    "cotan_reader_process": (integer,),
 }
 
 

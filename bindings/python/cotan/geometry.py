@@ -15,7 +15,7 @@ Floats = NDArray[np.float32]
 Words = NDArray[np.uint32]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """A mesh of triangles. Arrays of the right dtype in C order are kept as they are, others are converted once.
 
@@ -43,6 +43,9 @@ class Mesh:
             self.normals = arrays.floats(self.normals, "normals", 3, count)
         if self.texcoords is not None:
             self.texcoords = arrays.floats(self.texcoords, "texcoords", 2, count)
+
+    def __repr__(self):
+        return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
 
     def _c(self):
         """The struct over these arrays, which must outlive it."""

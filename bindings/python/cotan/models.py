@@ -55,7 +55,7 @@ def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
     """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
 
     pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
-    picture, in MiB. The last five formats are read in this process, by Assimp.
+    picture, in MiB. Formats other than glTF are read by a child process.
     Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
@@ -91,7 +91,7 @@ class Lint:
     cotangent_degrees: Optional[float]
     smooth_degrees: Optional[float]
     recommendation: str
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,14 +108,14 @@ class Converted:
         report: all of it, map by map.
     """
 
-    glb: Optional[bytes]
+    glb: Optional[bytes] = dataclasses.field(repr=False)
     maps_converted: int
     maps_kept: int
     primitives_given: int
     tangent_bytes_dropped: int
     worst_degrees_before: Optional[float]
     worst_degrees_after: Optional[float]
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 class Source:

@@ -1,5 +1,5 @@
-/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state. Any thread may
- * call any function.
+/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state but what
+ * cotan_set_reader sets. Any thread may call any function.
  *
  * Errors. Every function that can fail returns a cotan_status. Where that is not COTAN_OK, `message` holds one line
  * that says why. It is cut to `message_size` bytes, the zero at its end included. A caller who wants no text passes a
@@ -231,11 +231,21 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
 typedef struct cotan_model cotan_model;
 void cotan_model_free(cotan_model* model);
 
-/* Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds, the last five in this process by Assimp.
- * Missing normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape.
- * memory: of the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
+/* Reads a model file: .glb, .gltf, .obj, and by Assimp .ply, .stl, .dae, .fbx or .3ds: see cotan_set_reader. Missing
+ * normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape. memory: of
+ * the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
 cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
                               size_t message_size);
+
+/* Readers of other people's make may crash on broken files. From here on a child process reads models other than glTF,
+ * and pictures other than PNG and JPEG, so that this one goes on with COTAN_INPUT: the program words[0], called with
+ * the other words and one more, which has to call cotan_reader_process before it does anything else. The child may
+ * neither write files nor start programs (Linux). count 0: they are read in this process, as at first. To be called
+ * while no other call is under way. Since version 3. */
+cotan_status cotan_set_reader(size_t count, const char* const* words, char* message, size_t message_size);
+/* Reads for the process that has started this one, and ends this one. Returns, an exit code, only where none has. Since
+ * version 3. */
+int cotan_reader_process(void);
 
 /* A model of copies of meshes, whose normals and texcoords may be null; missing normals are smooth ones. names: of the
  * meshes; null, or a null among them: none. Since version 3. */
