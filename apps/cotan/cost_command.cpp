@@ -6,6 +6,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/report/cost_tables.hpp"
 #include "loading.hpp"
+#include "parse.hpp"
 
 namespace cotan::app {
 
@@ -64,12 +65,14 @@ void declare(Arguments& a, CostCommandOptions& o)
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
-        .in("A,B");
+        .in("A,B")
+        .offers(frameWords());
     a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
              "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
              "given: POLARIS10, VEGA10, NAVI21, GFX1100")
-        .in("NAME");
+        .in("NAME")
+        .offers({"POLARIS10", "VEGA10", "NAVI21", "GFX1100"});
     a.flag("--no-timing", o.noTiming, "measure no times");
     a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
     a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000);

@@ -20,7 +20,9 @@ void addTangentsOption(Arguments& command, std::string& tangents, const std::str
 
 void addDeviceOption(Arguments& command, std::string& device, const std::string& use)
 {
-    command.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
+    command.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
+        .in("DEVICE")
+        .offers({"auto", "reference"});
 }
 
 Error inWords(const Error& error)

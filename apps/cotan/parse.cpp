@@ -12,13 +12,23 @@ Result<Frame> parseFrame(const std::string& text)
     return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
 }
 
-std::string frameNames()
+std::vector<std::string> frameWords()
 {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const FrameInfo& f : frames())
-        names.push_back(f.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+        names.emplace_back(f.name);
+    return names;
 }
+
+std::vector<std::string> presetWords()
+{
+    std::vector<std::string> words;
+    for (const ConventionPreset& p : conventionPresets())
+        words.emplace_back(p.name);
+    return words;
+}
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
 std::vector<std::string> splitAtCommas(const std::string& text)
 {

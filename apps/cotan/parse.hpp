@@ -15,8 +15,12 @@ namespace cotan::app {
 // A frame's name; the error lists all of them.
 Result<Frame> parseFrame(const std::string& text);
 
-// All frame names, separated by commas.
+// All frame names; the same, separated by commas.
+std::vector<std::string> frameWords();
 std::string frameNames();
+
+// The names of the conventions that have one.
+std::vector<std::string> presetWords();
 
 // The words between commas; none of an empty text.
 std::vector<std::string> splitAtCommas(const std::string& text);

@@ -13,7 +13,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.option("--exposure", o.exposure,
              "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
         .above0Or("auto")
-        .in("X|auto");
+        .in("X|auto")
+        .offers({"auto"});
     a.option("--tone-mapping", o.toneMapping,
              "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
@@ -24,7 +25,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
          "overcast, or "
          "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
-        .in("NAME|FILE");
+        .in("NAME|FILE")
+        .offers({"studio", "overcast", "evening", "none"});
     a.option("--environment-rotation", o.environmentRotation,
              "turn the surroundings counter-clockwise, seen from above")
         .within(-360.0, 360.0)
@@ -58,7 +60,8 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
     a.option("--convention", maps.convention,
              "how that image is stored, or without one how the model's own normal maps are to be read: "
                  + conventionWords())
-        .in("WORDS");
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
         .in("N");
@@ -108,7 +111,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
          "for "
          "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
          "own)")
-        .in("CAMERA");
+        .in("CAMERA")
+        .offers({"front", "fit"});
     addDeviceOption(a, o.device);
     a.option("--edges", o.edges,
              "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")

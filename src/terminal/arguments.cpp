@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -28,12 +29,43 @@ std::string number(const std::string& text)
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? "expected a number; found '" + text + "'" : "";
 }
 
+std::vector<const CLI::App*> commandsOf(const CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 CommandNames namesOf(const CLI::App& app)
 {
     CommandNames all{app.get_name(), {}};
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : commandsOf(app))
         all.commands.push_back(namesOf(*command));
     return all;
+}
+
+OptionHelp helpOf(const CLI::Option& option, const std::vector<std::string>& words)
+{
+    OptionHelp help;
+    help.help = option.get_description();
+    help.words = words;
+    help.positional = option.get_positional();
+    if (help.positional)
+        help.names = {option.get_name(true)};
+    for (const std::string& name : option.get_snames())
+        help.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        help.names.push_back("--" + name);
+    // CLI11 has "N:INT in [1 - 5]" for a value of the word N with a range.
+    const std::string type = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
+    help.value = help.positional ? help.names[0] : type.substr(0, type.find(':'));
+    help.kind = help.positional ? ValueKind::file : valueKind(help.value);
+    if (const std::size_t range = type.find(" in ["), to = type.find(" - "); range != std::string::npos) {
+        help.least = type.substr(range + 5, to - range - 5);
+        help.most = type.substr(to + 3, type.find(']', to) - to - 3);
+    }
+    help.usual = option.get_default_str();
+    help.required = option.get_required();
+    help.repeated = option.get_items_expected_max() > 1;
+    return help;
 }
 
 } // namespace
@@ -44,21 +76,25 @@ Argument& Argument::in(const std::string& unit)
     return *this;
 }
 
-Argument& Argument::from(std::initializer_list<std::string> words)
-{
-    option_->check(CLI::IsMember(words));
-    return *this;
-}
+Argument& Argument::from(std::initializer_list<std::string> words) { return from(std::vector(words)); }
 
 Argument& Argument::from(const std::vector<std::string>& words)
 {
     option_->check(CLI::IsMember(words));
-    return *this;
+    return offers(words);
 }
 
 Argument& Argument::from(std::initializer_list<int> numbers)
 {
     option_->check(CLI::IsMember(numbers));
+    for (const int number : numbers)
+        words_->push_back(std::to_string(number));
+    return *this;
+}
+
+Argument& Argument::offers(std::vector<std::string> words)
+{
+    *words_ = std::move(words);
     return *this;
 }
 
@@ -128,6 +164,27 @@ int Argument::count() const { return int(option_->count()); }
 struct Arguments::Tool {
     CLI::App app;
     std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
+    std::map<const CLI::Option*, std::vector<std::string>> words;
+    struct Ending {
+        std::vector<std::string> examples;
+        std::string closing;
+    };
+    std::map<const CLI::App*, Ending> endings;
+
+    CommandHelp describe(const CLI::App& command)
+    {
+        CommandHelp help;
+        help.name = command.get_name();
+        help.summary = command.get_description();
+        for (const CLI::Option* option : command.get_options())
+            if (!option->get_group().empty())
+                help.options.push_back(helpOf(*option, words[option]));
+        for (const CLI::App* inner : commandsOf(command))
+            help.commands.push_back(describe(*inner));
+        help.examples = endings[&command].examples;
+        help.closing = endings[&command].closing;
+        return help;
+    }
 };
 
 Arguments::Arguments(const std::string& name, const std::string& summary, const std::string& version)
@@ -153,7 +210,7 @@ template<class Value> Argument Arguments::option(const std::string& names, Value
         empty = value.empty();
     if (!empty)
         option->capture_default_str();
-    return Argument(*option);
+    return Argument(*option, tool_->words[option]);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -168,15 +225,28 @@ void Arguments::flag(const std::string& name, bool& value, const std::string& he
     app_->add_flag(name, value, help);
 }
 
-Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name)); }
+Argument Arguments::find(const std::string& name)
+{
+    CLI::Option* option = app_->get_option(name);
+    return Argument(*option, tool_->words[option]);
+}
 
 void Arguments::takesAnything() { app_->allow_extras(); }
 
-void Arguments::footer(const std::string& text) { app_->footer(text); }
+void Arguments::examples(std::vector<std::string> lines, const std::string& closing)
+{
+    std::string text = "Examples:\n";
+    for (const std::string& line : lines)
+        text += "  " + line + "\n";
+    app_->footer(text + "\n" + closing);
+    tool_->endings[app_] = {std::move(lines), closing};
+}
 
 void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(app_, std::move(work)); }
 
 std::string Arguments::name() const { return app_->get_name(); }
+
+CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 
 Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
 {
