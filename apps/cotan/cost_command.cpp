@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "cotan/cost/rows.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/report/cost_tables.hpp"
 #include "loading.hpp"
-#include "parse.hpp"
 
 namespace cotan::app {
 
@@ -60,13 +60,21 @@ Status run(const CostCommandOptions& o)
     return report->codeSilence.empty() ? Status(Done{}) : unavailableError(report->codeSilence);
 }
 
+std::vector<std::string> rowWords()
+{
+    std::vector<std::string> words;
+    for (const cost::Row& row : cost::rows())
+        words.emplace_back(row.name);
+    return words;
+}
+
 void declare(Arguments& a, CostCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
         .in("A,B")
-        .offers(frameWords());
+        .offers(rowWords());
     a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
              "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
