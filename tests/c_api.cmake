@@ -17,3 +17,5 @@ set_target_properties(example_c PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON 
 target_compile_options(example_c PRIVATE -Wall -Wextra -Wpedantic -Werror)
 target_link_libraries(example_c PRIVATE cotan_c m)
 add_test(NAME CApi.exampleInCRuns COMMAND example_c)
+# The same for Windows, under Wine.
+cotan_door(CApi.holdsOnWindows COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-windows ${PROJECT_BINARY_DIR}/windows $<TARGET_FILE:example_c>)

@@ -34,7 +34,7 @@ foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToB
     aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid realModelsAreJudgedAndDrawn
     aConvertedModelIsTheOneThatTheCommandLineWrites badFilesAreAnsweredInOneLineEach
     theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice thePatchAnswersKeysAndPointerWithRightDegrees
-    accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
+    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
   add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
     ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
   set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)

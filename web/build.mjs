@@ -25,18 +25,36 @@ await build({
 rmSync(named, { recursive: true });
 for (const name of ['index.html', 'style.css']) cpSync(join(here, name), join(out, name));
 cpSync(join(cotan, 'wasm/cotan.wasm'), join(out, 'cotan.wasm')); // beside worker.js, which the package ends up in
-cpSync(join(root, 'docs/pictures/figures.png'), join(out, 'figures.png'));
 cpSync(join(modules, 'draco3dgltf/draco_decoder_gltf.wasm'), join(out, 'draco/gltf.wasm'));
 const libs = join(modules, 'three/examples/jsm/libs');
 for (const name of ['draco_decoder.js', 'draco_decoder.wasm', 'draco_wasm_wrapper.js']) cpSync(join(libs, 'draco/gltf', name), join(out, 'draco', name));
 for (const name of ['basis_transcoder.js', 'basis_transcoder.wasm']) cpSync(join(libs, 'basis', name), join(out, 'basis', name));
 
-// Links of the document to others lead nowhere here, and stay words.
-const theory = marked.parse(readFileSync(join(root, 'docs/theory.md'), 'utf8')).replace(/<a href="(?!#|https?:)[^"]*">(.*?)<\/a>/gs, '$1')
-  .replaceAll('<table>', '<div class="scroll"><table>').replaceAll('</table>', '</table></div>');
-writeFileSync(join(out, 'theory.html'), `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark"><link rel="icon" href="data:,"><title>Cotan: theory</title><link rel="stylesheet" href="style.css"></head>
-<body><header><a class="name" href="index.html">Cotan</a></header><main>${theory}</main></body></html>\n`);
+// Documents of the repository that the page shows, with their pictures. Links lead to each other; those to other files
+// lead nowhere here, and stay words.
+const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost' };
+mkdirSync(join(out, 'pictures'));
+for (const [name, title] of Object.entries(documents)) {
+  const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs', `${name}.md`), 'utf8'))
+    .replace(/<h(\d)>(.*?)<\/h\1>/gs, (_, level, words) => `<h${level} id="${anchor(words, headings)}">${words}</h${level}>`)
+    .replace(new RegExp(`href="(${Object.keys(documents).join('|')})\\.md(#[^"]*)?"`, 'g'), 'href="$1.html$2"')
+    .replace(/<a href="(?!#|https?:|[a-z]+\.html)[^"]*">(.*?)<\/a>/gs, '$1')
+    .replace(/src="(?:pictures\/)?([^"/]+)"/g, (_, file) => {
+      cpSync(join(root, 'docs', file.endsWith('.svg') ? '.' : 'pictures', file), join(out, 'pictures', file));
+      return `src="pictures/${file}"`;
+    })
+    .replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
+  writeFileSync(join(out, `${name}.html`), `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark"><link rel="icon" href="data:,"><title>Cotan: ${title.toLowerCase()}</title><link rel="stylesheet" href="style.css"></head>
+<body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, words]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);
+}
+
+// The name of a heading in links, as GitHub makes it.
+function anchor(words, known) {
+  const name = words.replace(/<[^>]*>|&[a-z#0-9]+;/g, '').toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'), before = known.get(name) ?? 0;
+  known.set(name, before + 1);
+  return before === 0 ? name : `${name}-${before}`;
+}
 
 // All files are kept by the browser, so that the page works without a network.
 const files = (folder) => readdirSync(folder).flatMap(name => statSync(join(folder, name)).isDirectory() ? files(join(folder, name)) : [relative(out, join(folder, name))]);

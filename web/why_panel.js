@@ -141,12 +141,13 @@ function papers() {
   const near = new IntersectionObserver(entries => { // loading="lazy" would fetch it with the first view
     if (!entries.some(entry => entry.isIntersecting)) return;
     near.disconnect();
-    picture.src = 'figures.png';
+    picture.src = 'pictures/figures.png';
   }, { rootMargin: '200px' });
   near.observe(picture);
   return el('div', {}, el('h3', {}, 'The figures of the chapter, measured'),
     el('div', { class: 'scroll' }, el('table', {}, el('thead', {}, el('tr', {}, ...['Figure 2.6.4', 'orthonormal', 'cotangent', 'unit lengths'].map(name => el('th', { scope: 'col' }, name)))),
       el('tbody', {}, ...rows.map(([name, ...values]) => el('tr', {}, el('th', { scope: 'row' }, name), ...values.map(value => el('td', {}, value))))))),
     el('figure', { class: 'view' }, picture,
-    el('figcaption', {}, 'Pairs: orthonormal vertex frames and cotangents on the teapot; orthonormal and cotangents on a stretched and sheared patch; two short forms of 2006 on a plane; tangents without their sign and cotangents.')));
+    el('figcaption', {}, 'Pairs: orthonormal vertex frames and cotangents on the teapot; orthonormal and cotangents on a stretched and sheared patch; two short forms of 2006 on a plane; tangents without their sign and cotangents.')),
+    el('p', {}, el('a', { href: 'figures.html' }, 'All figures of the four articles with their errors'), ', and ', el('a', { href: 'cost.html' }, 'what each frame costs'), ' in instructions.'));
 }

@@ -1,5 +1,5 @@
 # Debian's emscripten, for the preset `web`: see bindings/js. Libraries that are headers only are found in the folders of
-# this machine by the Find modules beside this file.
+# this machine by the Find modules in cmake/headers.
 find_program(COTAN_EMCC emcc REQUIRED)
 file(REAL_PATH ${COTAN_EMCC} emcc)
 cmake_path(GET emcc PARENT_PATH EMSCRIPTEN_ROOT_PATH)
@@ -7,6 +7,6 @@ if(NOT EXISTS ${EMSCRIPTEN_ROOT_PATH}/cmake)
   set(EMSCRIPTEN_ROOT_PATH /usr/share/emscripten)
 endif()
 include(${EMSCRIPTEN_ROOT_PATH}/cmake/Modules/Platform/Emscripten.cmake)
-list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/../headers)
 # Errors are exceptions; the unwinding is WebAssembly's own, which every browser has. Vectors of 128 bits likewise.
 set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -msimd128 -flto -DGLM_FORCE_INLINE -fno-unroll-loops -fno-slp-vectorize -include ${CMAKE_CURRENT_LIST_DIR}/libcxx_13.hpp")

@@ -176,12 +176,16 @@ Status prepareScene(const PictureOptions& options, const std::string& show, std:
     return Done{};
 }
 
-Result<Picture> openPicture(const PictureOptions& options, std::initializer_list<Frame> frames, const View* like)
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<Frame> frames,
+                            const View* like)
 {
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
         return size.error();
     Picture picture;
-    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings; // made while the model is read
+    // What takes its time while the model is read.
+    picture.device =
+        std::async(std::launch::async, [name = deviceOf(options), threads] { return openPainter(name, threads); });
+    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings;
     if (!like)
         surroundings = std::async(std::launch::async, openSurroundings, options);
     auto scene = openModel(options);
@@ -214,11 +218,11 @@ std::string deviceOf(const PictureOptions& options)
     return reference ? "reference" : options.device;
 }
 
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, int threads, Picture& picture)
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, Picture& picture)
 {
     auto ground =
         std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
-    auto painter = openPainter(deviceOf(options), threads);
+    auto painter = picture.device.get();
     if (!painter)
         return painter;
     if (Status loaded = (*painter)->load(picture.scene); !loaded)

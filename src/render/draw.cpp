@@ -225,7 +225,9 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
-    const bool multisampled = layered && targets_->multisampled();
+    const bool multisampled = targets_->multisampled();
+    const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(),
+                                          vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
     const auto held = [&](const HeldPicture& picture) {
         return picture.owner
@@ -234,19 +236,20 @@ void Drawer::writePictureSet(bool layered)
     };
     const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
     using T = vk::DescriptorType;
-    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths) {
+    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,
+                           const vk::DescriptorImageInfo& around) {
         device_->device.updateDescriptorSets({vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
                                               vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
                                               vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
                                               vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
                                               vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
-                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, environment),
+                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, around),
                                               vk::WriteDescriptorSet(set, 6, 0, T::eCombinedImageSampler, found),
                                               vk::WriteDescriptorSet(set, 7, 0, T::eCombinedImageSampler, ground)},
                                              {});
     };
-    write(pictureSet_, shadow);
-    write(composeSet_, multisampled ? depth : shadow);
+    write(pictureSet_, shadow, environment);
+    write(composeSet_, layered && multisampled ? depth : shadow, multisampled ? samples : environment);
 }
 
 void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
@@ -264,21 +267,58 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
     commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
 }
 
+// What draws that one in the pass of the key.
+PipelineKey Drawer::keyOf(PipelineKey key, const Item& item)
+{
+    key.extended = key.pass != Pass::shadow && item.material->extended();
+    if (!isShadow(key.pass)) {
+        key.alphaMode = item.material->alphaMode;
+        key.maps = item.material->maps & mapsNeeded(key);
+    }
+    return key;
+}
+
+// All that the picture will be drawn with, so that none waits for another.
+void Drawer::beginPipelines(const DrawLists& lists, const View& view, bool layered)
+{
+    std::vector<PipelineKey> keys;
+    const auto add = [&](const std::vector<Item>& items, PipelineKey key) {
+        for (const Item& item : items) {
+            key = keyOf(key, item);
+            if (keys.empty() || keys.back() != key)
+                keys.push_back(key);
+        }
+    };
+    const bool shaded = view.output == Output::shaded;
+    const PipelineKey picture = forwardKey(view, *targets_);
+    add(lists.opaque, picture);
+    add(lists.mask, picture);
+    if (layered) {
+        add(lists.translucent, layersKey(view));
+        keys.push_back(composeKey());
+    } else {
+        add(lists.translucent, picture);
+    }
+    if (shaded && (view.background || view.ground)) {
+        keys.push_back(backgroundKey(view));
+        if (targets_->multisampled())
+            keys.push_back(surroundKey(view));
+    }
+    if (targets_->multisampled())
+        keys.push_back(resolveKey());
+    pipelines_.begin(keys);
+}
+
 void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
                        PipelineKey key)
 {
-    const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
     std::optional<PipelineKey> bound;
     for (const Item& item : items) {
-        key.extended = key.pass != Pass::shadow && item.material->extended();
-        if (!shadow) {
-            key.alphaMode = item.material->alphaMode;
-            key.maps = item.material->maps & mapsNeeded(key);
-        }
+        key = keyOf(key, item);
         if (bound != key)
             commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
         bound = key;
-        const bool both = shadow || item.material->doubleSided;
+        const bool both = isShadow(key.pass) || item.material->doubleSided;
         commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         drawItem(commands, scene, item);
@@ -308,6 +348,26 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         drawItems(commands, scene, lists.translucent, key);
 }
 
+PipelineKey Drawer::resolveKey() const
+{
+    PipelineKey key;
+    key.pass = Pass::resolve;
+    key.format = targets_->kind().format;
+    return key;
+}
+
+// Resolves what was drawn in the area, and copies the picture.
+void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
+{
+    if (targets_->multisampled()) {
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
+        targets_->beginResolve(commands, rectangle(area));
+        drawOver(commands, resolveKey());
+        commands.endRendering();
+    }
+    targets_->copy(commands);
+}
+
 const vk::raii::CommandBuffer& Drawer::begin()
 {
     const vk::raii::CommandBuffer& commands = commands_.begin();
@@ -331,6 +391,7 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
     DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     const gpu::CotanView constants = viewConstants(view, axes, scene.bounds);
+    beginPipelines(lists, view, layered);
     prepare(view, axes, constants, layered);
     setAreas(lists, view, constants);
     PixelArea area{0, 0, view.width, view.height};
@@ -349,9 +410,10 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
         commands_.submitAndWait();
         if (const Status ok = drawLayers(scene, lists, view); !ok)
             return ok.error();
-        targets_->copy(begin());
+        finish(begin(), area);
     } else {
-        targets_->end(commands);
+        commands.endRendering();
+        finish(commands, area);
     }
     commands_.submitAndWait();
     const double drawn = now();

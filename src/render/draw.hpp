@@ -64,6 +64,7 @@ private:
 
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
     void setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const;
+    void beginPipelines(const DrawLists& lists, const View& view, bool layered);
     void prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
     void prepareLayers();
@@ -72,8 +73,14 @@ private:
                       const ShadowView& shown);
     void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
                        const View& view);
+    static PipelineKey keyOf(PipelineKey key, const Item& item);
+    PipelineKey layersKey(const View& view) const;
+    PipelineKey composeKey() const;
+    PipelineKey resolveKey() const;
     PipelineKey backgroundKey(const View& view) const;
+    PipelineKey surroundKey(const View& view) const;
     void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside);
+    void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
     Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
@@ -99,7 +106,7 @@ private:
     HeldPicture ground_;
     vk::raii::Sampler pictureSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool
+    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool; the second reads the targets
     std::unique_ptr<Targets> targets_;
     std::unique_ptr<LayerLists> layers_; // once there is something translucent
     vk::raii::Sampler depthSampler_{nullptr};

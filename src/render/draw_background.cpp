@@ -49,14 +49,20 @@ PipelineKey Drawer::backgroundKey(const View& view) const
     return key;
 }
 
+PipelineKey Drawer::surroundKey(const View& view) const
+{
+    PipelineKey key = backgroundKey(view);
+    key.pass = Pass::surround;
+    key.samples = vk::SampleCountFlagBits::e1;
+    return key;
+}
+
 // The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
 void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
 {
     targets_->beginSurround(commands);
     if (view.background || view.ground) {
-        PipelineKey key = backgroundKey(view);
-        key.pass = Pass::surround;
-        key.samples = vk::SampleCountFlagBits::e1;
+        const PipelineKey key = surroundKey(view);
         const PixelArea& a = inside;
         for (const PixelArea& part :
              {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},

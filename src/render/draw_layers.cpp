@@ -15,17 +15,31 @@ void Drawer::prepareLayers()
     layers_ = std::make_unique<LayerLists>(*device_, width);
 }
 
-// Draws the translucent fragments of a band into their lists; returns how many there are.
-std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
-                                 const vk::Rect2D& band)
+PipelineKey Drawer::layersKey(const View& view) const
 {
     PipelineKey key = forwardKey(view, *targets_);
     key.pass = Pass::layers;
     key.format = vk::Format::eUndefined;
+    return key;
+}
+
+PipelineKey Drawer::composeKey() const
+{
+    PipelineKey key;
+    key.pass = Pass::compose;
+    key.samples = targets_->kind().samples;
+    key.format = targets_->kind().format;
+    return key;
+}
+
+// Draws the translucent fragments of a band into their lists; returns how many there are.
+std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
+                                 const vk::Rect2D& band)
+{
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
     targets_->beginLayers(commands, band);
-    drawItems(commands, scene, lists.translucent, key);
+    drawItems(commands, scene, lists.translucent, layersKey(view));
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
@@ -36,10 +50,7 @@ std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, 
 // shades each sample.
 void Drawer::composeLayers(const vk::Rect2D& band)
 {
-    PipelineKey key;
-    key.pass = Pass::compose;
-    key.samples = targets_->kind().samples;
-    key.format = targets_->kind().format;
+    const PipelineKey key = composeKey();
     const vk::raii::CommandBuffer& commands = begin();
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
     targets_->beginCompose(commands, band);

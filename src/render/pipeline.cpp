@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <memory>
+#include <thread>
 
 #include "gpu_structs.hpp"
 #include "scene_upload.hpp"
@@ -75,12 +78,13 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::compose:
         return {Shader::composeVert,
                 key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
+    case Pass::resolve: return {Shader::composeVert, Shader::resolveFrag};
     case Pass::forward: break;
     }
     return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
-bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround; }
+bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
 
 // One triangle, made by the vertex stage, over everything.
 bool coversPicture(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
@@ -102,8 +106,7 @@ struct VertexInput {
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
             const bool forShadow =
                 i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor || i == kTexcoordOrigin;
-            const bool shadow = pass == Pass::shadow || pass == Pass::shadowMask;
-            if (coversPicture(pass) || (shadow && !forShadow))
+            if (coversPicture(pass) || (isShadow(pass) && !forShadow))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
             attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
@@ -193,18 +196,22 @@ vk::ShaderModule Pipelines::module(Shader shader)
     return *found->second;
 }
 
-vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
+Pipelines::Stages Pipelines::stagesOf(const PipelineKey& key)
 {
-    const bool shadow = key.pass == Pass::shadow || key.pass == Pass::shadowMask;
+    const StageShaders shaders = shadersOf(key, device_->exact);
+    return {module(shaders.vertex), shaders.fragment ? module(*shaders.fragment) : vk::ShaderModule()};
+}
+
+vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules) const
+{
+    const bool shadow = isShadow(key.pass);
     const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
     const Specialization specialization(key);
-    const StageShaders shaders = shadersOf(key, device_->exact);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
-    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex, module(shaders.vertex),
-                        "main");
-    if (shaders.fragment)
-        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eFragment,
-                            module(*shaders.fragment), "main", &specialization.info);
+    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex, modules.vertex, "main");
+    if (modules.fragment)
+        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eFragment, modules.fragment,
+                            "main", &specialization.info);
 
     const VertexInput vertexInput(key.pass);
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
@@ -228,12 +235,41 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key)
     return vk::raii::Pipeline(device_->device, nullptr, info);
 }
 
+void Pipelines::begin(const std::vector<PipelineKey>& keys)
+{
+    struct Work {
+        std::vector<std::packaged_task<vk::raii::Pipeline()>> tasks;
+        std::atomic<std::size_t> next = 0;
+    };
+    const auto work = std::make_shared<Work>();
+    for (const PipelineKey& key : keys) {
+        if (entries_.contains(key))
+            continue;
+        work->tasks.emplace_back([this, key, modules = stagesOf(key)] { return make(key, modules); });
+        entries_[key].making = work->tasks.back().get_future();
+    }
+    const std::size_t threads =
+        std::min<std::size_t>(work->tasks.size(), std::max(1u, std::thread::hardware_concurrency()));
+    for (std::size_t i = 0; i < threads; ++i)
+        workers_.push_back(std::async(std::launch::async, [work] {
+            for (std::size_t k = work->next++; k < work->tasks.size(); k = work->next++)
+                work->tasks[k]();
+        }));
+}
+
 vk::Pipeline Pipelines::get(const PipelineKey& key)
 {
-    auto found = pipelines_.find(key);
-    if (found == pipelines_.end())
-        found = pipelines_.emplace(key, make(key)).first;
-    return *found->second;
+    const auto [entry, isNew] = entries_.try_emplace(key);
+    try {
+        if (isNew)
+            entry->second.pipeline = make(key, stagesOf(key));
+        else if (entry->second.making.valid())
+            entry->second.pipeline = entry->second.making.get();
+    } catch (...) {
+        entries_.erase(entry);
+        throw;
+    }
+    return *entry->second.pipeline;
 }
 
 } // namespace cotan

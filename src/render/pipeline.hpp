@@ -3,8 +3,10 @@
 #pragma once
 
 #include <compare>
+#include <future>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "cotan/scene/view.hpp"
 #include "device.hpp"
@@ -39,8 +41,10 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
                               const vk::raii::DescriptorSetLayout& layout);
 
 // layers: translucent fragments into their lists; compose: these lists over the picture.
-// surround: the background in one sample, without depths.
-enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose };
+// surround: the background in one sample, without depths; resolve: the samples of a pixel into one.
+enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose, resolve };
+
+constexpr bool isShadow(Pass pass) { return pass == Pass::shadow || pass == Pass::shadowMask; }
 
 // Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
 // defaults, so that equal pipelines have equal keys.
@@ -72,16 +76,32 @@ struct PipelineKey {
 class Pipelines {
 public:
     Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
+    Pipelines(const Pipelines&) = delete; // its threads know where it is
+
+    // Begins to make those that are not there yet, side by side, while the caller does something else.
+    void begin(const std::vector<PipelineKey>& keys);
+    // Makes it where it was not begun, else waits for it.
     vk::Pipeline get(const PipelineKey& key);
 
 private:
+    struct Stages {
+        vk::ShaderModule vertex;
+        vk::ShaderModule fragment; // null: none
+    };
+    struct Entry {
+        std::future<vk::raii::Pipeline> making; // not valid: made
+        vk::raii::Pipeline pipeline{nullptr};
+    };
+
     vk::ShaderModule module(Shader shader);
-    vk::raii::Pipeline make(const PipelineKey& key);
+    Stages stagesOf(const PipelineKey& key);
+    vk::raii::Pipeline make(const PipelineKey& key, const Stages& modules) const;
 
     const Device* device_;
     const Layouts* layouts_;
     std::map<Shader, vk::raii::ShaderModule> modules_;
-    std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+    std::map<PipelineKey, Entry> entries_;
+    std::vector<std::future<void>> workers_; // the last member: they use the others
 };
 
 } // namespace cotan

@@ -18,6 +18,7 @@
 #include "cotanForwardLayersFrag.h"
 #include "cotanForwardMaskedFrag.h"
 #include "cotanForwardVert.h"
+#include "cotanResolveFrag.h"
 #include "cotanShadowFrag.h"
 #include "cotanShadowVert.h"
 
@@ -42,6 +43,7 @@ std::span<const std::uint32_t> spirv(Shader shader)
     case Shader::composeVert: return cotanComposeVert;
     case Shader::composeFrag: return cotanComposeFrag;
     case Shader::composeMultisampledFrag: return cotanComposeMultisampledFrag;
+    case Shader::resolveFrag: return cotanResolveFrag;
     case Shader::backgroundVert: return cotanBackgroundVert;
     case Shader::backgroundFrag: return cotanBackgroundFrag;
     case Shader::shadowVert: return cotanShadowVert;

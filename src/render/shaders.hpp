@@ -26,13 +26,14 @@ enum class Shader {
     composeVert,
     composeFrag,
     composeMultisampledFrag,
+    resolveFrag,
     backgroundVert,
     backgroundFrag,
     shadowVert,
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 20;
+inline constexpr int kShaderCount = 21;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);

@@ -37,12 +37,11 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
 {
     TextureInfo info = attachmentInfo(kind);
     info.usage = vk::ImageUsageFlagBits::eColorAttachment;
-    if (!multisampled())
-        info.usage |= vk::ImageUsageFlagBits::eTransferSrc;
+    info.usage |= multisampled() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
     color_ = makeTexture(device, memory_, info);
     if (multisampled()) {
         info.samples = vk::SampleCountFlagBits::e1;
-        info.usage |= vk::ImageUsageFlagBits::eTransferSrc;
+        info.usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
         resolved_ = makeTexture(device, memory_, info);
     }
     TextureInfo depth = attachmentInfo(kind);
@@ -63,18 +62,6 @@ void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D&
     commands.setScissor(0, area);
 }
 
-vk::RenderingAttachmentInfo Targets::colorInfo(bool keepSamples) const
-{
-    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
-    color.storeOp = keepSamples || !resolved_ ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
-    if (resolved_) {
-        color.resolveMode = vk::ResolveModeFlagBits::eAverage;
-        color.resolveImageView = *resolved_->view;
-        color.resolveImageLayout = kAttachment;
-    }
-    return color;
-}
-
 void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
 {
     transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
@@ -91,18 +78,16 @@ void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
 void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
 {
     transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
-               Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
-               Access::eColorAttachmentWrite);
-    if (resolved_)
-        transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
-                   Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+               Stage::eTransfer | Stage::eFragmentShader | Stage::eColorAttachmentOutput, {},
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
     transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
                vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
                Access::eDepthStencilAttachmentWrite, kDepthStages,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 
-    vk::RenderingAttachmentInfo color = colorInfo(layersFollow);
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
     color.loadOp = vk::AttachmentLoadOp::eClear;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
     vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
     depth.loadOp = vk::AttachmentLoadOp::eClear;
     depth.storeOp = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
@@ -135,16 +120,25 @@ void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Re
     const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
     transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
-    vk::RenderingAttachmentInfo color = colorInfo(/*keepSamples*/ true);
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
     color.loadOp = vk::AttachmentLoadOp::eLoad;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
     setArea(commands, area);
 }
 
-void Targets::end(const vk::raii::CommandBuffer& commands)
+void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
-    commands.endRendering();
-    copy(commands);
+    transition(commands, *color_.image, kColorAspect, kAttachment, vk::ImageLayout::eShaderReadOnlyOptimal,
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eFragmentShader,
+               Access::eShaderSampledRead);
+    transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eLoad;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
 }
 
 void Targets::copy(const vk::raii::CommandBuffer& commands)
@@ -183,7 +177,7 @@ Targets::Kind targetKind(const Device& device, const View& view)
         const vk::SampleCountFlags can =
             device.physical
                 .getImageFormatProperties(kind.format, vk::ImageType::e2D, vk::ImageTiling::eOptimal,
-                                          vk::ImageUsageFlagBits::eColorAttachment)
+                                          vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled)
                 .sampleCounts
             & device.limits.framebufferDepthSampleCounts;
         if (can & vk::SampleCountFlagBits::e4)

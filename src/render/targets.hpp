@@ -30,27 +30,27 @@ public:
     // Starts drawing into the resolved picture, cleared to 0, without depths; ends with endRendering. Multisampled
     // only.
     void beginSurround(const vk::raii::CommandBuffer& commands);
-    // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away), resolved at the end.
-    // Multisampled: after beginSurround, which has what is outside of the area. layersFollow: translucent layers come
-    // afterwards.
+    // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away); ends with endOpaque where
+    // translucent layers follow, else with endRendering.
     void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow = false);
     // Ends drawing that began with layersFollow: the depth can be read from here on.
     void endOpaque(const vk::raii::CommandBuffer& commands);
     // Starts fragments that write no target and are tested against the depth; ends with endRendering.
     void beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
-    // Starts drawing over the colours of the area, which is then resolved; ends with endRendering.
+    // Starts drawing over the colours of the area; ends with endRendering.
     void beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
-    // Ends drawing that began without layersFollow.
-    void end(const vk::raii::CommandBuffer& commands);
+    // Starts drawing into the area of the resolved picture, after beginSurround, which has what is outside of it: the
+    // samples can be read from here on; ends with endRendering. Multisampled only.
+    void beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
     // Copies into the read-back buffer.
     void copy(const vk::raii::CommandBuffer& commands);
     vk::ImageView depthView() const { return *depth_.view; }
+    vk::ImageView colorView() const { return *color_.view; }
     // The picture, upright. Only after the commands have been waited for.
     Image image(bool flipRows) const;
 
 private:
     void setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
-    vk::RenderingAttachmentInfo colorInfo(bool keepSamples) const;
 
     Memory memory_;
     Kind kind_;

@@ -20,7 +20,7 @@ const scratch = join(dirname(root), 'page-pictures'), errors = [], hasData = exi
 mkdirSync(scratch, { recursive: true });
 let tried = 0, failed = 0, skipped = 0;
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.png': 'image/png' };
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.png': 'image/png', '.svg': 'image/svg+xml' };
 const server = createServer((request, response) => {
   const file = join(root, decodeURIComponent(request.url.split('?')[0]).replace(/\/$/, '/index.html'));
   if (!existsSync(file)) { response.writeHead(404).end(); return; }
@@ -276,6 +276,37 @@ await fact('thePatchAnswersKeysAndPointerWithRightDegrees', async () => {
   if (await figure(0) !== '0.00°') return `cotangents are off by ${await figure(0)}`;
   await page.screenshot({ path: join(scratch, 'page-why.png'), fullPage: true });
   await page.context().close();
+});
+
+await fact('documentsShowTheirPicturesAndTheirLinksLead', async () => {
+  const wrong = [], rules = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+  const page = await open();
+  const names = await page.evaluate(() => [...document.querySelectorAll('a[href$=".html"]')].map(link => new URL(link.href).pathname.slice(1)));
+  if (new Set(names).size < 3) return `the page leads to ${names.join(', ')} only`;
+  for (const name of new Set(names)) {
+    const visited = await page.goto(address + name);
+    if (!visited.ok()) { wrong.push(`${name}: ${visited.status()}`); continue; }
+    wrong.push(...await page.evaluate(async () => {
+      const broken = [...document.images].filter(image => image.naturalWidth === 0).map(image => `no picture ${image.src}`);
+      for (const { href } of document.querySelectorAll('a[href]')) {
+        const { origin, pathname, hash } = new URL(href);
+        if (origin !== location.origin) continue;
+        const text = pathname === location.pathname ? document : new DOMParser().parseFromString(await (await fetch(pathname)).text(), 'text/html');
+        if (hash && !text.getElementById(decodeURIComponent(hash.slice(1)))) broken.push(`${document.title}: no ${href}`);
+      }
+      return broken;
+    }));
+    await page.evaluate(rules);
+    const { violations } = await page.evaluate(() => axe.run());
+    wrong.push(...violations.map(({ id, nodes }) => `${name}: ${id} at ${nodes.map(node => node.target.join(' ')).slice(0, 3).join(', ')}`));
+    await page.screenshot({ path: join(scratch, `page-${name.replace('.html', '')}.png`), fullPage: true });
+    await page.setViewportSize({ width: 360, height: 740 });
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    if (width > 360) wrong.push(`${name}: ${width} pixels wide on a phone`);
+    await page.setViewportSize({ width: 1280, height: 900 });
+  }
+  await page.context().close();
+  return wrong.join('\n');
 });
 
 await fact('accessibilityRulesHoldInLightAndDark', async () => {

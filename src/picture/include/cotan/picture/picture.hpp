@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -60,14 +61,16 @@ bool meters(const PictureOptions& options);
 struct Picture {
     Scene scene;
     View view;
-    bool meter = false;             // the exposure is to be found
-    std::vector<SurfaceEdge> edges; // to be drawn over it
-    double loadSeconds = 0;         // for the caller to set
+    bool meter = false;                                   // the exposure is to be found
+    std::vector<SurfaceEdge> edges;                       // to be drawn over it
+    double loadSeconds = 0;                               // for the caller to set
+    std::future<Result<std::unique_ptr<Painter>>> device; // being opened, for openPicturePainter
 };
 
 // Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and
 // sets up the view: that of `like`, but for the lights, where it is given. What is to be warned of is in the scene.
-Result<Picture> openPicture(const PictureOptions& options, std::initializer_list<Frame> frames,
+// The device is opened beside that; threads: as for openPainter.
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<Frame> frames,
                             const View* like = nullptr);
 
 // Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
@@ -77,9 +80,8 @@ Status checkLighting(const PictureOptions& options, Frame frame);
 std::string deviceOf(const PictureOptions& options);
 
 // The device that the options name, with the picture's scene loaded and its exposure found; its note tells of a
-// fallback. threads: as for openPainter. The picture must outlive it. Errors: those of openPainter, Painter::load and
-// draw.
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, int threads, Picture& picture);
+// fallback. Once for a picture, which must outlive it. Errors: those of openPainter, Painter::load and draw.
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, Picture& picture);
 
 // What --view can show.
 const std::vector<std::string>& showNames();
