@@ -20,6 +20,7 @@ TEST(Version, isTheSameWhereverItIsWrittenAgain)
 {
     const std::string number = R"((\d+\.\d+\.\d+))";
     for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
+                                              {"bindings/python/cotan/_version.py", "__version__ = \""},
                                               {"bindings/js/README.md", "cotan-"},
                                               {"bindings/js/types/tangents.d.ts", "version of the library, \""},
                                               {"src/c/include/cotan.h", "/\\* \""}}) {

@@ -5,21 +5,6 @@
 
 namespace cotan::app {
 
-Result<Frame> parseFrame(const std::string& text)
-{
-    if (const auto frame = frameFromName(text))
-        return *frame;
-    return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
-}
-
-std::vector<std::string> frameWords()
-{
-    std::vector<std::string> names;
-    for (const FrameInfo& f : frames())
-        names.emplace_back(f.name);
-    return names;
-}
-
 std::vector<std::string> presetWords()
 {
     std::vector<std::string> words;
@@ -27,8 +12,6 @@ std::vector<std::string> presetWords()
         words.emplace_back(p.name);
     return words;
 }
-
-std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
 std::vector<std::string> splitAtCommas(const std::string& text)
 {

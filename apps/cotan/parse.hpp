@@ -7,17 +7,11 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/view.hpp"
 
 namespace cotan::app {
-
-// A frame's name; the error lists all of them.
-Result<Frame> parseFrame(const std::string& text);
-
-// All frame names; the same, separated by commas.
-std::vector<std::string> frameWords();
-std::string frameNames();
 
 // The names of the conventions that have one.
 std::vector<std::string> presetWords();

@@ -85,7 +85,7 @@ Status run(const ViewCommandOptions& o)
 void declare(Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME").offers(frameWords());
+    addFrameOption(a, o.frame);
     a.option("--second", o.second, "another frame, beside the first").in("NAME").offers(frameWords());
     addShowOption(a, o.picture.show);
     a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
