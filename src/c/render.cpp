@@ -86,7 +86,7 @@ cotan_status cotan_render(const void* model, size_t model_size, const cotan_mode
         require(o.threads >= 0, "options.threads: expected 0 or more");
         Wanted wanted = readWords(o);
         const ModelFiles source(model, model_size, files);
-        if (model_size > 0)
+        if (model)
             readFrom(source, wanted.picture);
         Json report;
         auto made = std::make_unique<cotan_image>();

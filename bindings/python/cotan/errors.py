@@ -74,18 +74,19 @@ class StoppedError(Error, RuntimeError):
 _OF_STATUS = {c.status: c for c in (UsageError, InputError, UnavailableError, OutputError, LimitError, StoppedError)}
 
 
-def _in_keywords(message):
+def _in_keywords(status, message):
     """A line about options in the names that they have here: --max-distance and options.max_distance are
     max_distance."""
     message = re.sub(r"^options\.(\w+)", lambda m: _KEYWORDS.get(m[1], m[1]), message)
+    if status != UsageError.status:
+        return message
     message = re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
     return message.removesuffix(" (see help)")
 
 
 def error_of(status, message, files=()):
     """The exception for a status and a line of the library. files: names that the line may begin with."""
-    if status == UsageError.status:
-        message = _in_keywords(message)
+    message = _in_keywords(status, message)
     rest, file = message, None
     for name in map(str, files):
         if name and message.startswith(name + ": "):

@@ -423,7 +423,7 @@ typedef struct cotan_render_options {
 } cotan_render_options;
 
 /* The picture that `cotan render` draws for these words, -o and what else is about files left out. model: bytes of a
- * .glb or .gltf; null and 0: the file that the words name, or the built-in scene. options, files and json may be null;
+ * .glb or .gltf; null: the file that the words name, or the built-in scene. options, files and json may be null;
  * json: what was drawn, on which device, and warnings. Since version 3. */
 cotan_status cotan_render(const void* model, size_t model_size, const cotan_model_files* files,
                           const cotan_render_options* options, cotan_image** image, cotan_bytes** json, char* message,
