@@ -57,10 +57,10 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     const Frame frame = valueOf(parseFrame(wanted.frame));
     if (const Status fits = checkLighting(wanted.picture, frame); !fits)
         throw Failure{fits.error()};
-    Picture picture = valueOf(openPicture(wanted.picture, {frame, Frame::exact}));
+    Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
     picture.view.frame = frame;
     picture.view.output = outputOf(wanted.picture.show);
-    const auto painter = valueOf(openPicturePainter(wanted.picture, o.threads, picture));
+    const auto painter = valueOf(openPicturePainter(wanted.picture, picture));
     painter->progress = progressOf(o.progress, o.user);
     report = {{"frame", wanted.frame}, {"view", wanted.picture.show}, {"device", painter->device()}};
     report.update(countsOf(picture.scene));
