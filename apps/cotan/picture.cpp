@@ -11,7 +11,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     Stopwatch watch;
     const auto open = [&] {
         const ProgressLine loading(common.quiet || options.model.empty(), 0, "loading " + options.model);
-        return cotan::openPicture(options, frames, like);
+        return cotan::openPicture(options, common.threads, frames, like);
     };
     auto picture = open();
     if (!picture)
@@ -25,7 +25,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
 Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture)
 {
-    return told(cotan::openPicturePainter(options, common.threads, picture), common);
+    return told(cotan::openPicturePainter(options, picture), common);
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)
