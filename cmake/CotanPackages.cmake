@@ -34,32 +34,36 @@ function(cotan_package name section summary description)
   install(FILES ${packaging}/copyright DESTINATION share/doc/${name} COMPONENT ${name} EXCLUDE_FROM_ALL)
   install(FILES ${packaging}/changelog DESTINATION share/doc/${name} RENAME changelog.Debian COMPONENT ${name} EXCLUDE_FROM_ALL)
 endfunction()
-set(about "Cotan is normal mapping without precomputed tangents: the frame is derived where it is needed, from screen derivatives of
-position and texture coordinates, and measured in degrees.")
-cotan_package(cotan graphics "normal mapping without precomputed tangents"
+set(about "Cotan is normal mapping without precomputed tangents: the frame is derived
+where it is needed, from screen derivatives of position and texture
+coordinates, and what that costs is measured in degrees.
+.")
+cotan_package(cotan graphics "tool for normal mapping without precomputed tangents"
 "${about}
-.
-This is the tool. It renders models, compares frames, bakes and converts normal maps, says what is wrong with a model, prints
-shaders, and has a window to look at all that (cotan view). The window needs the recommended packages; OpenEXR, TIFF, HDR and
-other picture files need OpenImageIO, which is suggested.")
-cotan_package(libcotan0 libs "normal mapping without precomputed tangents, C library"
+The tool renders models, compares frames, bakes and converts normal maps,
+says what is wrong with a model, prints shaders, and has a window to look at
+all that. The window needs the recommended packages; pictures in OpenEXR,
+TIFF and further formats need OpenImageIO, which is suggested.")
+cotan_package(libcotan0 libs "normal mapping without precomputed tangents: C library"
 "${about}
-.
-This is the shared library of the C interface, cotan.h, which other languages use, too.")
-cotan_package(libcotan-dev libdevel "normal mapping without precomputed tangents, development files"
+This is the shared library of the C interface, which other languages use, too.
+Pictures in OpenEXR, TIFF and further formats need the package cotan.")
+set(CPACK_DEBIAN_LIBCOTAN0_PACKAGE_SUGGESTS "cotan (= ${version})")
+cotan_package(libcotan-dev libdevel "normal mapping without precomputed tangents: development files"
 "${about}
-.
-These are the headers of C and C++, the parts of the C++ library as static libraries, their files for CMake (find_package(cotan))
-and pkg-config, and the portable text for shaders. A part needs the development files of what it is made with; those are
+These are the headers of C and C++, the parts of the C++ library as static
+libraries, what CMake and pkg-config ask, and the portable text for shaders.
+A part needs the development files of what it is made with; those are
 recommended.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
-set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, libjpeg-dev, \
-libmeshoptimizer-dev, libpng-dev, libtbb-dev, libwebp-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev, libvulkan-dev")
-set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan, cmake, pkg-config")
-cotan_package(python3-cotan python "normal mapping without precomputed tangents, Python 3"
+set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
+libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libzstd-dev, nlohmann-json3-dev, \
+zlib1g-dev")
+set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config")
+cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
 "${about}
-.
-This is the Python package: bake, lint, convert and render with numpy's arrays.")
+This is the package for Python: bake, lint, convert and render with arrays
+of numpy.")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_DEPENDS "libcotan0 (>= ${PROJECT_VERSION}), python3:any, python3-numpy")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_ARCHITECTURE all)
 
