@@ -59,7 +59,7 @@ TEST(ViewWindow, noDisplayIsExitCodeThreeAndOneLine)
     TemporaryFolder folder;
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
-    for (const char* name : {"", ":77"}) { // none, and one that is not there
+    for (const char* name : {"", ":40777"}) { // none, and one that is not there
         if (*name)
             ::setenv("DISPLAY", name, 1);
         const ToolRun run = runTool({"view", "--forget"}, folder.path());
