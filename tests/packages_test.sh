@@ -71,6 +71,17 @@ usr="$place/root/usr"
 "$usr/bin/cotan" render --size 96x54 -o picture.png --quiet
 "$usr/bin/cotan" render --size 96x54 -o picture.exr --quiet
 [ -s picture.png ] && [ -s picture.exr ] || failed "the tool drew nothing"
+# A module that lies in the folder where the tool is called is not loaded, even where its own is missing.
+mkdir -p "$place/there/cotan"
+echo '#include <stdio.h>
+__attribute__((constructor)) static void run(void) { fclose(fopen("planted", "w")); }' |
+  cc -shared -fPIC -x c - -o "$place/there/cotan/cotan_image_formats.so"
+cp "$place/there/cotan/cotan_image_formats.so" "$place/there/cotan_image_formats.so"
+own="$(find "$usr" -name cotan_image_formats.so)"
+mv "$own" "$place/own.so"
+(cd "$place/there" && PATH="$usr/bin:$PATH" && cotan render --size 16x9 -o picture.exr --quiet 2>/dev/null) || true
+mv "$place/own.so" "$own"
+[ ! -e "$place/there/planted" ] || failed "a module in the current folder was loaded"
 # A program in C++ by CMake, one in C by pkg-config, and Python.
 cmake -S "$sources/examples/find_package" -B example -G Ninja -DCMAKE_PREFIX_PATH="$usr" >cmake.txt || { cat cmake.txt; exit 1; }
 cmake --build example >/dev/null

@@ -36,8 +36,9 @@ std::string prose(const std::string& text)
     for (std::string word; words >> word;) {
         const std::size_t start = std::min(word.find_first_not_of("(\""), word.size());
         const bool option = start < word.size() && word[start] == '-';
-        page +=
-            (page.empty() ? "" : " ") + (option ? literal(word) : replaced(replaced(word, "\\", "\\e"), "`", "\\(ga"));
+        if (!page.empty())
+            page += ' ';
+        page += option ? literal(word) : replaced(replaced(word, "\\", "\\e"), "`", "\\(ga");
     }
     return page.starts_with('.') || page.starts_with('\'') ? "\\&" + page : page;
 }
