@@ -41,7 +41,7 @@ typedef enum cotan_status {
     COTAN_STOPPED = 6 /* by the caller's progress function */
 } cotan_status;
 
-/* "0.1.0", and the version of this header that the library was built with: it grows where functions are added. */
+/* "0.2.0", and the version of this header that the library was built with: it grows where functions are added. */
 const char* cotan_version(void);
 int cotan_api_version(void);
 
