@@ -8,21 +8,6 @@
 
 namespace cotan::app {
 
-void addMemoryOption(Arguments& command, int& memory)
-{
-    command.option("--memory", memory, "largest picture held in memory at once, in MiB").within(1, 1 << 16).in("MIB");
-}
-
-void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help)
-{
-    command.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME");
-}
-
-void addDeviceOption(Arguments& command, std::string& device, const std::string& use)
-{
-    command.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
-}
-
 Error inWords(const Error& error)
 {
     std::string text = error.message;

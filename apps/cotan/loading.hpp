@@ -7,19 +7,10 @@
 #include "common.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/draw/painter.hpp"
-#include "cotan/picture/options.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/scene/scene.hpp"
 
 namespace cotan::app {
-
-// Adds --memory MIB.
-void addMemoryOption(Arguments& command, int& memory);
-
-// Adds --tangents, stored or generated.
-void addTangentsOption(Arguments& command, std::string& tangents, const std::string& help);
-
-// Adds --device. use: what its help begins with.
-void addDeviceOption(Arguments& command, std::string& device, const std::string& use = "device that draws: ");
 
 // An error of a part in words of the command line: "options.maxDistance: ..." is "--max-distance: ...", and --memory is
 // named where a limit of memory was met.

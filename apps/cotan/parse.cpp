@@ -5,19 +5,12 @@
 
 namespace cotan::app {
 
-Result<Frame> parseFrame(const std::string& text)
+std::vector<std::string> presetWords()
 {
-    if (const auto frame = frameFromName(text))
-        return *frame;
-    return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
-}
-
-std::string frameNames()
-{
-    std::vector<std::string_view> names;
-    for (const FrameInfo& f : frames())
-        names.push_back(f.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    std::vector<std::string> words;
+    for (const ConventionPreset& p : conventionPresets())
+        words.emplace_back(p.name);
+    return words;
 }
 
 std::vector<std::string> splitAtCommas(const std::string& text)

@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/view.hpp"
 
 namespace cotan::app {
 
-// A frame's name; the error lists all of them.
-Result<Frame> parseFrame(const std::string& text);
-
-// All frame names, separated by commas.
-std::string frameNames();
+// The names of the conventions that have one.
+std::vector<std::string> presetWords();
 
 // The words between commas; none of an empty text.
 std::vector<std::string> splitAtCommas(const std::string& text);

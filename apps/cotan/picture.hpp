@@ -7,14 +7,6 @@
 
 namespace cotan::app {
 
-void addPictureOptions(Arguments& a, PictureOptions& options);
-
-// Adds --view.
-void addShowOption(Arguments& a, std::string& show);
-
-// Adds --normal-map, --convention and --material.
-void addOwnNormalMap(Arguments& a, OwnMaps& maps);
-
 // The same of the part, under a line of progress; warnings are printed, errors are in words.
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<Frame> frames, const View* like = nullptr);

@@ -181,7 +181,7 @@ Status run(const RenderCommandOptions& o)
 void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
+    addFrameOption(a, o.frame);
     addShowOption(a, o.picture.show);
     a.option(
          "--frames", o.frames,

@@ -108,7 +108,7 @@ void addFrameEntries(Entries& e, const State& s)
     constexpr std::array<const char*, 9> kFirst = {"cotangent",   "mikktspace", "triangle", "smooth",    "exact",
                                                    "orthonormal", "vertex",     "gradient", "paper-full"};
     std::vector<std::string> names(kFirst.begin(), kFirst.end());
-    for (const std::string& name : app::splitAtCommas(app::frameNames())) {
+    for (const std::string& name : app::splitAtCommas(frameNames())) {
         const std::string word = name.substr(std::min(name.find_first_not_of(' '), name.size()));
         if (std::ranges::find(names, word) == names.end())
             names.push_back(word);

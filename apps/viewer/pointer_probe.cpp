@@ -30,7 +30,7 @@ void PointerProbe::follow(State& state)
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
         if (probe.hit)
-            probe.surface = prober_.at(model->scene, model->number, *probe.hit, *app::parseFrame(side.frame),
+            probe.surface = prober_.at(model->scene, model->number, *probe.hit, *parseFrame(side.frame),
                                        side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
         done_();
         return probe;

@@ -186,7 +186,7 @@ Result<std::vector<float>> Studio::degreesOf(const Order& order, Stage& first, c
         if (!staged)
             return staged.error();
         other = *staged;
-        normals.frame = *app::parseFrame(order.b.frame);
+        normals.frame = *parseFrame(order.b.frame);
         normals.normalMaps = !second.noNormalMaps;
     } else {
         normals.frame = Frame::exact;
@@ -203,7 +203,7 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
 {
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
-    const auto frame = app::parseFrame(side.frame);
+    const auto frame = parseFrame(side.frame);
     if (!frame)
         return frame.error();
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
@@ -242,7 +242,7 @@ Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float ex
     auto view = viewOf(o, *s.scene);
     if (!view)
         return view;
-    view->frame = *app::parseFrame((second ? order.b : order.a).frame);
+    view->frame = *parseFrame((second ? order.b : order.a).frame);
     view->output = outputOf(order.show);
     view->lights = lightsOf(o, *s.scene);
     const bool dark = o.use == PictureUse::data; // nothing is lit then

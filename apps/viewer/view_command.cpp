@@ -85,8 +85,8 @@ Status run(const ViewCommandOptions& o)
 void declare(Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frame", o.frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
-    a.option("--second", o.second, "another frame, beside the first").in("NAME");
+    addFrameOption(a, o.frame);
+    a.option("--second", o.second, "another frame, beside the first").in("NAME").offers(frameWords());
     addShowOption(a, o.picture.show);
     a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
         .in("TEXT");

@@ -1,37 +1,17 @@
-// cotan.h: baking from arrays.
+// cotan.h: baking, from arrays and from models.
 #include <array>
 #include <cmath>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include "call.hpp"
 #include "cotan/bake/bake_model.hpp"
-#include "meshes.hpp"
+#include "cotan/scene/normal_format.hpp"
+#include "models.hpp"
 #include "pictures.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
 
 namespace {
-
-// One mesh in a scene of its own.
-Scene sceneOf(const cotan_mesh& m)
-{
-    Mesh mesh;
-    for (std::size_t v = 0; v < m.vertex_count; ++v) {
-        mesh.positions.emplace_back(m.positions[3 * v], m.positions[3 * v + 1], m.positions[3 * v + 2]);
-        mesh.normals.emplace_back(m.normals[3 * v], m.normals[3 * v + 1], m.normals[3 * v + 2]);
-        if (m.texcoords)
-            mesh.texcoords[0].emplace_back(m.texcoords[2 * v], m.texcoords[2 * v + 1]);
-    }
-    mesh.indices.assign(m.indices, m.indices + m.index_count);
-    Scene scene;
-    scene.materials.resize(1);
-    scene.meshes.push_back(std::move(mesh));
-    scene.instances.push_back({});
-    return scene;
-}
 
 BakeKind kindOf(std::string_view wanted)
 {
@@ -46,32 +26,99 @@ BakeKind kindOf(std::string_view wanted)
          "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
 }
 
+Frame frameOr(const char* given, Frame otherwise, const char* name)
+{
+    const auto frame = given ? frameFromName(given) : otherwise;
+    if (!frame)
+        fail(ErrorKind::usage, std::string(name) + ": there is none named '" + given + "'");
+    return *frame;
+}
+
+// How normals of the detailed side are found.
+void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
+{
+    using N = HighNormals;
+    const std::string_view wanted = o.high_normals ? o.high_normals : "smooth";
+    options.ownMaps = wanted == "map";
+    options.bake.highNormals = wanted == "curved" ? N::curved : wanted == "face" ? N::face : N::smooth;
+    if (wanted != "smooth" && options.bake.highNormals == N::smooth && !options.ownMaps)
+        fail(ErrorKind::usage,
+             "options.high_normals: expected smooth, curved, face or map, found '" + std::string(wanted) + "'");
+    if (!options.ownMaps && (o.high_map_count > 0 || o.high_frame || o.high_convention))
+        fail(ErrorKind::usage,
+             "options.high_normals: expected map where a map, frame or convention is given, found '"
+                 + std::string(wanted) + "'");
+    options.highFrame = frameOr(o.high_frame, Frame::mikktspace, "options.high_frame");
+    if (o.high_convention)
+        options.highFormat = inScene(conventionOf(o.high_convention, "options.high_convention"));
+    require(o.high_map_count == 0 || o.high_maps, "options.high_maps: expected an array, found null");
+    for (std::size_t i = 0; i < o.high_map_count; ++i)
+        high.maps.push_back(imageOf(o.high_maps[i], ("options.high_maps[" + std::to_string(i) + "]").c_str()));
+}
+
 BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture& map)
 {
     BakeModelOptions options;
-    const std::string_view frame = o.frame ? o.frame : "cotangent";
-    const auto known = frameFromName(frame);
-    if (!known)
-        fail(ErrorKind::usage, "options.frame: there is none named '" + std::string(frame) + "'");
     require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
+    require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
     require(o.threads >= 0, "options.threads: expected 0 or more");
     require(o.padding >= -1, "options.padding: expected -1 or more");
     require(o.occlusion_rays >= 0 && o.occlusion_rays <= 1 << 16, "options.occlusion_rays: expected 0 to 65536");
+    require(o.material >= 0, "options.material: expected 0 or more");
+    const std::string_view tangents = o.tangents ? o.tangents : "generated";
+    require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
     b.kind = kindOf(o.kind ? o.kind : "normal");
-    b.frame = *known;
+    b.frame = frameOr(o.frame, Frame::cotangent, "options.frame");
     b.width = map.width;
     b.height = map.height;
     b.samples = o.samples != 0 ? o.samples : 1;
     b.maxDistance = o.max_distance;
+    b.cageReach = o.cage_reach;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
     b.threads = o.threads;
-    options.tangents = TangentOrigin::generated;
+    options.tiles = {o.tile != 0 ? o.tile : 1001};
+    options.material = o.material - 1;
+    options.tangents = tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated;
+    options.cage = o.cage ? &o.cage->scene : nullptr;
+    options.matchByName = o.match_by_name != 0;
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
-    options.stored.format = storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type);
+    options.stored.format =
+        inScene(storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type));
+    options.mask = o.mask;
     return options;
+}
+
+void checkMask(const cotan_picture& mask, const cotan_picture& map)
+{
+    checkedPicture(&mask, "options.mask");
+    if (mask.bits != 8 || mask.width != map.width || mask.height != map.height)
+        fail(ErrorKind::usage, "options.mask: expected 8 bits and the size of the map");
+}
+
+// Bakes and gives what came of it.
+void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
+              cotan_bake_result* result, cotan_bytes** warnings)
+{
+    const cotan_picture& out = checkedPicture(map, "map");
+    const cotan_bake_options o = optionsOf(given, "options");
+    if (result)
+        checked(result, "result");
+    if (o.mask)
+        checkMask(*o.mask, out);
+    BakeModelOptions options = bakeOptionsOf(o, out);
+    readHigh(o, options, high);
+    const BakedModel baked = valueOf(bakeModel(low, std::move(high), options, progressOf(o.progress, o.user)));
+    giveText(joined(baked.warnings), warnings);
+    put(baked.maps[0].image, out);
+    if (o.mask)
+        put(baked.maps[0].mask, *o.mask);
+    if (result) {
+        const BakeStatistics& s = baked.maps[0].statistics;
+        *result = {result->size, s.texels, s.covered, s.missed, s.negative, s.twice, s.rays, s.rayDistance};
+    }
 }
 
 } // namespace
@@ -81,18 +128,22 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
 {
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
-        const cotan_picture& out = checkedPicture(map, "map");
-        const cotan_bake_options o = optionsOf(options, "options");
-        if (result)
-            checked(result, "result");
         HighModel model;
-        model.scenes.push_back(sceneOf(detailed));
-        const BakedModel baked = valueOf(
-            bakeModel(sceneOf(simple), std::move(model), bakeOptionsOf(o, out), progressOf(o.progress, o.user)));
-        put(baked.maps[0].image, out);
-        if (result) {
-            const BakeStatistics& s = baked.maps[0].statistics;
-            *result = {result->size, s.texels, s.covered, s.missed, s.negative, s.twice, s.rays, s.rayDistance};
-        }
+        model.scenes.push_back(sceneOf({meshOf(detailed)}, "high"));
+        bakeInto(sceneOf({meshOf(simple)}, "low"), std::move(model), options, map, result, nullptr);
+    });
+}
+
+cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
+                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               cotan_bytes** warnings, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Scene& simple = sceneOf(low, "low");
+        require(high || high_count == 0, "high: expected models, found null");
+        HighModel model;
+        for (std::size_t i = 0; i < high_count; ++i)
+            model.scenes.push_back(sceneOf(high[i], "high[" + std::to_string(i) + "]"));
+        bakeInto(simple, std::move(model), options, map, result, warnings);
     });
 }

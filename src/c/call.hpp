@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,20 +52,38 @@ inline Progress progressOf(cotan_progress progress, void* user)
     };
 }
 
+inline void requireSize(std::size_t size, std::size_t least, const char* name)
+{
+    if (size < least)
+        fail(ErrorKind::usage,
+             std::string(name) + ".size: expected " + std::to_string(least) + " or more, found "
+                 + std::to_string(size));
+}
+
 // Structs of newer callers are longer; of this version they have to be whole.
 template<class T> const T& checked(const T* argument, const char* name)
 {
     if (!argument)
         fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
-    if (argument->size < sizeof(T))
-        fail(ErrorKind::usage,
-             std::string(name) + ".size: expected " + std::to_string(sizeof(T)) + " or more, found "
-                 + std::to_string(argument->size));
+    requireSize(argument->size, sizeof(T), name);
     return *argument;
 }
 
-// Options, or all of them 0 where they are left out.
-template<class T> T optionsOf(const T* given, const char* name) { return given ? checked(given, name) : T{}; }
+// The least size of options: what they had in the version that brought them.
+template<class T> inline constexpr std::size_t kFirstSize = sizeof(T);
+template<> inline constexpr std::size_t kFirstSize<cotan_bake_options> = offsetof(cotan_bake_options, cage);
+template<> inline constexpr std::size_t kFirstSize<cotan_model_files> = offsetof(cotan_model_files, name);
+
+// Options; 0 what an older caller does not know of, and all where they are left out.
+template<class T> T optionsOf(const T* given, const char* name)
+{
+    T options{};
+    if (given) {
+        requireSize(given->size, kFirstSize<T>, name);
+        std::memcpy(&options, given, std::min(given->size, sizeof(T)));
+    }
+    return options;
+}
 
 inline std::string_view word(const char* text, const char* name)
 {
@@ -102,6 +121,24 @@ inline cotan_status refused(const Error& error, char* message, std::size_t size)
 {
     copyText(error.message, message, size);
     return cotan_status(error.kind);
+}
+
+// Text as bytes, where somebody wants it.
+inline void giveText(std::string_view text, cotan_bytes** to)
+{
+    if (!to)
+        return;
+    const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+    *to = new cotan_bytes{{bytes.begin(), bytes.end()}};
+}
+
+// Lines as one text.
+inline std::string joined(const std::vector<std::string>& lines)
+{
+    std::string text;
+    for (const std::string& line : lines)
+        text += (text.empty() ? "" : "\n") + line;
+    return text;
 }
 
 // Runs the work of one function.

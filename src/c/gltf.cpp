@@ -9,6 +9,7 @@
 #include "cotan/report/lint_report.hpp"
 #include "json_text.hpp"
 #include "model_files.hpp"
+#include "models.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -58,6 +59,23 @@ void fill(const LintReport& report, cotan_lint_result& r)
     copyText(report.recommendation, r.recommendation, sizeof r.recommendation);
 }
 
+cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_lint_result* result)
+{
+    const cotan_lint_options o = optionsOf(options, "options");
+    require(o.distance >= 0, "options.distance: expected 0 or more");
+    if (result)
+        checked(result, "result");
+    return o;
+}
+
+void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
+{
+    const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
+    giveText(lintJson(report, scene), json);
+    if (result)
+        fill(report, *result);
+}
+
 } // namespace
 
 cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_model_files* files,
@@ -65,16 +83,18 @@ cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_m
                              char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const cotan_lint_options o = optionsOf(options, "options");
-        require(o.distance >= 0, "options.distance: expected 0 or more");
-        if (result)
-            checked(result, "result");
+        const cotan_lint_options o = lintOptionsOf(options, result);
         const ModelFiles source(model, model_size, files);
-        const Scene scene = valueOf(loadGltf(source.name(), source.limits()));
-        const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
-        giveText(lintJson(report, scene), json);
-        if (result)
-            fill(report, *result);
+        lintInto(valueOf(loadGltf(source.name(), source.limits())), o, result, json);
+    });
+}
+
+cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options* options, cotan_lint_result* result,
+                              cotan_bytes** json, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Scene& scene = sceneOf(model, "model");
+        lintInto(scene, lintOptionsOf(options, result), result, json);
     });
 }
 

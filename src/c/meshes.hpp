@@ -24,12 +24,14 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
                      + ", found " + std::to_string(indices[i]));
 }
 
-inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string& name, bool needsUv)
+inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string& name, bool needsUv,
+                                     bool needsNormals = true)
 {
     const cotan_mesh& m = checked(given, name.c_str());
-    if (m.vertex_count != 0 && !(m.positions && m.normals && (m.texcoords || !needsUv)))
+    if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage,
-             name + ": expected positions, normals" + (needsUv ? " and texcoords" : "") + ", found null");
+             name + ": expected positions" + (needsNormals ? ", normals" : "") + (needsUv ? " and texcoords" : "")
+                 + ", found null");
     checkIndices(name + ".", m.vertex_count, m.index_count, m.indices);
     return m;
 }

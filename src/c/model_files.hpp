@@ -28,8 +28,11 @@ public:
         require(model || size == 0, "model: expected bytes, found null");
     }
 
-    // By its first bytes.
-    const char* name() const { return size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb" : "model.gltf"; }
+    // As the caller calls it, or by its first bytes.
+    const char* name() const
+    {
+        return f_.name ? f_.name : size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb" : "model.gltf";
+    }
 
     // What the library reads it with; lives no longer than this.
     LoadLimits limits() const

@@ -17,6 +17,12 @@ cotan_status cotan_lint_gltf(const void*, size_t, const cotan_model_files*, cons
     return refused(noGltf(), message, message_size);
 }
 
+cotan_status cotan_lint_model(const cotan_model*, const cotan_lint_options*, cotan_lint_result*, cotan_bytes**,
+                              char* message, size_t message_size)
+{
+    return refused(noGltf(), message, message_size);
+}
+
 cotan_status cotan_convert_gltf(const void*, size_t, const cotan_model_files*, const cotan_convert_options*,
                                 cotan_convert_result*, cotan_bytes**, cotan_bytes**, char* message, size_t message_size)
 {

@@ -7,6 +7,10 @@
 #include "cotan/convention_words.hpp"
 #include "cotan/scene/image.hpp"
 
+struct cotan_image {
+    cotan::Image image;
+};
+
 namespace cotan::c {
 
 inline constexpr int kMostSide = 65536;

@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", "
 
 Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
+    if (limits.readFile)
+        return loadGltf(file, limits);
     if (const auto size = usableFileSize(file, limits.fileBytes); !size)
         return size.error();
     const std::string extension = lowerExtension(file);

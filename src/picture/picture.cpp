@@ -110,6 +110,8 @@ LoadLimits limitsOf(const PictureOptions& options)
     LoadLimits limits = limitsFor(options.memory);
     limits.pose = {options.animation, options.time};
     limits.variant = options.variant;
+    limits.readFile = options.readFile;
+    limits.decode = options.decode;
     return limits;
 }
 

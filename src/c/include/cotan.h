@@ -1,12 +1,13 @@
-/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state. Any thread may
- * call any function.
+/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state but what
+ * cotan_set_reader sets. Any thread may call any function.
  *
  * Errors. Every function that can fail returns a cotan_status. Where that is not COTAN_OK, `message` holds one line
  * that says why. It is cut to `message_size` bytes, the zero at its end included. A caller who wants no text passes a
  * null pointer and 0. After an error nothing has been written to the outputs, unless the function says so.
  *
  * Structs. Each begins with its size in bytes. The caller sets it (COTAN_INIT), so that a library that is newer than
- * the caller knows which members are there.
+ * the caller knows which members are there. Options and files that end where they did in an older version are fine:
+ * what came later is 0 then.
  *
  * Data. Arrays of vectors are floats without gaps, two or three to a vector. Pictures are red, green, blue, alpha
  * without gaps, rows from the top. Names of frames and other words are those of the command line. So are conventions:
@@ -21,7 +22,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 2
+#define COTAN_API_VERSION 3
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) { sizeof(type) }
@@ -40,7 +41,7 @@ typedef enum cotan_status {
     COTAN_STOPPED = 6 /* by the caller's progress function */
 } cotan_status;
 
-/* "0.1.0", and the version of this header that the library was built with: it grows where functions are added. */
+/* "0.2.0", and the version of this header that the library was built with: it grows where functions are added. */
 const char* cotan_version(void);
 int cotan_api_version(void);
 
@@ -223,6 +224,37 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
 
+/* ---- models ------------------------------------------------------------------------------------------------------ */
+
+/* A model that the library has read, or that was made of meshes. It is the caller's, who frees it; null is fine. Since
+ * version 3. */
+typedef struct cotan_model cotan_model;
+void cotan_model_free(cotan_model* model);
+
+/* Reads a model file: .glb, .gltf, .obj, and by Assimp .ply, .stl, .dae, .fbx or .3ds: see cotan_set_reader. Missing
+ * normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape. memory: of
+ * the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
+cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
+                              size_t message_size);
+
+/* Readers of other people's make may crash on broken files. From here on a child process reads models other than glTF,
+ * and pictures other than PNG and JPEG, so that this one goes on with COTAN_INPUT: the program words[0], called with
+ * the other words and one more, which has to call cotan_reader_process before it does anything else. The child may
+ * neither write files nor start programs (Linux). count 0: they are read in this process, as at first. To be called
+ * while no other call is under way. Since version 3. */
+cotan_status cotan_set_reader(size_t count, const char* const* words, char* message, size_t message_size);
+/* Reads for the process that has started this one, and ends this one. Returns, an exit code, only where none has. Since
+ * version 3. */
+int cotan_reader_process(void);
+
+/* A model of copies of meshes, whose normals and texcoords may be null; missing normals are smooth ones. names: of the
+ * meshes; null, or a null among them: none. Since version 3. */
+cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
+                                   cotan_model** model, char* message, size_t message_size);
+
+/* What was odd about it, one line each, "" where nothing was; gone with the model. Since version 3. */
+const char* cotan_model_warnings(const cotan_model* model);
+
 /* ---- baking ------------------------------------------------------------------------------------------------------ */
 
 typedef struct cotan_bake_options {
@@ -238,6 +270,20 @@ typedef struct cotan_bake_options {
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
+    /* Since version 3. */
+    const cotan_model* cage;     /* the triangles of the simple model in their order, moved out around both; rays run
+                                    from it inwards. null: none */
+    int match_by_name;           /* not 0: a simple mesh NAME_low sees the detailed mesh NAME_high only */
+    int material;                /* of the simple model, from 1; 0: all */
+    int tile;                    /* UDIM number; 0: 1001 */
+    const char* tangents;        /* for "mikktspace" and "vertex": "stored" or "generated"; null: "generated" */
+    const char* high_normals;    /* "smooth", "curved", "face" or "map" (its own); null: "smooth" */
+    const char* high_frame;      /* that its maps were made for; null: "mikktspace" */
+    const char* high_convention; /* how they are stored; null: as its materials say, "gltf" for high_maps */
+    size_t high_map_count;       /* 0, 1, or one for each detailed model */
+    const cotan_picture* const* high_maps; /* that take the place of its own */
+    cotan_picture* mask; /* of 8 bits and the map's size: gets what became of each texel; null: not wanted */
+    float cage_reach; /* how far rays run from the cage; 0: as far behind the simple model as the cage is before it */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
@@ -255,6 +301,12 @@ typedef struct cotan_bake_result {
 cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
                         cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size);
 
+/* The same for models: the map of the detailed ones, all together, for the simple one. `warnings` may be null; it gets
+ * text, one line each. Since version 3. */
+cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
+                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               cotan_bytes** warnings, char* message, size_t message_size);
+
 /* ---- glTF in memory ---------------------------------------------------------------------------------------------- */
 
 /* How the files and pictures of a model are reached. The functions are called on the caller's thread, one at a time.
@@ -270,6 +322,7 @@ typedef struct cotan_model_files {
     /* The PNG file of a picture of 8 or 16 bits. Without it: the library's own writer. */
     int (*encode)(void* user, const cotan_picture* picture, const void** bytes, size_t* byte_count);
     void (*done)(void* user);
+    const char* name; /* of the model in messages; null: "model.glb" or "model.gltf". Since version 3 */
 } cotan_model_files;
 
 /* Calls `take` for each picture in the model that is decoded to lint it, or, with maps_only, to convert it: what is not
@@ -304,6 +357,10 @@ typedef struct cotan_lint_result {
 cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_model_files* files,
                              const cotan_lint_options* options, cotan_lint_result* result, cotan_bytes** json,
                              char* message, size_t message_size);
+
+/* The same of a model that has its pictures, of any format. Since version 3. */
+cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options* options, cotan_lint_result* result,
+                              cotan_bytes** json, char* message, size_t message_size);
 
 typedef struct cotan_convert_options {
     size_t size;
@@ -348,6 +405,39 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
 cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
                                size_t message_size);
 void cotan_conversion_free(cotan_conversion* conversion); /* null is fine */
+
+/* ---- pictures ---------------------------------------------------------------------------------------------------- */
+
+/* A picture that the library has made. It is the caller's, who frees it; null is fine. Since version 3. */
+typedef struct cotan_image cotan_image;
+void cotan_image_free(cotan_image* image);
+/* Its size, bits and pixels, which are gone with it. */
+cotan_status cotan_image_picture(const cotan_image* image, cotan_picture* picture, char* message, size_t message_size);
+
+/* A picture file as it is stored: .png, .jpg, .webp, .ktx2, .dds, and with OpenImageIO .exr, .tif, .tga, .hdr and more.
+ * memory: that it may take, in MiB; 0: 640. Since version 3. */
+cotan_status cotan_image_read(const char* file, int memory, cotan_image** image, char* message, size_t message_size);
+
+/* Writes a picture file, whole or not at all: .png, and with OpenImageIO .exr, .tif, .tga, .jpg and .hdr. Since version
+ * 3. */
+cotan_status cotan_image_write(const char* file, const cotan_picture* picture, char* message, size_t message_size);
+
+typedef struct cotan_render_options {
+    size_t size;
+    size_t word_count;
+    const char* const* words; /* of the command line of `cotan render`: "--size", "640x360", "--frame", "smooth" */
+    int floats;               /* not 0: as in a file that keeps floats, with light linear and unlimited */
+    int threads;              /* 0: all cores; the picture does not depend on it */
+    cotan_progress progress;  /* may be null */
+    void* user;
+} cotan_render_options;
+
+/* The picture that `cotan render` draws for these words, -o and what else is about files left out. model: bytes of a
+ * .glb or .gltf; null: the file that the words name, or the built-in scene. options, files and json may be null;
+ * json: what was drawn, on which device, and warnings. Since version 3. */
+cotan_status cotan_render(const void* model, size_t model_size, const cotan_model_files* files,
+                          const cotan_render_options* options, cotan_image** image, cotan_bytes** json, char* message,
+                          size_t message_size);
 
 #ifdef __cplusplus
 }

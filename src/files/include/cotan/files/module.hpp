@@ -7,7 +7,8 @@
 
 namespace cotan {
 
-// Where a module may be: beside an installed program, where it was installed, where it was built.
+// Where a module may be: beside an installed program; beside the library that this code is in, or in its subfolder
+// `cotan`; where it was installed, where it was built.
 struct ModulePlaces {
     const char* name;      // of the file
     const char* subfolder; // of the folder above the program's

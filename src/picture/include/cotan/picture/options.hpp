@@ -1,11 +1,16 @@
 // What a picture of a model is to show, in words: those of `cotan render` and of its window.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cotan/files/limits.hpp"
 #include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
 
 namespace cotan {
 
@@ -66,6 +71,10 @@ struct PictureOptions {
     bool noNormalMaps = false;
     bool pointSampled = false;
     bool specularAntialiasing = false;
+
+    // A model that is not in files, as LoadLimits has it; may be empty.
+    std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile;
+    std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode;
 };
 
 } // namespace cotan

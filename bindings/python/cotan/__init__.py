@@ -1,0 +1,105 @@
+"""Cotan: normal mapping without precomputed tangents.
+
+    import cotan
+    baked = cotan.bake(low, high, size=2048, frame="smooth")     # cotan.Mesh of numpy arrays, or paths
+    report = cotan.lint("model.glb")                             # degrees, in a dataclass
+    cotan.convert("model.glb", "out.glb", to_frame="smooth")
+    picture = cotan.render("model.glb", size=(640, 360), frame="smooth")
+    green = cotan.detect(map).green                              # "up", "down" or "undecidable"
+
+Arrays go in and out without copies where dtype and layout fit (float32, uint32, C order). Long calls release the GIL,
+call `progress` on the thread that called them, and end at Ctrl-C. Everything that Cotan refuses is a `cotan.Error`.
+"""
+
+from ._library import library_path, library_version
+from ._version import __version__
+from .baking import Baked, bake
+from .conversion import Conversion, model_pictures
+from .errors import Error, InputError, LimitError, OutputError, StoppedError, UnavailableError, UsageError
+from .geometry import (
+    Mesh,
+    frame_apply,
+    frame_encode,
+    frames,
+    pack_smooth4,
+    pack_smooth8,
+    pack_tangents,
+    pack_triangles,
+    provoking,
+    smooth_cotangents,
+    split_mirrored,
+    split_vertices,
+    tangents,
+    triangle_vectors,
+    vertex_frame_apply,
+    vertex_frame_encode,
+)
+from .maps import (
+    Green,
+    Level,
+    MapInfo,
+    describe,
+    detect,
+    map_blend,
+    map_convert,
+    map_from_height,
+    map_mips,
+    map_to_height,
+)
+from .models import Converted, Lint, Model, convert, lint, load
+from .pictures import read_picture, write_picture
+from .rendering import render
+from .shaders import shader
+
+__all__ = [
+    "Baked",
+    "Conversion",
+    "Converted",
+    "Error",
+    "Green",
+    "InputError",
+    "Level",
+    "LimitError",
+    "Lint",
+    "MapInfo",
+    "Mesh",
+    "Model",
+    "OutputError",
+    "StoppedError",
+    "UnavailableError",
+    "UsageError",
+    "bake",
+    "convert",
+    "describe",
+    "detect",
+    "frame_apply",
+    "frame_encode",
+    "frames",
+    "library_path",
+    "library_version",
+    "lint",
+    "load",
+    "map_blend",
+    "map_convert",
+    "map_from_height",
+    "map_mips",
+    "map_to_height",
+    "model_pictures",
+    "pack_smooth4",
+    "pack_smooth8",
+    "pack_tangents",
+    "pack_triangles",
+    "provoking",
+    "read_picture",
+    "render",
+    "shader",
+    "smooth_cotangents",
+    "split_mirrored",
+    "split_vertices",
+    "tangents",
+    "triangle_vectors",
+    "vertex_frame_apply",
+    "vertex_frame_encode",
+    "write_picture",
+    "__version__",
+]

@@ -1,0 +1,227 @@
+"""src/c/include/cotan.h as ctypes has it: structs and functions. Tests compare them with the header."""
+
+import ctypes as c
+
+size_t, text, pointer, integer, double = c.c_size_t, c.c_char_p, c.c_void_p, c.c_int, c.c_double
+handle = c.c_void_p  # of something that the library made
+
+Progress = c.CFUNCTYPE(integer, pointer, double)
+
+
+class Struct(c.Structure):
+    """A struct of the header, which begins with its own size."""
+
+    def __init__(self, **values):
+        super().__init__(size=c.sizeof(type(self)), **values)
+
+
+def _fields(*groups):
+    return [("size", size_t)] + [(name, kind) for kind, names in groups for name in names.split()]
+
+
+class Places(Struct):
+    _fields_ = _fields((size_t, "count"), (pointer, "normals dpdx dpdy duvdx duvdy"))
+
+
+class VertexPlaces(Struct):
+    _fields_ = _fields((size_t, "count"), (pointer, "normals tangents cotangents_u cotangents_v"))
+
+
+class CMesh(Struct):
+    _fields_ = _fields(
+        (size_t, "vertex_count"),
+        (pointer, "positions normals texcoords"),
+        (size_t, "index_count"),
+        (pointer, "indices"),
+    )
+
+
+class Picture(Struct):
+    _fields_ = _fields((integer, "width height bits"), (pointer, "pixels"))
+
+
+class CGreen(Struct):
+    _fields_ = _fields((integer, "direction swapped confidence"), (double, "agreement"), (c.c_char * 256, "reason"))
+
+
+class CMapInfo(Struct):
+    _fields_ = _fields(
+        (c.c_char * 64, "content"),
+        (integer, "zero srgb"),
+        (double, "background invalid below_horizon mean_length mean_tilt"),
+        (double * 3, "mean"),
+    )
+
+
+class BakeOptions(Struct):
+    _fields_ = _fields(
+        (text, "frame kind convention"),
+        (integer, "samples padding dither occlusion_rays"),
+        (c.c_float, "max_distance"),
+        (integer, "threads"),
+        (Progress, "progress"),
+        (pointer, "user"),
+        (handle, "cage"),
+        (integer, "match_by_name material tile"),
+        (text, "tangents high_normals high_frame high_convention"),
+        (size_t, "high_map_count"),
+        (pointer, "high_maps mask"),
+        (c.c_float, "cage_reach"),
+    )
+
+
+class BakeResult(Struct):
+    _fields_ = _fields((size_t, "texels covered missed negative twice rays"), (double, "ray_distance"))
+
+
+bytes_out, size_out = c.POINTER(pointer), c.POINTER(size_t)
+Read = c.CFUNCTYPE(integer, pointer, text, bytes_out, size_out)
+Decode = c.CFUNCTYPE(integer, pointer, text, pointer, size_t, c.POINTER(Picture))
+Encode = c.CFUNCTYPE(integer, pointer, c.POINTER(Picture), bytes_out, size_out)
+Done = c.CFUNCTYPE(None, pointer)
+TakeLevel = c.CFUNCTYPE(integer, pointer, integer, c.POINTER(Picture), c.POINTER(Picture))
+TakeFile = c.CFUNCTYPE(integer, pointer, text, pointer, size_t)
+
+
+class ModelFiles(Struct):
+    _fields_ = _fields(
+        (pointer, "user"),
+        (Read, "read"),
+        (Decode, "decode"),
+        (Encode, "encode"),
+        (Done, "done"),
+        (text, "name"),
+    )
+
+
+class LintOptions(Struct):
+    _fields_ = _fields((double, "distance"), (Progress, "progress"), (pointer, "user"))
+
+
+class LintResult(Struct):
+    _fields_ = _fields(
+        (size_t, "primitives maps"),
+        (c.c_char * 16, "advice"),
+        (size_t, "maps_to_convert"),
+        (integer, "distrust_stored"),
+        (size_t, "green_against"),
+        (double, "orthonormal_degrees cotangent_degrees smooth_degrees"),
+        (c.c_char * 1024, "recommendation"),
+    )
+
+
+class ConvertOptions(Struct):
+    # `from` is a word of Python's, so that it is set by setattr.
+    _fields_ = _fields(
+        (text, "from to"),
+        (integer, "bits keep_tangents generate_tangents threads"),
+        (Progress, "progress"),
+        (pointer, "user"),
+    )
+
+
+class ConvertResult(Struct):
+    _fields_ = _fields(
+        (size_t, "maps_converted maps_kept primitives_given tangent_bytes_dropped"),
+        (double, "worst_degrees_before worst_degrees_after"),
+    )
+
+
+class RenderOptions(Struct):
+    _fields_ = _fields(
+        (size_t, "word_count"),
+        (c.POINTER(text), "words"),
+        (integer, "floats threads"),
+        (Progress, "progress"),
+        (pointer, "user"),
+    )
+
+
+STRUCTS = {
+    "cotan_places": Places,
+    "cotan_vertex_places": VertexPlaces,
+    "cotan_mesh": CMesh,
+    "cotan_picture": Picture,
+    "cotan_green": CGreen,
+    "cotan_map_info": CMapInfo,
+    "cotan_bake_options": BakeOptions,
+    "cotan_bake_result": BakeResult,
+    "cotan_model_files": ModelFiles,
+    "cotan_lint_options": LintOptions,
+    "cotan_lint_result": LintResult,
+    "cotan_convert_options": ConvertOptions,
+    "cotan_convert_result": ConvertResult,
+    "cotan_render_options": RenderOptions,
+}
+
+# What a function takes before `message` and `message_size`; it returns a cotan_status.
+_STATUS = {
+    "cotan_frame_apply": (text, Places, pointer, pointer),
+    "cotan_frame_encode": (text, Places, pointer, pointer),
+    "cotan_vertex_frame_apply": (text, VertexPlaces, pointer, pointer),
+    "cotan_vertex_frame_encode": (text, VertexPlaces, pointer, pointer),
+    "cotan_tangents": (text, CMesh, integer, pointer),
+    "cotan_smooth_cotangents": (CMesh, pointer, pointer),
+    "cotan_split_vertices": (size_t, size_t, pointer, pointer, pointer, pointer, size_out),
+    "cotan_split_mirrored": (CMesh, pointer, pointer, size_out),
+    "cotan_triangle_vectors": (CMesh, integer, pointer, pointer),
+    "cotan_pack_triangles": (size_t, pointer, pointer, pointer),
+    "cotan_pack_smooth8": (size_t, pointer, pointer, pointer, pointer),
+    "cotan_pack_smooth4": (size_t, pointer, pointer, pointer, pointer),
+    "cotan_pack_tangents": (size_t, pointer, pointer, pointer),
+    "cotan_provoking": (size_t, size_t, pointer, integer, pointer, pointer, size_out, pointer),
+    "cotan_map_green": (Picture, CGreen),
+    "cotan_map_describe": (Picture, CMapInfo),
+    "cotan_map_convert": (Picture, text, text, Picture),
+    "cotan_map_from_height": (Picture, double, double, text, Picture),
+    "cotan_map_to_height": (Picture, text, pointer),
+    "cotan_map_blend": (Picture, Picture, text, text, double, Picture),
+    "cotan_map_mips": (Picture, text, double, TakeLevel, pointer),
+    "cotan_shader_text": (text, text, text, pointer, size_out),
+    "cotan_bake": (CMesh, CMesh, BakeOptions, Picture, BakeResult),
+    "cotan_bake_models": (
+        handle, size_t, c.POINTER(handle), BakeOptions, Picture, BakeResult, c.POINTER(handle),
+    ),
+    "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
+    "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
+    "cotan_set_reader": (size_t, c.POINTER(text)),
+    "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),
+    "cotan_image_picture": (handle, Picture),
+    "cotan_image_read": (text, integer, c.POINTER(handle)),
+    "cotan_image_write": (text, Picture),
+    "cotan_render": (pointer, size_t, ModelFiles, RenderOptions, c.POINTER(handle), c.POINTER(handle)),
+    "cotan_gltf_pictures": (pointer, size_t, ModelFiles, integer, TakeFile, pointer),
+    "cotan_lint_gltf": (pointer, size_t, ModelFiles, LintOptions, LintResult, c.POINTER(handle)),
+    "cotan_convert_gltf": (
+        pointer, size_t, ModelFiles, ConvertOptions, ConvertResult, c.POINTER(handle), c.POINTER(handle),
+    ),
+    "cotan_convert_begin": (pointer, size_t, ModelFiles, ConvertOptions, ConvertResult, c.POINTER(handle)),
+    "cotan_conversion_picture": (handle, size_t, Picture),
+    "cotan_conversion_set": (handle, size_t, pointer, size_t),
+    "cotan_convert_end": (handle, c.POINTER(handle), c.POINTER(handle)),
+}  # fmt: skip
+
+# What the others return and take.
+_OTHERS = {
+    "cotan_version": (text,),
+    "cotan_api_version": (integer,),
+    "cotan_bytes_data": (pointer, handle),
+    "cotan_bytes_size": (size_t, handle),
+    "cotan_bytes_free": (None, handle),
+    "cotan_frame_count": (integer,),
+    "cotan_frame_name": (text, integer),
+    "cotan_conversion_count": (size_t, handle),
+    "cotan_conversion_free": (None, handle),
+    "cotan_model_free": (None, handle),
+    "cotan_model_warnings": (text, handle),
+    "cotan_image_free": (None, handle),
+    "cotan_reader_process": (integer,),
+}
+
+
+def _argument(kind):
+    return c.POINTER(kind) if issubclass(kind, Struct) else kind
+
+
+FUNCTIONS = {name: (integer, *map(_argument, kinds), text, size_t) for name, kinds in _STATUS.items()}
+FUNCTIONS.update(_OTHERS)

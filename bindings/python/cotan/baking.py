@@ -1,0 +1,205 @@
+"""Baking: the map of detailed meshes for a simple one."""
+
+import ctypes
+import dataclasses
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays as arrays
+from . import _structs as structs
+from ._handles import is_path
+from ._library import call, taken
+from ._work import long_call
+from .errors import InputError
+from .geometry import Mesh
+from .maps import Map
+from .models import Model, Progress, load
+from .pictures import Path, pixels_of
+
+Geometry = Union[Mesh, Path, Model]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Baked:
+    """A map, and what became of its texels.
+
+    Attributes:
+        map: (height, width, 4) of uint8, uint16 or float32, rows from the top.
+        mask: (height, width, 4) uint8, a picture of what became of each texel; None unless asked for.
+        texels, covered: all of them, and those whose centre lies in a triangle.
+        missed: covered ones whose ray found nothing.
+        negative: covered ones whose normal lies below the frame's horizon.
+        twice: covered by several triangles.
+        rays: shot.
+        ray_distance: the search distance used, in units of the positions.
+        warnings: one line each.
+    """
+
+    map: NDArray[np.generic] = dataclasses.field(repr=False)
+    mask: Optional[NDArray[np.uint8]] = dataclasses.field(repr=False)
+    texels: int
+    covered: int
+    missed: int
+    negative: int
+    twice: int
+    rays: int
+    ray_distance: float
+    warnings: list[str]
+
+
+def _model(given, field, pictures=False, memory=640):
+    """One model of a mesh, a file, a model or several meshes."""
+    if isinstance(given, Model):
+        return given
+    if is_path(given):
+        return load(given, pictures, memory)
+    if isinstance(given, Mesh) or (
+        isinstance(given, Sequence) and len(given) > 0 and all(isinstance(mesh, Mesh) for mesh in given)
+    ):
+        return Model(given)
+    raise arrays.wrong(field, "a cotan.Mesh, a path or a cotan.Model", type(given).__name__)
+
+
+def _several(given):
+    """What may be one or a sequence, as a list."""
+    return list(given) if isinstance(given, (list, tuple)) else [given]
+
+
+def bake(
+    low: Union[Geometry, Sequence[Mesh]],
+    high: Union[Geometry, Sequence[Geometry]],
+    *,
+    size: Any = 1024,
+    frame: str = "smooth",
+    kind: str = "normal",
+    convention: str = "opengl",
+    bits: int = 8,
+    samples: int = 1,
+    padding: int = 0,
+    dither: bool = False,
+    ao_rays: int = 64,
+    max_distance: float = 0.0,
+    cage: Union[Geometry, Sequence[Mesh], None] = None,
+    cage_reach: float = 0.0,
+    match_by_name: bool = False,
+    material: int = -1,
+    udim: int = 1001,
+    tangents: str = "stored",
+    high_normals: str = "smooth",
+    high_frame: Optional[str] = None,
+    high_map: Union[Map, Sequence[Map], None] = None,
+    high_convention: Optional[str] = None,
+    mask: bool = False,
+    memory: int = 640,
+    threads: int = 0,
+    out: Optional[NDArray[np.generic]] = None,
+    progress: Optional[Progress] = None,
+) -> Baked:
+    """The map of detailed meshes for a simple one. Words and defaults are those of `cotan bake`.
+
+    Args:
+        low: a Mesh with texcoords, several of them, a path to a model file, or a Model.
+        high: the same, or a list of such things, which all count.
+        size: (width, height) in texels, one number for both, or "WxH".
+        frame: that the shader will use: "smooth", "cotangent", "mikktspace", ...: see `frames`.
+        kind: "normal", "object-normal", "height" (units of the positions) or "ao".
+        convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
+        bits: of the map: 8, 16 or 32 (float).
+        samples: per texel: 1, 4 or 16.
+        padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
+        dither: with 8 bits: round by a fixed pattern, so that slopes show no steps.
+        ao_rays: rays per sample for "ao", 1 to 65536.
+        max_distance: how far rays reach to both sides of the low mesh, in units of the positions; 0: 5 % of the
+            diagonal of the high mesh.
+        cage: the triangles of the low mesh in their order, moved out around both; rays run from it inwards.
+        cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
+        match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
+        material: number of the low model's material to bake; -1: all.
+        udim: tile of the texture coordinates to bake, 1001 to 1999.
+        tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
+        high_normals: "smooth", "curved", "face" or "map": the high meshes' own normal maps.
+        high_frame: that those were made for; None: "mikktspace".
+        high_map: a picture that takes the place of the high meshes' own maps, or one for each of `high`.
+        high_convention: how their maps are stored; None: as the materials say, "opengl" for high_map.
+        mask: also gives the picture of what became of each texel.
+        memory: of the largest picture that is read, in MiB.
+        threads: 0 for all cores; the result does not depend on it.
+        out: (height, width, 4) of the dtype of `bits`, to write into.
+        progress: called on this thread, about twenty times a second, with the share that is done, 0 to 1; False
+            stops. Ctrl-C stops, too.
+
+    Raises UsageError for words, numbers, shapes; InputError for what is wrong in meshes and files; UnavailableError
+    where the library was built without Embree; StoppedError where `progress` stopped it, which leaves `out` as it was.
+    """
+    for field, value, known in (("samples", samples, (1, 4, 16)), ("bits", bits, (8, 16, 32))):
+        if value not in known:
+            raise arrays.wrong(field, ", ".join(map(str, known[:-1])) + f" or {known[-1]}", value)
+    material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
+    padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
+    max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
+    for mesh in _several(low):
+        if isinstance(mesh, Mesh) and mesh.texcoords is None:
+            raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
+    width, height = arrays.size_of(size)
+    made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
+    mask_made = np.empty((height, width, 4), np.uint8) if mask else None
+    words = {
+        name: None if word is None else arrays.encoded(word, name)
+        for name, word in (
+            ("frame", frame), ("kind", "occlusion" if kind == "ao" else kind), ("convention", convention),
+            ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
+            ("high_convention", high_convention),
+        )
+    }  # fmt: skip
+    maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]
+    pictures = [arrays.picture(m) for m in maps]
+    mask_picture = None if mask_made is None else arrays.picture(mask_made)
+    result, lines = structs.BakeResult(), structs.handle()
+    warnings = []
+
+    def work(told):
+        simple = _model(low, "low", memory=memory)
+        enclosing = None if cage is None else _model(cage, "cage")
+        detailed = [_model(h, "high", high_normals == "map", memory) for h in _several(high)]
+        for model in (simple, *detailed):
+            warnings.extend(w for w in model.warnings if w not in warnings)
+        handles = (structs.handle * len(detailed))(*(model._handle for model in detailed))
+        high_maps = (ctypes.POINTER(structs.Picture) * len(pictures))(*map(ctypes.pointer, pictures))
+        options = structs.BakeOptions(
+            samples={1: 1, 4: 2, 16: 4}[samples],
+            padding=padding,
+            dither=int(dither),
+            occlusion_rays=ao_rays,
+            max_distance=max_distance,
+            threads=threads,
+            progress=told,
+            cage=None if enclosing is None else enclosing._handle,
+            match_by_name=int(match_by_name),
+            material=material + 1,
+            tile=udim,
+            high_map_count=len(pictures),
+            high_maps=ctypes.addressof(high_maps) if pictures else None,
+            cage_reach=cage_reach,
+            mask=None if mask_picture is None else ctypes.addressof(mask_picture),
+            **words,
+        )
+        call(
+            "cotan_bake_models", simple._handle, len(detailed), handles, options, arrays.picture(made), result, lines,
+        )  # fmt: skip
+
+    long_call(work, progress)
+    warnings += [line for line in taken(lines).decode("utf-8", "replace").split("\n") if line]
+    return Baked(
+        map=made,
+        mask=mask_made,
+        texels=result.texels,
+        covered=result.covered,
+        missed=result.missed,
+        negative=result.negative,
+        twice=result.twice,
+        rays=result.rays,
+        ray_distance=result.ray_distance,
+        warnings=warnings,
+    )

@@ -1,0 +1,286 @@
+"""Meshes, frames and tangents as arrays."""
+
+import ctypes
+import dataclasses
+from typing import Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays as arrays
+from . import _structs as structs
+from ._library import call, library
+
+Floats = NDArray[np.float32]
+Words = NDArray[np.uint32]
+
+
+@dataclasses.dataclass(eq=False)
+class Mesh:
+    """A mesh of triangles. Arrays of the right dtype in C order are kept as they are, others are converted once.
+
+    Attributes:
+        positions: (n, 3) float32, in any unit.
+        indices: (3 t,) uint32, three for each triangle, each below n; given as (3 t,) or (t, 3) of any integers.
+        normals: (n, 3) float32, of length one; None: `bake` makes smooth ones, all else needs them.
+        texcoords: (n, 2) float32, v down as in glTF (OBJ and Blender: 1 - v); None where the mesh has none.
+        name: for messages, and for `bake` with match_by_name.
+
+    Raises UsageError for another shape or a dtype that is no number.
+    """
+
+    positions: Floats
+    indices: Words
+    normals: Optional[Floats] = None
+    texcoords: Optional[Floats] = None
+    name: str = ""
+
+    def __post_init__(self):
+        self.positions = arrays.floats(self.positions, "positions", 3)
+        count = len(self.positions)
+        self.indices = arrays.triangles(self.indices)
+        if self.normals is not None:
+            self.normals = arrays.floats(self.normals, "normals", 3, count)
+        if self.texcoords is not None:
+            self.texcoords = arrays.floats(self.texcoords, "texcoords", 2, count)
+
+    def __repr__(self):
+        return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
+
+    def _c(self):
+        """The struct over these arrays, which must outlive it."""
+        return structs.CMesh(
+            vertex_count=len(self.positions),
+            positions=arrays.at(self.positions),
+            normals=arrays.at(self.normals),
+            texcoords=arrays.at(self.texcoords),
+            index_count=len(self.indices),
+            indices=arrays.at(self.indices),
+        )
+
+
+def frames() -> list[str]:
+    """The names of all frames."""
+    made = library()
+    return [made.cotan_frame_name(i).decode() for i in range(made.cotan_frame_count())]
+
+
+def _places(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
+    given = arrays.floats(given, "texels" if function == "cotan_frame_apply" else "normals_wanted", 3)
+    count = len(given)
+    own = {
+        "normals": arrays.floats(normals, "normals", 3, count),
+        "dpdx": arrays.floats(dpdx, "dpdx", 3, count),
+        "dpdy": arrays.floats(dpdy, "dpdy", 3, count),
+        "duvdx": arrays.floats(duvdx, "duvdx", 2, count),
+        "duvdy": arrays.floats(duvdy, "duvdy", 2, count),
+    }
+    out = arrays.made(out, "out", (count, 3), np.float32)
+    places = structs.Places(count=count, **{name: arrays.at(array) for name, array in own.items()})
+    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
+    return out
+
+
+def frame_apply(
+    frame: str,
+    texels: ArrayLike,
+    normals: ArrayLike,
+    dpdx: ArrayLike,
+    dpdy: ArrayLike,
+    duvdx: ArrayLike,
+    duvdy: ArrayLike,
+    out: Optional[Floats] = None,
+) -> Floats:
+    """Unit normals (n, 3) that a frame made from differences turns texels into.
+
+    Args:
+        frame: "cotangent", "orthonormal", ...: see `frames`.
+        texels: (n, 3) decoded: x along +u, y along +v, z outwards.
+        normals: (n, 3) unit normals of the surface.
+        dpdx, dpdy: (n, 3) differences of position along any two directions, such as pixels or edges.
+        duvdx, duvdy: (n, 2) differences of uv along the same two.
+        out: (n, 3) float32 to write into.
+
+    Degenerate differences give the normal as it is. Raises UsageError for shapes and frames.
+    """
+    return _places("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
+
+
+def frame_encode(
+    frame: str,
+    normals_wanted: ArrayLike,
+    normals: ArrayLike,
+    dpdx: ArrayLike,
+    dpdy: ArrayLike,
+    duvdx: ArrayLike,
+    duvdy: ArrayLike,
+    out: Optional[Floats] = None,
+) -> Floats:
+    """The unit texels (n, 3) that `frame_apply` turns into normals_wanted (n, 3); arguments as there.
+
+    Degenerate differences give (0, 0, 1).
+    """
+    return _places("cotan_frame_encode", frame, normals_wanted, normals, dpdx, dpdy, duvdx, duvdy, out)
+
+
+def _vertex_places(function, frame, given, normals, tangents, cotangents_u, cotangents_v, out):
+    given = arrays.floats(given, "texels" if function == "cotan_vertex_frame_apply" else "normals_wanted", 3)
+    count = len(given)
+    own = {"normals": arrays.floats(normals, "normals", 3, count)}
+    for name, array, width in (
+        ("tangents", tangents, 4),
+        ("cotangents_u", cotangents_u, 3),
+        ("cotangents_v", cotangents_v, 3),
+    ):
+        own[name] = None if array is None else arrays.floats(array, name, width, count)
+    out = arrays.made(out, "out", (count, 3), np.float32)
+    places = structs.VertexPlaces(count=count, **{name: arrays.at(array) for name, array in own.items()})
+    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
+    return out
+
+
+def vertex_frame_apply(
+    frame: str,
+    texels: ArrayLike,
+    normals: ArrayLike,
+    tangents: Optional[ArrayLike] = None,
+    cotangents_u: Optional[ArrayLike] = None,
+    cotangents_v: Optional[ArrayLike] = None,
+    out: Optional[Floats] = None,
+) -> Floats:
+    """As `frame_apply`, for the frames that are made at the vertices and interpolated to the places.
+
+    Args:
+        frame: "mikktspace" or "vertex", which read tangents; "smooth", which reads cotangents.
+        texels: (n, 3) decoded.
+        normals: (n, 3) interpolated, of any length.
+        tangents: (n, 4), w as glTF's TANGENT, as of `tangents`.
+        cotangents_u, cotangents_v: (n, 3) each, as of `smooth_cotangents`.
+    """
+    return _vertex_places(
+        "cotan_vertex_frame_apply", frame, texels, normals, tangents, cotangents_u, cotangents_v, out
+    )
+
+
+def vertex_frame_encode(
+    frame: str,
+    normals_wanted: ArrayLike,
+    normals: ArrayLike,
+    tangents: Optional[ArrayLike] = None,
+    cotangents_u: Optional[ArrayLike] = None,
+    cotangents_v: Optional[ArrayLike] = None,
+    out: Optional[Floats] = None,
+) -> Floats:
+    """The unit texels (n, 3) that `vertex_frame_apply` turns into normals_wanted (n, 3); arguments as there."""
+    return _vertex_places(
+        "cotan_vertex_frame_encode", frame, normals_wanted, normals, tangents, cotangents_u, cotangents_v, out
+    )
+
+
+def tangents(mesh: Mesh, kind: str = "mikktspace", threads: int = 0, out: Optional[Floats] = None) -> Floats:
+    """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as glTF's TANGENT.
+
+    kind: "mikktspace" or "vertex". threads: 0 for all cores; the result does not depend on it. The mesh needs
+    texcoords. Raises UsageError, and InputError for an index that is out of range.
+    """
+    out = arrays.made(out, "out", (len(mesh.indices), 4), np.float32)
+    call("cotan_tangents", arrays.encoded(kind, "kind"), mesh._c(), arrays.threads_of(threads), arrays.at(out))
+    return out
+
+
+def smooth_cotangents(mesh: Mesh) -> tuple[Floats, Floats]:
+    """The cotangents of the frame "smooth": u and v, (n, 3) float32 each, one pair for each vertex."""
+    u, v = np.empty_like(mesh.positions), np.empty_like(mesh.positions)
+    call("cotan_smooth_cotangents", mesh._c(), arrays.at(u), arrays.at(v))
+    return u, v
+
+
+def triangle_vectors(mesh: Mesh, threads: int = 0) -> tuple[Floats, Floats]:
+    """U and V of the frame "triangle": (t, 3) float32 each, one pair for each triangle."""
+    shape = (len(mesh.indices) // 3, 3)
+    u, v = np.empty(shape, np.float32), np.empty(shape, np.float32)
+    call("cotan_triangle_vectors", mesh._c(), arrays.threads_of(threads), arrays.at(u), arrays.at(v))
+    return u, v
+
+
+def _split(function, vertex_count, index_count, *first):
+    split = np.empty(index_count, np.uint32)
+    sources = np.empty(vertex_count + index_count, np.uint32)
+    count = ctypes.c_size_t()
+    call(function, *first, arrays.at(split), arrays.at(sources), count)
+    return split, sources[: count.value].copy()
+
+
+def split_vertices(vertex_count: int, indices: ArrayLike, corners: ArrayLike) -> tuple[Words, Words]:
+    """The same triangles over more vertices, so that what is made for corners can be stored at vertices.
+
+    A vertex is copied where the corners that share it have different values. corners: (3 t, 4), as of `tangents`.
+    Returns the new indices (3 t,) and for each new vertex the old one that it is a copy of, the old ones first:
+    `positions[sources]` are the new positions.
+    """
+    indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
+    corners = arrays.floats(corners, "corners", 4, len(indices))
+    sizes = vertex_count, len(indices)
+    return _split("cotan_split_vertices", *sizes, *sizes, arrays.at(indices), arrays.at(corners))
+
+
+def split_mirrored(mesh: Mesh) -> tuple[Words, Words]:
+    """As `split_vertices`, where mirrored and unmirrored triangles share a vertex, as `smooth_cotangents` wants it."""
+    return _split("cotan_split_mirrored", len(mesh.positions), len(mesh.indices), mesh._c())
+
+
+def provoking(vertex_count: int, indices: ArrayLike, last: bool = False) -> tuple[Words, Words, Words]:
+    """The triangles over vertices numbered so that vertex k provokes triangle k.
+
+    last: whether the last of the three vertices provokes (OpenGL, WebGL) or the first (Vulkan, Direct3D, Metal,
+    WebGPU). Returns the new indices (3 t,), the old vertex of each new one, and corners (3 t,): the old indices with
+    each triangle turned so that the provoking one comes first.
+    """
+    indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
+    made, corners = np.empty_like(indices), np.empty_like(indices)
+    sources = np.empty(vertex_count + len(indices), np.uint32)
+    count = ctypes.c_size_t()
+    call(
+        "cotan_provoking", vertex_count, len(indices), arrays.at(indices), int(last), arrays.at(made),
+        arrays.at(sources), count, arrays.at(corners),
+    )  # fmt: skip
+    return made, sources[: count.value].copy(), corners
+
+
+def pack_triangles(u: ArrayLike, v: ArrayLike) -> Words:
+    """Small forms of `triangle_vectors`: (t, 3) uint32, which shaders/cotan/triangle.h unpacks."""
+    u = arrays.floats(u, "u", 3)
+    v = arrays.floats(v, "v", 3, len(u))
+    words = np.empty((len(u), 3), np.uint32)
+    call("cotan_pack_triangles", len(u), arrays.at(u), arrays.at(v), arrays.at(words))
+    return words
+
+
+def _pack_smooth(function, normals, u, v, shape, dtype):
+    normals = arrays.floats(normals, "normals", 3)
+    u, v = arrays.floats(u, "u", 3, len(normals)), arrays.floats(v, "v", 3, len(normals))
+    packed = np.empty((len(normals), *shape), dtype)
+    call(function, len(normals), arrays.at(normals), arrays.at(u), arrays.at(v), arrays.at(packed))
+    return packed
+
+
+def pack_smooth8(normals: ArrayLike, u: ArrayLike, v: ArrayLike) -> NDArray[np.int16]:
+    """Small forms of `smooth_cotangents`: (n, 4) int16 (SNORM16), which shaders/cotan/pack.h unpacks.
+
+    normals: (n, 3), the unit normals that unpacking will see.
+    """
+    return _pack_smooth("cotan_pack_smooth8", normals, u, v, (4,), np.int16)
+
+
+def pack_smooth4(normals: ArrayLike, u: ArrayLike, v: ArrayLike) -> Words:
+    """As `pack_smooth8` in one word each: (n,) uint32."""
+    return _pack_smooth("cotan_pack_smooth4", normals, u, v, (), np.uint32)
+
+
+def pack_tangents(normals: ArrayLike, tangents: ArrayLike) -> NDArray[np.uint16]:
+    """Tangents (n, 4) in one short each: (n,) uint16. normals: (n, 3), the unit normals that unpacking will see."""
+    normals = arrays.floats(normals, "normals", 3)
+    tangents = arrays.floats(tangents, "tangents", 4, len(normals))
+    packed = np.empty(len(normals), np.uint16)
+    call("cotan_pack_tangents", len(normals), arrays.at(normals), arrays.at(tangents), arrays.at(packed))
+    return packed

@@ -1,0 +1,215 @@
+"""Normal maps as arrays.
+
+A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
+three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
+"directx", "unity,xyz".
+"""
+
+import dataclasses
+from typing import Literal, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays as arrays
+from . import _structs as structs
+from ._handles import array_of_picture
+from ._library import call
+from .pictures import Path, pixels_of
+
+Pixels = NDArray[np.generic]
+Map = Union[ArrayLike, Path]
+
+
+@dataclasses.dataclass(frozen=True)
+class Green:
+    """Which way green of a normal map points, from the map alone.
+
+    Attributes:
+        green: "up" (OpenGL, glTF), "down" (DirectX) or "undecidable".
+        swapped: whether red and green are exchanged; None where it cannot be told.
+        confidence: "none", "likely" or "certain".
+        agreement: the correlation that the verdict rests on, -1 to 1.
+        reason: one sentence.
+    """
+
+    green: Literal["up", "down", "undecidable"]
+    swapped: Optional[bool]
+    confidence: Literal["none", "likely", "certain"]
+    agreement: float
+    reason: str
+
+
+@dataclasses.dataclass(frozen=True)
+class MapInfo:
+    """What the numbers of a picture say about it as a normal map. Shares are 0 to 1.
+
+    Attributes:
+        content: a few words, such as "tangent space" or "one value everywhere".
+        zero: the code of 255 that stands for zero: 128, 127 (for 127.5), or None where it cannot be told.
+        transfer: "linear"; "srgb": stored as if it were a colour; "linearised": as if it had been taken for one when
+            it was read.
+        background: share outside the charts, which the rest leaves out.
+        invalid: share that is no direction.
+        below_horizon: share with z below 0.
+        mean_length: of the decoded vectors.
+        mean_tilt: degrees from flat.
+        mean: x, y, z, green up.
+    """
+
+    content: str
+    zero: Optional[int]
+    transfer: Literal["linear", "srgb", "linearised"]
+    background: float
+    invalid: float
+    below_horizon: float
+    mean_length: float
+    mean_tilt: float
+    mean: tuple[float, float, float]
+
+
+class Level(NamedTuple):
+    """A level of `map_mips`: the map, and the roughness (grey) that makes up for what averaging took."""
+
+    map: Pixels
+    roughness: Pixels
+
+
+def detect(map: Map) -> Green:
+    """Which way green of a tangent-space normal map points. map: a picture."""
+    pixels, green = pixels_of(map), structs.CGreen()
+    call("cotan_map_green", arrays.picture(pixels), green)
+    return Green(
+        green={1: "up", -1: "down"}.get(green.direction, "undecidable"),
+        swapped=None if green.swapped < 0 else bool(green.swapped),
+        confidence=("none", "likely", "certain")[green.confidence],
+        agreement=green.agreement,
+        reason=green.reason.decode(),
+    )
+
+
+def describe(map: Map) -> MapInfo:
+    """What the numbers of a picture say about it as a normal map."""
+    pixels, info = pixels_of(map), structs.CMapInfo()
+    call("cotan_map_describe", arrays.picture(pixels), info)
+    return MapInfo(
+        content=info.content.decode(),
+        zero=info.zero or None,
+        transfer={1: "srgb", -1: "linearised"}.get(info.srgb, "linear"),
+        background=info.background,
+        invalid=info.invalid,
+        below_horizon=info.below_horizon,
+        mean_length=info.mean_length,
+        mean_tilt=info.mean_tilt,
+        mean=tuple(info.mean),
+    )
+
+
+def _like(pixels, bits, out):
+    """The array for a result of that picture's size."""
+    dtype = pixels.dtype if bits is None else arrays.dtype_of(bits)
+    if out is not None and bits is None and isinstance(out, np.ndarray) and out.dtype in arrays.BITS:
+        dtype = out.dtype
+    return arrays.made(out, "out", (*pixels.shape[:2], 4), dtype)
+
+
+def map_convert(
+    map: Map, source: str, to: str, bits: Optional[int] = None, out: Optional[Pixels] = None
+) -> Pixels:
+    """The map stored another way.
+
+    Args:
+        map: a picture.
+        source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space.
+        bits: of the result: 8, 16 or 32; as the map where it is left out.
+        out: a picture of the map's size to write into.
+    """
+    pixels = pixels_of(map)
+    out = _like(pixels, bits, out)
+    call(
+        "cotan_map_convert", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.encoded(to, "to"),
+        arrays.picture(out),
+    )  # fmt: skip
+    return out
+
+
+def map_from_height(
+    height: Map,
+    scale_x: float,
+    scale_y: Optional[float] = None,
+    to: str = "gltf",
+    bits: int = 8,
+    out: Optional[Pixels] = None,
+) -> Pixels:
+    """The normal map of heights (height, width), or of a picture's red. Heights repeat over the borders.
+
+    Args:
+        scale_x, scale_y: slope per unit of stored height and texel: for w metres across `width` texels and r metres
+            from 0 to 1 (of 8 and 16 bits: the full range), r * width / w. scale_y: as scale_x where it is left out.
+        to: the convention of the map.
+        bits: of the map: 8, 16 or 32.
+    """
+    pixels = pixels_of(height, "height")
+    out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
+    scale_x = arrays.number(scale_x, "scale_x")
+    scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
+    given = arrays.picture(pixels)
+    call("cotan_map_from_height", given, scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
+    return out
+
+
+def map_to_height(map: Map, source: str = "gltf") -> NDArray[np.float32]:
+    """The height (height, width) float32 whose slopes are nearest to the map's, in widths of a texel, mean 0."""
+    pixels = pixels_of(map)
+    heights = np.empty(pixels.shape[:2], np.float32)
+    call("cotan_map_to_height", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.at(heights))
+    return heights
+
+
+def map_blend(
+    base: Map,
+    detail: Map,
+    convention: str = "gltf",
+    mode: str = "reoriented",
+    strength: float = 1.0,
+    bits: Optional[int] = None,
+    out: Optional[Pixels] = None,
+) -> Pixels:
+    """A base map with a detail map over it; all of the base's size, and stored as `convention` says.
+
+    mode: "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes.
+    """
+    under, over = pixels_of(base, "base"), pixels_of(detail, "detail")
+    out = _like(under, bits, out)
+    call(
+        "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
+        arrays.encoded(mode, "mode"), arrays.number(strength, "strength"), arrays.picture(out),
+    )  # fmt: skip
+    return out
+
+
+def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list[Level]:
+    """Levels of half the size each, filtered as vectors: the map's own size first, 1 x 1 last.
+
+    roughness: of the material, 0 to 1.
+    """
+    pixels, levels, failures = pixels_of(map), [], []
+
+    def take(_, number, level, rough):
+        try:
+            levels.append(Level(array_of_picture(level[0]), array_of_picture(rough[0])))
+            return 0
+        except BaseException as error:  # must not cross the library
+            failures.append(error)
+            return 1
+
+    try:
+        call(
+            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"),
+            arrays.number(roughness, "roughness"), structs.TakeLevel(take), None,
+        )  # fmt: skip
+    except Exception:
+        if failures:
+            raise failures[0] from None
+        raise
+    return levels

@@ -1,0 +1,123 @@
+"""Pictures of models."""
+
+import ctypes
+import json
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays as arrays
+from . import _structs as structs
+from ._handles import array_of, is_path
+from ._library import call, taken
+from ._work import long_call
+from .models import Bytes, Progress, Source
+from .pictures import Path
+
+
+def _word(name, value):
+    """A keyword as a word of the command line; None for what it leaves out."""
+    option = b"--" + name.replace("_", "-").encode()
+    if value is None or value is False:
+        return None
+    if value is True:
+        return option
+    if isinstance(value, (tuple, list, np.ndarray)):
+        value = ("x" if name == "size" else ",").join(str(v) for v in value)
+    return option + b"=" + arrays.encoded(value if is_path(value) else str(value), name)
+
+
+def render(
+    model: Union[Path, Bytes, None] = None,
+    *,
+    size: Union[str, Sequence[int]] = (1280, 720),
+    frame: str = "cotangent",
+    view: str = "shaded",
+    camera: Union[str, int, Sequence[float], None] = None,
+    shape: Optional[str] = None,
+    device: str = "auto",
+    floats: bool = False,
+    samples: int = 4,
+    normal_map: Optional[Path] = None,
+    convention: Optional[str] = None,
+    material: Optional[int] = None,
+    base_color: Optional[Path] = None,
+    metallic_roughness: Optional[Path] = None,
+    occlusion: Optional[Path] = None,
+    variant: Union[str, int, None] = None,
+    animation: Union[str, int, None] = None,
+    time: Optional[float] = None,
+    edges: Optional[str] = None,
+    shading: Optional[str] = None,
+    lighting: Optional[str] = None,
+    normal_mapping: Optional[str] = None,
+    tangents: Optional[str] = None,
+    exposure: Union[float, str, None] = None,
+    tone_mapping: Optional[str] = None,
+    environment: Optional[Path] = None,
+    environment_rotation: Optional[float] = None,
+    environment_intensity: Optional[float] = None,
+    background: Optional[str] = None,
+    ground: Optional[str] = None,
+    shadow_softness: Optional[float] = None,
+    no_shadows: bool = False,
+    rows: Optional[str] = None,
+    derivatives: Optional[str] = None,
+    no_normal_maps: bool = False,
+    specular_antialiasing: bool = False,
+    point_sampled: bool = False,
+    memory: Optional[int] = None,
+    threads: int = 0,
+    report: Optional[dict] = None,
+    progress: Optional[Progress] = None,
+    beside: Optional[dict] = None,
+) -> NDArray[np.generic]:
+    """A picture of a model: (height, width, 4), red, green, blue, alpha, rows from the top.
+
+    The pixels are those that `cotan render` writes for the same options, whose names these are, with dashes there:
+    `cotan render --help` says what each does. None is the default of the command.
+
+    Args:
+        model: a path to a model file, the bytes of a glTF one, or None for the built-in scene or `shape`.
+        size: (width, height) or "WxH".
+        frame: to apply normal maps with: see `frames`.
+        view: "shaded", "normal", "uv", "depth", "error", "checker", "stretch", "base-color", ...
+        camera: "front", "fit", the number of a camera of the file, or six numbers in world units: eye and target.
+        floats: True: float32, with light linear and unlimited, as in an .exr file; False: uint8 as in a .png.
+        device: "auto", "reference", or a part of a Vulkan device's name.
+        report: a dict that gets what was drawn: the device, counts, `warnings`, and for the view "error" the degrees
+            in `error_against_exact`.
+        threads: 0 for all cores; the picture does not depend on it.
+        progress: called on this thread with the share that is done, 0 to 1 (only by the device "reference"); False
+            stops. Ctrl-C stops, too.
+        beside: files that a model in bytes names, by their URIs.
+
+    Raises UsageError for words and numbers, InputError for a broken or missing file, UnavailableError for a device that
+    is not there, StoppedError where `progress` stopped it.
+    """
+    options = dict(locals())
+    for name in ("model", "floats", "threads", "report", "progress", "beside"):
+        del options[name]
+    words = [word for word in (_word(name, value) for name, value in options.items()) if word is not None]
+    source = None if model is None or is_path(model) else Source(model, beside)
+    if is_path(model):
+        words += [b"--", arrays.encoded(model, "model")]
+    threads = arrays.threads_of(threads)
+    given = (ctypes.c_char_p * len(words))(*words)
+    image, text = structs.handle(), structs.handle()
+
+    def work(told):
+        wanted = structs.RenderOptions(
+            word_count=len(words), words=given, floats=int(floats), threads=threads, progress=told
+        )
+        if source is not None:
+            source.call("cotan_render", wanted, image, text)
+        else:
+            call("cotan_render", None, 0, None, wanted, image, text, files=(model,) if model else ())
+
+    long_call(work, progress)
+    made = json.loads(taken(text))
+    if report is not None:
+        report.update(made)
+    return array_of(image)

@@ -1,0 +1,22 @@
+"""The portable text printed for a language."""
+
+import ctypes
+
+from . import _arrays as arrays
+from ._library import call
+
+
+def shader(lang: str, frame: str = "cotangent", convention: str = "gltf") -> str:
+    """The function that perturbs the normal with that frame, as self-contained text to paste into a shader.
+
+    Args:
+        lang: "glsl", "essl", "hlsl", "wgsl", "msl" or "cpp".
+        frame: see `frames`.
+        convention: how the map is stored.
+    """
+    words = [arrays.encoded(w, n) for w, n in ((lang, "lang"), (frame, "frame"), (convention, "convention"))]
+    size = ctypes.c_size_t(0)
+    call("cotan_shader_text", *words, None, size)
+    text = ctypes.create_string_buffer(size.value)
+    call("cotan_shader_text", *words, ctypes.addressof(text), size)
+    return text.value.decode()

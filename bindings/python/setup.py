@@ -1,0 +1,25 @@
+"""A wheel that carries libcotan is for one kind of machine, and for every Python 3 there: no part of it is compiled
+against Python. Without the library the wheel is for all machines."""
+
+import pathlib
+
+import setuptools
+from wheel.bdist_wheel import bdist_wheel
+
+
+FOLDER = pathlib.Path(__file__).parent / "cotan"
+CARRIED = [file for name in ("libcotan*", "cotan.dll") for file in FOLDER.glob(name)]
+
+
+class Distribution(setuptools.Distribution):
+    def has_ext_modules(self):
+        return bool(CARRIED)
+
+
+class Wheel(bdist_wheel):
+    def get_tag(self):
+        platform = super().get_tag()[2]
+        return ("py3", "none", platform if CARRIED else "any")
+
+
+setuptools.setup(distclass=Distribution, cmdclass={"bdist_wheel": Wheel})

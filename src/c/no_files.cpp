@@ -1,0 +1,43 @@
+// cotan.h: files of models and pictures, and drawing, where what they need is not there.
+#include "call.hpp"
+#include "cotan/not_built.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+Error noFiles()
+{
+    return notBuiltWith("files", "libcli11-dev, libfmt-dev, nlohmann-json3-dev, libpng-dev and libjpeg-dev");
+}
+
+} // namespace
+
+cotan_status cotan_model_open(const char*, int, int, cotan_model**, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}
+
+cotan_status cotan_set_reader(size_t, const char* const*, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}
+
+int cotan_reader_process(void) { return COTAN_UNAVAILABLE; }
+
+cotan_status cotan_image_read(const char*, int, cotan_image**, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}
+
+cotan_status cotan_image_write(const char*, const cotan_picture*, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}
+
+cotan_status cotan_render(const void*, size_t, const cotan_model_files*, const cotan_render_options*, cotan_image**,
+                          cotan_bytes**, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}

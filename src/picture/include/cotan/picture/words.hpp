@@ -1,0 +1,42 @@
+// The words of `render` and `compare`, which say which model, seen how, drawn by what: declared once, for the command
+// line and for the C API.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/frame.hpp"
+#include "cotan/picture/options.hpp"
+#include "cotan/terminal/arguments.hpp"
+
+namespace cotan {
+
+// All frame names; the same, separated by commas.
+std::vector<std::string> frameWords();
+std::string frameNames();
+
+// A frame's name; the error lists all of them.
+Result<Frame> parseFrame(const std::string& text);
+
+// Adds --memory MIB.
+void addMemoryOption(Arguments& a, int& memory);
+
+// Adds --tangents, stored or generated.
+void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help);
+
+// Adds --device. use: what its help begins with.
+void addDeviceOption(Arguments& a, std::string& device, const std::string& use = "device that draws: ");
+
+// Adds --normal-map, --convention and --material.
+void addOwnNormalMap(Arguments& a, OwnMaps& maps);
+
+// Adds --frame.
+void addFrameOption(Arguments& a, std::string& frame);
+
+// Adds --view.
+void addShowOption(Arguments& a, std::string& show);
+
+// Adds all others.
+void addPictureOptions(Arguments& a, PictureOptions& options);
+
+} // namespace cotan

@@ -1,0 +1,200 @@
+#include "cotan/picture/words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cotan/convention_words.hpp"
+
+namespace cotan {
+
+std::vector<std::string> frameWords()
+{
+    std::vector<std::string> names;
+    for (const FrameInfo& f : frames())
+        names.emplace_back(f.name);
+    return names;
+}
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
+
+Result<Frame> parseFrame(const std::string& text)
+{
+    if (const auto frame = frameFromName(text))
+        return *frame;
+    return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
+}
+
+void addMemoryOption(Arguments& a, int& memory)
+{
+    a.option("--memory", memory, "largest picture held in memory at once, in MiB").within(1, 1 << 16).in("MIB");
+}
+
+void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help)
+{
+    a.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME");
+}
+
+void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
+{
+    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
+        .in("DEVICE")
+        .offers({"auto", "reference"});
+}
+
+namespace {
+
+void addLightOptions(Arguments& a, PictureOptions& o)
+{
+    a.option("--exposure", o.exposure,
+             "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
+        .above0Or("auto")
+        .in("X|auto")
+        .offers({"auto"});
+    a.option("--tone-mapping", o.toneMapping,
+             "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
+             "curve) or agx; files that keep floats stay linear")
+        .from({"none", "neutral", "aces", "agx"})
+        .in("NAME");
+    a.option(
+         "--environment", o.environment,
+         "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
+         "overcast, or "
+         "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
+        .in("NAME|FILE")
+        .offers({"studio", "overcast", "evening", "none"})
+        .reads();
+    a.option("--environment-rotation", o.environmentRotation,
+             "turn the surroundings counter-clockwise, seen from above")
+        .within(-360.0, 360.0)
+        .in("DEGREES");
+    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the surroundings")
+        .above0()
+        .in("X");
+    a.option("--background", o.background,
+             "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
+             "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
+        .from({"paper", "blur", "environment", "gradient", "none"})
+        .in("NAME");
+    a.option("--ground", o.ground, "on: the model stands on level ground, which only shows its shadow; off: it floats")
+        .from({"on", "off"})
+        .in("NAME");
+    a.option("--shadow-softness", o.shadowSoftness,
+             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
+             "(default: 10, in the evening 3)")
+        .within(0.0, 60.0)
+        .in("DEGREES")
+        .withoutDefault();
+    a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
+}
+
+} // namespace
+
+void addOwnNormalMap(Arguments& a, OwnMaps& maps)
+{
+    a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
+        .in("FILE")
+        .reads();
+    a.option("--convention", maps.convention,
+             "how that image is stored, or without one how the model's own normal maps are to be read: "
+                 + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--material", maps.material, "number of the material that gets this image; -1: all")
+        .within(-1, 100000)
+        .in("N");
+}
+
+namespace {
+
+void addOwnMaps(Arguments& a, OwnMaps& maps)
+{
+    addOwnNormalMap(a, maps);
+    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB")
+        .in("FILE")
+        .reads();
+    a.option("--metallic-roughness", maps.metallicRoughness,
+             "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
+        .in("FILE")
+        .reads();
+    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's")
+        .in("FILE")
+        .reads();
+}
+
+} // namespace
+
+void addFrameOption(Arguments& a, std::string& frame)
+{
+    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME").offers(frameWords());
+}
+
+void addShowOption(Arguments& a, std::string& show)
+{
+    a.option(
+         "--view", show,
+         "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); checker, "
+         "density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map by itself: "
+         "base-color, alpha, normal-map, normal-map-red, -green, -blue, roughness, metallic, occlusion, emissive")
+        .from(showNames())
+        .in("NAME");
+}
+
+void addPictureOptions(Arguments& a, PictureOptions& o)
+{
+    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
+        .reads();
+    a.option("--shape", o.shape, "without MODEL: a shape to look at maps on: plane, sphere, torus or teapot")
+        .from({"plane", "sphere", "torus", "teapot"})
+        .in("NAME");
+    addMemoryOption(a, o.memory);
+    addOwnMaps(a, o.maps);
+    a.option("--variant", o.variant,
+             "variant of a glTF model's materials, by name or number; those of the file if left out")
+        .in("NAME|N");
+    a.option("--animation", o.animation,
+             "animation of a glTF model, by name or number; the pose of the file if left out")
+        .in("NAME|N");
+    a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
+    a.option("--size", o.size, "width and height in pixels").in("WxH");
+    a.option(
+         "--camera", o.camera,
+         "front (filling the picture), fit (the whole box around the model), the number of a camera of the file, or "
+         "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" "
+         "for "
+         "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
+         "own)")
+        .in("CAMERA")
+        .offers({"front", "fit"});
+    addDeviceOption(a, o.device);
+    a.option("--edges", o.edges,
+             "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
+        .from({"none", "triangles", "seams", "all"})
+        .in("NAME");
+    a.option("--shading", o.shading, "shading model: pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
+    a.option("--lighting", o.lighting,
+             "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
+             "(tangent-pixel), for comparison and on the reference device only")
+        .from({"world", "tangent-vertex", "tangent-pixel"})
+        .in("NAME");
+    a.option("--normal-mapping", o.normalMapping,
+             "what a turned normal does: shading; or by rays, on the reference device only: rays (light from below "
+             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet")
+        .from({"shading", "rays", "shadowed", "facets", "mirror-facet"})
+        .in("NAME");
+    addTangentsOption(
+        a, o.tangents,
+        "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
+    a.option("--samples", o.samples, "samples per pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
+    addLightOptions(a, o);
+    a.option("--rows", o.rows,
+             "whether the rows of the render target run down or up; the picture is upright either way")
+        .from({"down", "up"})
+        .in("NAME");
+    a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
+    a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
+    a.flag("--specular-antialiasing", o.specularAntialiasing,
+           "light sixteen normals of a pixel, each rougher by what is smaller than its part of it");
+    a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
+}
+
+} // namespace cotan

@@ -1,0 +1,30 @@
+# The Python package over the C API. Libraries that are built with sanitizers cannot be loaded by a program without.
+if(CMAKE_CXX_FLAGS MATCHES "fsanitize" OR NOT TARGET cotan_app)
+  return()
+endif()
+# The first Python that has numpy and pytest: Debian's, beside which there may be others.
+find_package(Python3 COMPONENTS Interpreter)
+foreach(python ${Python3_EXECUTABLE} /usr/bin/python3)
+  execute_process(COMMAND ${python} -c "import numpy, pytest" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  if(NOT missing)
+    set(COTAN_PYTHON ${python})
+    break()
+  endif()
+endforeach()
+foreach(part header arrays geometry maps bake models render work package install)
+  set(name Python.${part})
+  if(COTAN_PYTHON)
+    set(test ${COTAN_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/test_${part}.py)
+  else()
+    set(test sh -c "echo skipped: no python3 with numpy and pytest here; exit 77")
+  endif()
+  if(part STREQUAL "install") # pip takes its time
+    cotan_door(${name} COMMAND ${test})
+  else()
+    add_test(NAME ${name} COMMAND ${test})
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+  endif()
+  set_property(TEST ${name} PROPERTY ENVIRONMENT
+    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>;COTAN_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data"
+    "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
+endforeach()

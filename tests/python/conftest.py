@@ -1,0 +1,47 @@
+"""What the tests of the Python package share. They are run by CTest (tests/python.cmake), which says in variables where the
+library, the command line and the folder of models are."""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def source():
+    """The repository."""
+    return pathlib.Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def command():
+    """Runs the command line: command("map", "detect", file). Returns what it prints."""
+    tool = os.environ.get("COTAN_TOOL")
+    if not tool or not os.path.exists(tool):
+        pytest.skip("skipped: COTAN_TOOL names no cotan")
+
+    def run(*words):
+        done = subprocess.run([tool, *map(str, words)], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def data():
+    """The folder of models."""
+    folder = pathlib.Path(os.environ.get("COTAN_SHARED_DATA", "nowhere"))
+    if not folder.is_dir():
+        pytest.skip(f"skipped: {folder} is not there")
+    return folder
+
+
+def pytest_unconfigure(config):
+    """As CTest has it: exit code 77 and the reason as the last line where everything was skipped."""
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    skipped = reporter.stats.get("skipped", []) if reporter else []
+    if skipped and not any(reporter.stats.get(kind) for kind in ("passed", "failed", "error")):
+        print(f"skipped: {skipped[0].longrepr[2].split('skipped: ')[-1]}", flush=True)
+        os._exit(77)

@@ -1,0 +1,172 @@
+"""Baking from arrays and files, against mathematics and against the command line to the bit."""
+
+import numpy as np
+import pytest
+
+import cotan
+from shapes import bumps, slope, square, write_obj
+
+
+def test_a_slope_of_one_in_ten_leans_by_a_tenth():
+    rise = 0.1
+    baked = cotan.bake(square(), slope(rise), size=16, max_distance=0.5)
+    normal = np.array([-rise, 0, 1]) / np.hypot(rise, 1)
+    assert np.abs(baked.map[..., :3].astype(float) - (128 + 127 * normal)).max() <= 0.5
+    assert (baked.map[..., 3] == 255).all()
+    assert (baked.texels, baked.covered, baked.missed, baked.twice) == (256, 256, 0, 0)
+    assert abs(baked.ray_distance - 0.5) < 1e-6 and baked.warnings == [] and baked.mask is None
+
+
+def test_green_points_up_or_down_as_the_conventions_name_says():
+    tilted = slope(0.2)
+    tilted.positions = tilted.positions[:, [1, 0, 2]] * np.float32([1, 1, 1])
+    tilted.normals = np.ascontiguousarray(tilted.normals[:, [1, 0, 2]])  # rises towards +y, up in the picture
+    tilted.indices = tilted.indices.reshape(-1, 3)[:, ::-1].ravel()
+    leaning = 127 * 0.2 / np.hypot(0.2, 1)
+    for convention, code in (("gltf", 128 - leaning), ("opengl", 128 - leaning), ("directx", 128 + leaning),
+                             ("blender", 128 - leaning), ("unreal", 128 + leaning)):  # fmt: skip
+        baked = cotan.bake(square(), tilted, size=8, convention=convention, max_distance=1)
+        assert np.abs(baked.map[..., 1].astype(float) - code).max() <= 0.5, convention
+
+
+def test_heights_are_in_units_of_the_positions():
+    baked = cotan.bake(square(), slope(0.1), size=8, kind="height", bits=32, max_distance=0.5)
+    x = (np.arange(8) + 0.5) / 8
+    np.testing.assert_allclose(baked.map[..., 0], np.tile(0.1 * (x - 0.5), (8, 1)), atol=1e-6)
+
+
+def test_an_open_plane_is_not_occluded():
+    baked = cotan.bake(square(), slope(0), size=8, kind="ao", ao_rays=16)
+    assert (baked.map[..., :3] == 255).all()
+
+
+OPTIONS = [
+    {},
+    {"frame": "cotangent", "bits": 16, "samples": 4},
+    {"frame": "mikktspace", "convention": "directx", "dither": True},
+    {"frame": "vertex", "tangents": "generated", "padding": -1},
+    {"kind": "ao", "ao_rays": 4, "padding": 3},
+    {"kind": "object-normal", "high_normals": "face"},
+    {"max_distance": 0.011},
+]
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids=lambda o: " ".join(map(str, o.values())) or "defaults")
+def test_arrays_and_files_bake_what_the_command_line_bakes_to_the_bit(options, command, tmp_path):
+    low, high = bumps(4), bumps(40)
+    files = write_obj(tmp_path / "low.obj", low), write_obj(tmp_path / "high.obj", high)
+    words = []
+    for name, value in options.items():
+        words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [value])
+    out, mask = tmp_path / "out.png", tmp_path / "mask.png"
+    command("bake", "--low", files[0], "--high", files[1], "--size", "96x64", "-o", out, "--mask", mask, *words)
+    expected, became = cotan.read_picture(out), cotan.read_picture(mask)
+    for a, b in (files, (low, high), (cotan.load(files[0]), cotan.load(files[1])), (low, files[1])):
+        baked = cotan.bake(a, b, size="96x64", mask=True, **options)
+        assert baked.map.dtype == expected.dtype
+        assert (baked.map == expected).all() and (baked.mask == became).all()
+
+
+def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path):
+    # Two squares side by side in uv, one over the other in space: without names both see the nearer surface.
+    def half(name, z, offset):
+        mesh = square(name)
+        mesh.positions = mesh.positions + np.float32([0, 0, z])
+        mesh.texcoords = mesh.texcoords * np.float32([0.5, 1]) + np.float32([offset, 0])
+        return mesh
+
+    low = [half("a_low", 0, 0), half("b_low", 0.05, 0.5)]
+    high = [slope(0.1, "a_high"), slope(-0.1, "b_high")]
+    apart = cotan.bake(low, high, size=32, match_by_name=True, max_distance=0.5).map
+    # u grows half as fast as v, the longer gradient, which has length one: the texel is twice as steep along it.
+    lean = 127 * 0.2 / np.hypot(0.2, 1)
+    assert np.abs(apart[..., 0] - np.repeat([128 - lean, 128 + lean], 16)).max() <= 0.5
+    with pytest.raises(cotan.InputError, match="b_low"):
+        cotan.bake(low, high[:1], size=8, match_by_name=True)
+
+    cage = bumps(4)
+    cage.positions = cage.positions + 0.05 * cage.normals
+    files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", bumps(4)), ("high", bumps(40)), ("cage", cage))]
+    command("bake", "--low", files[0], "--high", files[1], "--cage", files[2], "--size", "64x64", "-o", tmp_path / "out.png")
+    expected = cotan.read_picture(tmp_path / "out.png")
+    for caged in (cage, files[2]):
+        assert (cotan.bake(bumps(4), bumps(40), cage=caged, size=64).map == expected).all()
+    # From 2 above: to as far below, or as far as the rays are told to run.
+    above, flat, below = square(), square(), square()
+    above.positions = above.positions + np.float32((0, 0, 2))
+    below.positions = below.positions - np.float32((0, 0, 1))
+    for reach, missed in ((0, 0), (2.9, 256), (3.1, 0)):
+        assert cotan.bake(flat, below, cage=above, cage_reach=reach, size=16).missed == missed
+    with pytest.raises(cotan.InputError, match="cage") as caught:
+        cotan.bake(bumps(4), bumps(40), cage=square(), size=8)
+    assert caught.value.field == "cage"
+
+
+def test_the_detailed_meshes_own_map_is_baked_with_them(command, tmp_path):
+    tilt = np.zeros((8, 8, 4), np.uint8)
+    tilt[:] = [128 + 38, 128, 249, 255]  # 0.3, 0, 0.95
+    cotan.write_picture(tmp_path / "tilt.png", tilt)
+    files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", square()), ("high", square()))]
+    command("bake", "--low", files[0], "--high", files[1], "--high-normals", "map", "--high-map", tmp_path / "tilt.png",
+            "--size", "8x8", "-o", tmp_path / "out.png")  # fmt: skip
+    expected = cotan.read_picture(tmp_path / "out.png")
+    assert np.abs(expected[..., :3].astype(int) - tilt[..., :3]).max() <= 1
+    for high_map in (tilt, tmp_path / "tilt.png", [tilt]):
+        baked = cotan.bake(square(), square(), size=8, high_normals="map", high_map=high_map)
+        assert (baked.map == expected).all()
+    with pytest.raises(cotan.UsageError) as caught:
+        cotan.bake(square(), square(), size=8, high_map=tilt)
+    assert caught.value.field == "high_normals"
+
+
+def test_normals_that_are_left_out_are_smooth_ones():
+    bare = bumps(40)
+    bare.normals = None
+    with_normals = cotan.bake(bumps(4), bumps(40), size=64, bits=32).map
+    without = cotan.bake(bumps(4), bare, size=64, bits=32).map
+    a, b = with_normals[..., :3] * 2 - 1, without[..., :3] * 2 - 1
+    apart = np.degrees(np.arccos(np.clip((a * b).sum(2) / np.linalg.norm(a, axis=2) / np.linalg.norm(b, axis=2), -1, 1)))
+    assert 0 < np.mean(apart) < 0.5  # of facets 1/40 wide on waves of slopes up to 0.21
+
+
+def test_what_is_wrong_in_files_names_them(tmp_path):
+    (tmp_path / "broken.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")
+    with pytest.raises(cotan.InputError) as caught:
+        cotan.bake(tmp_path / "broken.obj", square(), size=8)
+    assert caught.value.file == str(tmp_path / "broken.obj") and "\n" not in str(caught.value)
+    with pytest.raises(cotan.InputError, match="no such file"):
+        cotan.bake(square(), tmp_path / "missing.obj", size=8)
+    with pytest.raises(cotan.InputError):
+        cotan.bake(square(), tmp_path, size=8)
+    with pytest.raises(cotan.InputError) as caught:
+        cotan.bake(square(), square(), size=8, udim=1005)
+    assert caught.value.field == "udim"
+
+
+def test_the_examples_map_is_the_command_lines(source, command, tmp_path):
+    import runpy
+    import sys
+
+    low, high = write_obj(tmp_path / "low.obj", bumps(4)), write_obj(tmp_path / "high.obj", bumps(40))
+    words, sys.argv = sys.argv, ["bake.py", str(low), str(high), str(tmp_path / "example.png")]
+    try:
+        runpy.run_path(str(source / "examples/python/bake.py"), run_name="__main__")
+    finally:
+        sys.argv = words
+    command("bake", "--low", low, "--high", high, "--size", "512x512", "-o", tmp_path / "out.png")
+    assert (cotan.read_picture(tmp_path / "example.png") == cotan.read_picture(tmp_path / "out.png")).all()
+
+
+def test_what_is_wrong_in_meshes_names_the_keyword_or_the_mesh():
+    bare, flat = square("panel_low"), np.full((4, 4, 3), 128, np.uint8)
+    bare.texcoords = None
+    for call, field in (
+        (lambda: cotan.bake([square(), bare], slope(0.1), size=8), "low"),
+        (lambda: cotan.bake(square("a_low"), slope(0.1), size=8, match_by_name=True), "match_by_name"),
+        (lambda: cotan.bake(square(), slope(0.1, "bumps"), size=8, high_normals="map", high_map=flat), "bumps"),
+        (lambda: cotan.bake(square(), slope(0.1), size=8, high_normals="map"), "meshes"),
+        (lambda: cotan.bake(cotan.Model(bare), slope(0.1), size=8), "panel_low"),
+    ):
+        with pytest.raises(cotan.InputError) as caught:
+            call()
+        assert caught.value.field == field, str(caught.value)

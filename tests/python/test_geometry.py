@@ -1,0 +1,107 @@
+"""Frames and tangents against what mathematics says of planes."""
+
+import numpy as np
+import pytest
+
+import cotan
+from shapes import bumps, degrees, square
+
+UP = np.float32([[0, 0, 1]])
+TEXEL = np.float32([[0.6, 0.48, 0.64]])
+# Of a plane whose u runs along -x and v along y.
+DIFFERENCES = {
+    "normals": UP,
+    "dpdx": np.float32([[2, 0, 0]]),
+    "dpdy": np.float32([[0, 2, 0]]),
+    "duvdx": np.float32([[-1, 0]]),
+    "duvdy": np.float32([[0, 1]]),
+}
+
+
+def test_frames_are_named():
+    assert {"cotangent", "orthonormal", "smooth", "mikktspace", "triangle"} <= set(cotan.frames())
+
+
+@pytest.mark.parametrize("frame", ["cotangent", "orthonormal", "unit", "exact"])
+def test_a_texels_x_goes_along_u_and_its_y_along_v(frame):
+    normal = cotan.frame_apply(frame, TEXEL, **DIFFERENCES)
+    np.testing.assert_allclose(normal, [[-0.6, 0.48, 0.64]], atol=1e-5)
+    np.testing.assert_allclose(cotan.frame_encode(frame, normal, **DIFFERENCES), TEXEL, atol=1e-5)
+
+
+def test_the_cotangent_frame_keeps_slopes_where_texels_are_stretched():
+    # Texels twice as long along u: the slope along it is half as steep.
+    stretched = dict(DIFFERENCES, dpdx=np.float32([[4, 0, 0]]))
+    normal = cotan.frame_apply("cotangent", TEXEL, **stretched)
+    assert degrees(normal[0], [-0.3, 0.48, 0.64]) < 1e-3
+
+
+def test_frames_at_vertices_read_what_the_library_makes():
+    tangents = np.float32([[-1, 0, 0, 1]])
+    normal = cotan.vertex_frame_apply("mikktspace", TEXEL, UP, tangents=tangents)
+    # w = 1: cross(n, t) = -y points up in the image, against v, so that v runs along y.
+    np.testing.assert_allclose(normal, [[-0.6, 0.48, 0.64]], atol=1e-6)
+    np.testing.assert_allclose(cotan.vertex_frame_encode("mikktspace", normal, UP, tangents=tangents), TEXEL, atol=1e-6)
+    mesh = square()
+    u, v = cotan.smooth_cotangents(mesh)
+    smooth = cotan.vertex_frame_apply("smooth", np.repeat(TEXEL, 4, 0), mesh.normals, cotangents_u=u, cotangents_v=v)
+    np.testing.assert_allclose(smooth, np.repeat([[0.6, -0.48, 0.64]], 4, 0), atol=1e-5)  # v runs against y
+    with pytest.raises(cotan.UsageError):
+        cotan.vertex_frame_apply("smooth", TEXEL, UP, tangents=tangents)
+
+
+def test_tangents_run_along_u_and_w_says_which_side():
+    assert (cotan.tangents(square()) == [1, 0, 0, 1]).all()
+    mirrored = square()
+    mirrored.texcoords = mirrored.texcoords * np.float32([-1, 1])
+    assert (cotan.tangents(mirrored) == [-1, 0, 0, -1]).all()
+    assert (cotan.tangents(square(), kind="vertex")[:, :3] == [1, 0, 0]).all()
+
+
+def test_tangents_do_not_depend_on_threads():
+    mesh = bumps()
+    assert (cotan.tangents(mesh, threads=1) == cotan.tangents(mesh, threads=4)).all()
+
+
+def test_vertices_are_split_where_corners_differ():
+    corners = np.float32([[0, 1, 0, 1], [1, 0, 0, 1], [1, 0, 0, 1]])
+    indices, sources = cotan.split_vertices(2, [0, 0, 1], corners)
+    assert indices.tolist() == [0, 2, 1] and sources.tolist() == [0, 1, 0]
+    same, kept = cotan.split_mirrored(square())
+    assert same.tolist() == square().indices.tolist() and kept.tolist() == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("last, corner", [(False, 0), (True, 2)])
+def test_vertex_k_provokes_triangle_k(last, corner):
+    indices, sources, corners = cotan.provoking(4, square().indices, last)
+    assert indices.reshape(-1, 3)[:, corner].tolist() == [0, 1]
+    assert (sources[indices].reshape(-1, 3)[:, corner] == corners.reshape(-1, 3)[:, 0]).all()
+    assert (np.sort(sources[indices].reshape(-1, 3)) == np.sort(square().indices.reshape(-1, 3))).all()
+
+
+def test_triangle_vectors_have_one_pair_for_each_triangle_and_pack_as_halves():
+    u, v = cotan.triangle_vectors(square())
+    assert u.shape == v.shape == (2, 3)
+    assert degrees(np.cross([0, 0, 1], u[0]), [1, 0, 0]) < 1e-3  # t = cross(n, U) runs along +u
+    np.testing.assert_allclose(u[0], u[1], atol=1e-6)
+    words = cotan.pack_triangles(u, v)
+    halves = words.view(np.float16).reshape(2, 6).astype(np.float32)
+    np.testing.assert_allclose(halves, np.c_[u, v], atol=2e-3)
+
+
+def test_packed_forms_have_a_shape_for_each():
+    mesh = square()
+    u, v = cotan.smooth_cotangents(mesh)
+    eight = cotan.pack_smooth8(mesh.normals, u, v)
+    four = cotan.pack_smooth4(mesh.normals, u, v)
+    two = cotan.pack_tangents(mesh.normals, cotan.tangents(mesh)[:4])
+    assert (eight.shape, eight.dtype, four.shape, four.dtype, two.shape, two.dtype) == (
+        (4, 4), np.int16, (4,), np.uint32, (4,), np.uint16,
+    )  # fmt: skip
+    assert (eight[0] == eight[3]).all() and eight.any() and four[0] == four[3] != 0 and two[0] == two[3]
+
+
+def test_shader_text_is_the_command_lines(command, tmp_path):
+    for lang in ("glsl", "wgsl", "hlsl"):
+        command("shader", "--lang", lang, "--frame", "cotangent", "-o", tmp_path / lang)
+        assert cotan.shader(lang) == (tmp_path / lang).read_text()

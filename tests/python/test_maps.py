@@ -1,0 +1,133 @@
+"""Maps as arrays against the command line on files, to the bit, and against mathematics."""
+
+import numpy as np
+import pytest
+
+import cotan
+
+
+def relief(side=96):
+    """Heights of smooth bumps that repeat over the borders, and their slopes per texel."""
+    x, y = np.meshgrid(np.arange(side), np.arange(side))
+    a, b = 2 * np.pi / side * 3, 2 * np.pi / side * 2
+    height = 2 * np.sin(a * x + 0.3) * np.cos(b * y) + np.cos(2 * b * y + a * x)
+    along_x = 2 * a * np.cos(a * x + 0.3) * np.cos(b * y) - a * np.sin(2 * b * y + a * x)
+    along_y = -2 * b * np.sin(a * x + 0.3) * np.sin(b * y) - 2 * b * np.sin(2 * b * y + a * x)
+    return height, along_x, along_y
+
+
+def normal_map(green_up=True, dtype=np.uint8):
+    _, along_x, along_y = relief()
+    normals = np.dstack([-along_x, along_y if green_up else -along_y, np.ones_like(along_x)])
+    normals /= np.linalg.norm(normals, axis=2)[..., None]
+    middle, scale = {np.uint8: (128, 127), np.uint16: (32768, 32767), np.float32: (0.5, 0.5)}[dtype]
+    coded = middle + scale * normals
+    return (coded if dtype == np.float32 else np.round(coded)).astype(dtype)
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A map and a detail as PNG files, and as the arrays that they hold."""
+    base, detail = normal_map(), normal_map(dtype=np.uint16)[::2, ::2]
+    cotan.write_picture(tmp_path / "base.png", base)
+    cotan.write_picture(tmp_path / "detail.png", detail)
+    return tmp_path, cotan.read_picture(tmp_path / "base.png"), cotan.read_picture(tmp_path / "detail.png")
+
+
+def test_pictures_come_back_from_files_as_they_were(tmp_path):
+    for dtype, name in ((np.uint8, "a.png"), (np.uint16, "b.png"), (np.float32, "c.exr")):
+        given = normal_map(dtype=dtype)
+        cotan.write_picture(tmp_path / name, given)
+        read = cotan.read_picture(tmp_path / name)
+        assert read.dtype == dtype and (read[..., :3] == given).all()
+        assert (read[..., 3] == (1 if dtype == np.float32 else np.iinfo(dtype).max)).all()
+    with pytest.raises(cotan.UsageError, match="extension"):
+        cotan.write_picture(tmp_path / "a.txt", normal_map())
+    with pytest.raises(cotan.OutputError):
+        cotan.write_picture(tmp_path / "nowhere" / "a.png", normal_map())
+    with pytest.raises(cotan.InputError, match="no such file") as caught:
+        cotan.read_picture(tmp_path / "missing.png")
+    assert caught.value.file == str(tmp_path / "missing.png")
+    (tmp_path / "text.png").write_text("this is no picture")
+    with pytest.raises(cotan.InputError, match="expected"):
+        cotan.read_picture(tmp_path / "text.png")
+
+
+@pytest.mark.parametrize("green_up, word", [(True, "up"), (False, "down")])
+def test_green_is_detected_from_the_relief(green_up, word, tmp_path, command):
+    found = cotan.detect(normal_map(green_up))
+    assert (found.green, found.confidence) == (word, "certain")
+    assert np.sign(found.agreement) == (1 if green_up else -1) and found.reason
+    cotan.write_picture(tmp_path / "map.png", normal_map(green_up))
+    assert command("map", "detect", tmp_path / "map.png").startswith(f"green: {word}")
+    assert cotan.detect(tmp_path / "map.png") == found
+
+
+def test_what_cannot_be_told_is_none():
+    flat = cotan.detect(np.full((32, 32, 3), 128, np.uint8))
+    assert (flat.green, flat.swapped, flat.confidence) == ("undecidable", None, "none")
+    assert cotan.describe(np.full((32, 32, 3), 128, np.uint8)).zero is None
+
+
+def test_a_map_is_described_by_its_numbers():
+    info = cotan.describe(normal_map())
+    assert (info.content, info.zero, info.transfer, info.invalid) == ("tangent space", 128, "linear", 0)
+    _, along_x, along_y = relief()
+    tilt = np.degrees(np.arctan(np.hypot(along_x, along_y))).mean()
+    assert abs(info.mean_tilt - tilt) < 0.5  # half a code is 0.3 degrees
+    assert abs(info.mean_length - 1) < 0.01 and info.mean[2] > 0.5
+
+
+def test_conversion_is_the_command_lines_to_the_bit(files, command):
+    folder, base, _ = files
+    for source, to, bits in (("gltf", "directx", 8), ("opengl", "unity", 16), ("gltf", "directx,biased", 8)):
+        out = folder / "out.png"
+        command("map", "convert", folder / "base.png", "--from", source, "--to", to, "--bits", bits, "-o", out)
+        assert (cotan.map_convert(base, source, to, bits) == cotan.read_picture(out)).all(), (source, to)
+
+
+def test_green_turns_between_gltf_and_directx(files):
+    _, base, _ = files
+    turned = cotan.map_convert(base, "gltf", "directx")
+    assert (turned[..., 1] == 256 - base[..., 1].astype(int)).all()
+    assert (cotan.map_convert(turned, "directx", "gltf") == base).all()
+
+
+def test_heights_become_the_normals_of_their_slopes():
+    height, along_x, along_y = relief(256)
+    normals = np.dstack([-along_x, along_y, np.ones_like(along_x)])  # rows run down, green up
+    normals /= np.linalg.norm(normals, axis=2)[..., None]
+    made = cotan.map_from_height(height.astype(np.float32), 1.0, bits=32)[..., :3] * 2 - 1
+    assert np.abs(made - normals).max() < 2e-3  # what differences of neighbours leave of a wave of 64 texels
+    back = cotan.map_to_height(cotan.map_from_height(height.astype(np.float32), 1.0, bits=32))
+    assert np.abs(back - (height - height.mean())).max() < 0.05
+    assert abs(back.mean()) < 1e-4
+
+
+def test_heights_from_files_are_the_command_lines_to_the_bit(tmp_path, command):
+    height = relief()[0]
+    grey = np.round((height - height.min()) / np.ptp(height) * 65535).astype(np.uint16)
+    cotan.write_picture(tmp_path / "height.png", grey)
+    # 2 m across 96 texels, 5 cm from black to white.
+    command("map", "from-height", tmp_path / "height.png", "--metres", 2, "--range", 0.05, "-o", tmp_path / "map.png")
+    made = cotan.map_from_height(tmp_path / "height.png", 0.05 * 96 / 2, bits=16)
+    assert (made == cotan.read_picture(tmp_path / "map.png")).all()
+
+
+def test_blending_is_the_command_lines_to_the_bit(files, command):
+    folder, base, _ = files
+    cotan.write_picture(folder / "over.png", base[::-1])
+    for mode in ("reoriented", "whiteout", "udn", "slopes", "linear"):
+        command("map", "blend", folder / "base.png", folder / "over.png", "--mode", mode, "-o", folder / "out.png")
+        made = cotan.map_blend(base, folder / "over.png", mode=mode, convention="opengl")
+        assert (made == cotan.read_picture(folder / "out.png")).all(), mode
+
+
+def test_levels_halve_to_one_texel_and_keep_their_length():
+    levels = cotan.map_mips(normal_map(dtype=np.uint16))
+    assert [level.map.shape[0] for level in levels] == [96, 48, 24, 12, 6, 3, 1]
+    first = levels[0].map[..., :3].astype(int) - normal_map(dtype=np.uint16)
+    assert np.abs(first).max() <= 1  # made unit again
+    last = (levels[-1].map[0, 0, :3].astype(float) - 32768) / 32767
+    assert abs(np.linalg.norm(last) - 1) < 1e-3 and last[2] > 0.99  # a relief that repeats has no tilt
+    assert levels[-1].roughness[0, 0, 0] > levels[0].roughness[0, 0, 0]

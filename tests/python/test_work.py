@@ -1,0 +1,176 @@
+"""Long calls: progress, ends by the caller and by Ctrl-C, threads, memory."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import cotan
+from shapes import bumps, slope, square, write_stretched
+
+
+def test_progress_rises_to_one_on_the_thread_that_called():
+    shares, threads = [], set()
+
+    def progress(done):
+        shares.append(done)
+        threads.add(threading.get_ident())
+
+    cotan.bake(bumps(8), bumps(60), size=512, samples=16, progress=progress)
+    assert threads == {threading.get_ident()}
+    assert shares == sorted(shares) and shares[-1] == 1 and all(0 <= s <= 1 for s in shares)
+    assert len(shares) > 1, "the work was too short to be told of"
+
+
+def calls(tmp_path):
+    model = write_stretched(tmp_path)
+    return {
+        "bake": lambda progress: cotan.bake(bumps(8), bumps(60), size=2048, samples=16, progress=progress),
+        "render": lambda progress: cotan.render(shape="teapot", size=(1600, 900), device="reference", progress=progress),
+        "lint": lambda progress: cotan.lint(model, progress=progress),
+        "convert": lambda progress: cotan.convert(model, progress=progress),
+    }
+
+
+@pytest.mark.parametrize("name", ["bake", "render"])
+def test_false_stops(name, tmp_path):
+    with pytest.raises(cotan.StoppedError):
+        calls(tmp_path)[name](lambda done: False)
+
+
+@pytest.mark.parametrize("name", ["bake", "render"])
+def test_what_progress_raises_comes_through(name, tmp_path):
+    def progress(done):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        calls(tmp_path)[name](progress)
+
+
+@pytest.mark.parametrize("name", ["lint", "convert"])
+def test_short_work_tells_of_its_end(name, tmp_path):
+    shares = []
+    calls(tmp_path)[name](shares.append)
+    assert shares[-1] == 1
+
+
+def test_a_stopped_bake_leaves_out_as_it_was():
+    out = np.full((2048, 2048, 4), 7, np.uint8)
+    with pytest.raises(cotan.StoppedError):
+        cotan.bake(bumps(8), bumps(60), size=2048, samples=16, out=out, progress=lambda done: False)
+    assert (out == 7).all()
+
+
+INTERRUPTED = """
+import sys, time
+sys.path.insert(0, {tests!r})
+import cotan
+from shapes import bumps
+low, high = bumps(16), bumps(300)
+print("ready", flush=True)
+start = time.time()
+try:
+    {call}
+    print("done")
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "cotan.bake(low, high, size=4096, samples=16)",
+        "cotan.bake(low, high, size=4096, samples=16, progress=lambda done: None)",
+        "cotan.render(shape='teapot', size=(4096, 4096), device='reference')",
+    ],
+)
+def test_ctrl_c_ends_long_calls(call, source):
+    program = INTERRUPTED.format(tests=str(source / "tests/python"), call=call)
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(0.4)
+    process.send_signal(signal.SIGINT)
+    start = time.time()
+    rest = process.communicate(timeout=60)[0]
+    assert rest == "interrupted\n" and time.time() - start < 10  # the whole takes longer; two busy cores are slow
+
+
+def test_other_threads_run_while_the_library_works():
+    counted, ended = 0, threading.Event()
+
+    def count():
+        nonlocal counted
+        while not ended.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    start = time.time()
+    cotan.tangents(bumps(300), threads=1)  # a call without progress
+    cotan.bake(bumps(8), bumps(60), size=512, samples=16, threads=1)
+    seconds = time.time() - start
+    ended.set()
+    thread.join()
+    assert counted > 20 * seconds  # a thousand a second where the machine is idle; 1 in all where the GIL is held
+
+
+def test_many_threads_at_once_get_what_one_gets():
+    low, high = bumps(6), bumps(30)
+    expected = cotan.bake(low, high, size=64).map
+    results, failures = [], []
+
+    def work():
+        try:
+            results.append(cotan.bake(low, high, size=64).map)
+            with pytest.raises(cotan.UsageError):
+                cotan.bake(low, high, size=64, frame="nonsense")
+            cotan.tangents(high)
+        except BaseException as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures and len(results) == 8 and all((r == expected).all() for r in results)
+
+
+def resident():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="skipped: no /proc here")
+def test_memory_is_flat_in_a_loop(tmp_path):
+    model = write_stretched(tmp_path)
+    cotan.write_picture(tmp_path / "large.png", np.zeros((1024, 1024, 4), np.uint8))
+    high, used = bumps(200), []
+    for _ in range(24):
+        cotan.bake(square(), cotan.Model(high), size=64, mask=True)  # 2 MiB
+        cotan.render(model, size=(32, 32), environment="none", device="reference", ground="off")
+        cotan.lint(model)
+        cotan.convert(model)
+        cotan.read_picture(tmp_path / "large.png")  # 4 MiB
+        cotan.load(model)
+        for wrong in (lambda: cotan.load(tmp_path / "missing.glb"), lambda: cotan.bake(square(), high, size=8, frame="x")):
+            with pytest.raises(cotan.Error):
+                wrong()
+        used.append(resident())
+    assert used[-1] - used[7] < 20, used  # 16 turns of 6 MiB each
+
+
+def test_views_of_pictures_outlive_what_they_were_made_of(tmp_path):
+    gradient = np.arange(64 * 64 * 4, dtype=np.uint32).astype(np.uint8).reshape(64, 64, 4)
+    cotan.write_picture(tmp_path / "a.png", gradient)
+    row = cotan.read_picture(tmp_path / "a.png")[3]
+    for _ in range(20):
+        cotan.read_picture(tmp_path / "a.png")
+    assert (row == gradient[3]).all()
