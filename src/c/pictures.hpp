@@ -71,10 +71,12 @@ inline void put(const Image& image, const cotan_picture& p)
 // A frame by its name; where no name is given, the other.
 inline Frame frameOr(const char* given, Frame otherwise, const char* name)
 {
-    const auto frame = given ? frameFromName(given) : otherwise;
-    if (!frame)
-        fail(ErrorKind::usage, std::string(name) + ": there is no frame named '" + given + "'");
-    return *frame;
+    if (const auto frame = given ? frameFromName(given) : otherwise)
+        return *frame;
+    std::string known;
+    for (const FrameInfo& frame : frames())
+        known += (known.empty() ? "" : ", ") + std::string(frame.name);
+    fail(ErrorKind::usage, std::string(name) + ": expected one of " + known + "; found '" + given + "'");
 }
 
 inline Convention conventionOf(const char* words, const char* name)
