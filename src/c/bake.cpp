@@ -127,8 +127,8 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
         HighModel model;
-        model.scenes.push_back(sceneOf({meshOf(detailed)}));
-        bakeInto(sceneOf({meshOf(simple)}), std::move(model), options, map, result, nullptr);
+        model.scenes.push_back(sceneOf({meshOf(detailed)}, "high"));
+        bakeInto(sceneOf({meshOf(simple)}, "low"), std::move(model), options, map, result, nullptr);
     });
 }
 

@@ -12,6 +12,7 @@ from . import _structs as structs
 from ._handles import is_path
 from ._library import call, taken
 from ._work import long_call
+from .errors import InputError
 from .geometry import Mesh
 from .maps import Map
 from .models import Model, Progress, load
@@ -136,6 +137,9 @@ def bake(
     material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
     padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
     max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
+    for mesh in _several(low):
+        if isinstance(mesh, Mesh) and mesh.texcoords is None:
+            raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
     width, height = arrays.size_of(size)
     made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
     mask_made = np.empty((height, width, 4), np.uint8) if mask else None

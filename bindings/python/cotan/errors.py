@@ -19,7 +19,6 @@ _KEYWORDS = {
     "tile": "udim",
     "tiles": "udim",
     "high_maps": "high_map",
-    "maxDistance": "max_distance",
 }
 
 
@@ -81,10 +80,15 @@ class StoppedError(Error, RuntimeError):
 _OF_STATUS = {c.status: c for c in (UsageError, InputError, UnavailableError, OutputError, LimitError, StoppedError)}
 
 
+def _keyword(match):
+    name = re.sub("[A-Z]", lambda m: "_" + m[0].lower(), match[1])
+    return _KEYWORDS.get(name, name)
+
+
 def _in_keywords(status, message):
     """A line about options in the names that they have here: --max-distance and options.max_distance are
     max_distance."""
-    message = re.sub(r"^options\.(\w+)", lambda m: _KEYWORDS.get(m[1], m[1]), message)
+    message = re.sub(r"^options\.(\w+)", _keyword, message)
     if status != UsageError.status:
         return message
     message = re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
