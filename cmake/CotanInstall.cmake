@@ -67,7 +67,7 @@ foreach(name ${components})
 
   set(target cotan_${name})
   install(TARGETS ${target} EXPORT cotanTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libcotan0 NAMELINK_COMPONENT libcotan-dev)
   if(NOT name STREQUAL "portable")
     get_target_property(type ${target} TYPE)
     set(library "")
@@ -117,7 +117,7 @@ install(FILES ${PROJECT_BINARY_DIR}/include/cotan/version.hpp DESTINATION ${CMAK
 get_property(includes GLOBAL PROPERTY COTAN_INCLUDES)
 install(DIRECTORY include/cotan ${includes} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/cotan DESTINATION share/cotan/shaders)
-install(FILES LICENSE DESTINATION share/doc/cotan)
+install(FILES LICENSE DESTINATION share/doc/cotan COMPONENT license)
 install(EXPORT cotanTargets NAMESPACE cotan:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)
 
 list(REMOVE_ITEM components portable)

@@ -176,7 +176,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
 {
     a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE").reads();
     a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE").reads();
-    a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME");
+    a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME").offers(frameWords());
     a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
@@ -203,7 +203,8 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option(
          "--high-frame", o.highFrame,
          "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")
-        .in("NAME");
+        .in("NAME")
+        .offers(frameWords());
     a.option("--high-map", o.highMaps,
              "image that takes the place of the high mesh's normal maps; one, or one for each --high")
         .in("FILE")
@@ -211,12 +212,14 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option("--high-convention", o.highConvention,
              "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME");
+        .in("NAME")
+        .offers(presetWords());
     a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention,
              "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
-        .in("NAME");
+        .in("NAME")
+        .offers(presetWords());
     a.option("--unsigned", o.expansion,
              "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
         .from({"exact", "biased"})

@@ -43,13 +43,7 @@ void addOlderName(Arguments& command, const std::string& older, const std::strin
     });
 }
 
-void addExamples(Arguments& command, const std::vector<std::string>& lines)
-{
-    std::string text = "Examples:\n";
-    for (const std::string& line : lines)
-        text += "  " + line + "\n";
-    command.footer(text + "\n" + kExitCodes);
-}
+void addExamples(Arguments& command, const std::vector<std::string>& lines) { command.examples(lines, kExitCodes); }
 
 Status withThreads(int threads, const std::function<Status()>& work)
 {

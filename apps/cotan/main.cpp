@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,10 @@
 #endif
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
+#include "cotan/files/output.hpp"
 #include "cotan/files/sandbox.hpp"
 #include "cotan/model/reader.hpp"
+#include "cotan/terminal/help_files.hpp"
 #include "view_command.hpp"
 
 namespace {
@@ -24,6 +27,18 @@ int fail(const cotan::Error& error)
 {
     std::fputs(fmt::format("cotan: error: {}\n", error.message).c_str(), stderr);
     return int(error.kind);
+}
+
+// The manual's pages and the completion of shells, into a folder as share/ has them. For the build: see CMakeLists.txt.
+cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
+{
+    for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION)) {
+        std::error_code failed; // the file then cannot be written, either
+        std::filesystem::create_directories((folder / file.path).parent_path(), failed);
+        if (cotan::Status written = cotan::writeFileWhole(folder / file.path, file.text); !written)
+            return written;
+    }
+    return cotan::Done{};
 }
 
 // The exit code of a command, once what it printed has arrived.
@@ -46,6 +61,8 @@ int runCommandLine(std::vector<std::string> words)
                            addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
                            addCostCommand, addViewCommand, addBatchCommand})
         add(tool);
+    if (words.size() == 2 && words[0] == "--help-files")
+        return finish(writeHelpFiles(tool, words[1]));
     return finish(tool.run(std::move(words), print));
 }
 

@@ -148,28 +148,34 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
         .required()
         .in("NAME");
-    a.option("--frame", o.frame, "one of " + frameNames()).in("NAME");
+    a.option("--frame", o.frame, "one of " + frameNames()).in("NAME").offers(frameWords());
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
          "three covectors, for any input; readable: another word for total. Default: fused where there is one, but for "
          "smooth")
-        .in("NAME");
+        .in("NAME")
+        .offers({"fused", "total", "readable"});
     a.option("--stage", o.stage,
              "of the frame triangle: fragment, the pixel's part; vertex or mesh, what makes its two vectors there; "
              "compute, both in one. Default: all")
-        .in("NAME");
+        .in("NAME")
+        .offers({"fragment", "vertex", "mesh", "compute"});
     a.option("--preset", o.preset,
              "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
              "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
              "v, exact; for Godot: godot")
-        .in("NAME");
-    a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope").in("N");
-    a.option("--green", o.green, "where green points: along-v or against-v").in("WAY");
+        .in("NAME")
+        .offers(presetWords());
+    a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope")
+        .in("N")
+        .offers({"3", "2", "stereographic", "slope"});
+    a.option("--green", o.green, "where green points: along-v or against-v").in("WAY").offers({"along-v", "against-v"});
     a.option("--unsigned", o.expansion,
              "how a stored value c becomes a number: exact, (255c - 128)/127; exact16, the same for maps of 16 bits; "
              "biased, 2c - 1; signed, as sampled")
-        .in("NAME");
+        .in("NAME")
+        .offers({"exact", "exact16", "biased", "signed"});
     a.option("--uv-sets", o.uvSets,
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
@@ -182,7 +188,15 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")
-        .in("WHO");
+        .in("WHO")
+        .offers({"shader", "caller"});
+    std::vector<std::string> languages, sets = {"all"};
+    for (const shader_text::Language l : shader_text::kLanguages)
+        languages.emplace_back(name(l));
+    for (const shader_text::Set set : shader_text::kSets)
+        sets.emplace_back(name(set));
+    a.find("--lang").offers(std::move(languages));
+    a.find("--set").offers(std::move(sets));
 }
 
 } // namespace

@@ -7,13 +7,15 @@
 
 namespace cotan {
 
-std::string frameNames()
+std::vector<std::string> frameWords()
 {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const FrameInfo& f : frames())
-        names.push_back(f.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+        names.emplace_back(f.name);
+    return names;
 }
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
 Result<Frame> parseFrame(const std::string& text)
 {
@@ -34,7 +36,9 @@ void addTangentsOption(Arguments& a, std::string& tangents, const std::string& h
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
 {
-    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
+    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
+        .in("DEVICE")
+        .offers({"auto", "reference"});
 }
 
 namespace {
@@ -44,7 +48,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.option("--exposure", o.exposure,
              "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
         .above0Or("auto")
-        .in("X|auto");
+        .in("X|auto")
+        .offers({"auto"});
     a.option("--tone-mapping", o.toneMapping,
              "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
@@ -56,6 +61,7 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          "overcast, or "
          "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
         .in("NAME|FILE")
+        .offers({"studio", "overcast", "evening", "none"})
         .reads();
     a.option("--environment-rotation", o.environmentRotation,
              "turn the surroundings counter-clockwise, seen from above")
@@ -91,7 +97,8 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
     a.option("--convention", maps.convention,
              "how that image is stored, or without one how the model's own normal maps are to be read: "
                  + conventionWords())
-        .in("WORDS");
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
         .in("N");
@@ -118,7 +125,7 @@ void addOwnMaps(Arguments& a, OwnMaps& maps)
 
 void addFrameOption(Arguments& a, std::string& frame)
 {
-    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
+    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME").offers(frameWords());
 }
 
 void addShowOption(Arguments& a, std::string& show)
@@ -156,7 +163,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
          "for "
          "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
          "own)")
-        .in("CAMERA");
+        .in("CAMERA")
+        .offers({"front", "fit"});
     addDeviceOption(a, o.device);
     a.option("--edges", o.edges,
              "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")

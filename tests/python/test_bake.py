@@ -91,6 +91,12 @@ def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path)
     expected = cotan.read_picture(tmp_path / "out.png")
     for caged in (cage, files[2]):
         assert (cotan.bake(bumps(4), bumps(40), cage=caged, size=64).map == expected).all()
+    # From 2 above: to as far below, or as far as the rays are told to run.
+    above, flat, below = square(), square(), square()
+    above.positions = above.positions + np.float32((0, 0, 2))
+    below.positions = below.positions - np.float32((0, 0, 1))
+    for reach, missed in ((0, 0), (2.9, 256), (3.1, 0)):
+        assert cotan.bake(flat, below, cage=above, cage_reach=reach, size=16).missed == missed
     with pytest.raises(cotan.InputError, match="cage") as caught:
         cotan.bake(bumps(4), bumps(40), cage=square(), size=8)
     assert caught.value.field == "cage"

@@ -66,6 +66,7 @@ class BakeOptions(Struct):
         (text, "tangents high_normals high_frame high_convention"),
         (size_t, "high_map_count"),
         (pointer, "high_maps mask"),
+        (c.c_float, "cage_reach"),
     )
 
 

@@ -82,6 +82,7 @@ def bake(
     ao_rays: int = 64,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
+    cage_reach: float = 0.0,
     match_by_name: bool = False,
     material: int = -1,
     udim: int = 1001,
@@ -113,6 +114,7 @@ def bake(
         max_distance: how far rays reach to both sides of the low mesh, in units of the positions; 0: 5 % of the
             diagonal of the high mesh.
         cage: the triangles of the low mesh in their order, moved out around both; rays run from it inwards.
+        cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
         match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
         material: number of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
@@ -179,6 +181,7 @@ def bake(
             tile=udim,
             high_map_count=len(pictures),
             high_maps=ctypes.addressof(high_maps) if pictures else None,
+            cage_reach=cage_reach,
             mask=None if mask_picture is None else ctypes.addressof(mask_picture),
             **words,
         )

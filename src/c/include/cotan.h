@@ -41,7 +41,7 @@ typedef enum cotan_status {
     COTAN_STOPPED = 6 /* by the caller's progress function */
 } cotan_status;
 
-/* "0.1.0", and the version of this header that the library was built with: it grows where functions are added. */
+/* "0.2.0", and the version of this header that the library was built with: it grows where functions are added. */
 const char* cotan_version(void);
 int cotan_api_version(void);
 
@@ -283,6 +283,7 @@ typedef struct cotan_bake_options {
     size_t high_map_count;       /* 0, 1, or one for each detailed model */
     const cotan_picture* const* high_maps; /* that take the place of its own */
     cotan_picture* mask; /* of 8 bits and the map's size: gets what became of each texel; null: not wanted */
+    float cage_reach; /* how far rays run from the cage; 0: as far behind the simple model as the cage is before it */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cotan/result.hpp"
+#include "cotan/terminal/command_help.hpp"
 
 namespace CLI {
 class App;
@@ -38,13 +38,19 @@ struct GivenCommand {
 // it unless it is an empty text.
 class Argument {
 public:
-    using FileUses = std::map<const CLI::Option*, FileUse>;
-    Argument(CLI::Option& option, FileUses& uses) : option_(&option), uses_(&uses) {}
+    // What CLI11 does not keep of it.
+    struct Facts {
+        FileUse use = FileUse::none;
+        std::vector<std::string> words; // that it offers
+    };
+    Argument(CLI::Option& option, Facts& facts) : option_(&option), facts_(&facts) {}
 
-    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"
+    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"; see valueKind
     Argument& from(std::initializer_list<std::string> words);
     Argument& from(const std::vector<std::string>& words);
     Argument& from(std::initializer_list<int> numbers);
+    // Words that a shell offers for it; what else it takes is the command's affair.
+    Argument& offers(std::vector<std::string> words);
     Argument& within(int least, int most);
     Argument& within(double least, double most);
     Argument& above0(); // and at most 1e6
@@ -61,7 +67,7 @@ public:
 
 private:
     CLI::Option* option_;
-    FileUses* uses_;
+    Facts* facts_;
 };
 
 // A command, or the tool as a whole.
@@ -82,12 +88,14 @@ public:
     // Words that nobody declared are no error.
     void takesAnything();
 
-    // Ends the help.
-    void footer(const std::string& text);
+    // Ends the help with command lines that work, and a sentence.
+    void examples(std::vector<std::string> lines, const std::string& closing);
     // What the command does; called by run.
     void does(std::function<Status()> work);
 
     std::string name() const;
+    // All that the help says, of this command and those that it has.
+    CommandHelp describe() const;
 
     // Reads the words (without the program's name) and does what they ask for: runs a command, or hands the text of
     // --help and --version to `print`. Errors: ErrorKind::usage, those of the command.
