@@ -75,8 +75,10 @@ file(CONFIGURE OUTPUT ${made}/METADATA CONTENT "Metadata-Version: 2.1\nName: cot
 install(FILES ${made}/METADATA DESTINATION lib/python3/dist-packages/cotan-${PROJECT_VERSION}.dist-info
   COMPONENT python3-cotan EXCLUDE_FROM_ALL)
 
-# What other packages are told of libcotan0. Its symbols are those of the version script, all as old as the first package.
-set(minor ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+# What other packages are told of libcotan0. Its symbols are those of the version script; since when each block is there.
+set(COTAN_1_since 0.2.0)
+set(COTAN_2_since 0.2.0)
+set(COTAN_3_since 0.2.0)
 file(CONFIGURE OUTPUT ${made}/shlibs CONTENT "libcotan @PROJECT_VERSION_MAJOR@ libcotan0 (>= @PROJECT_VERSION@)\n" @ONLY)
 file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n" @ONLY)
 file(READ src/c/cotan.map script)
@@ -86,8 +88,11 @@ foreach(name ${names})
   if(name MATCHES "^(.*) {$")
     set(block ${CMAKE_MATCH_1})
     set(name ${block})
+    if(NOT DEFINED ${block}_since)
+      message(FATAL_ERROR "src/c/cotan.map has ${block}: say in cmake/CotanPackages.cmake since which version it is there")
+    endif()
   endif()
-  string(APPEND symbols " ${name}@${block} 0.2.0\n")
+  string(APPEND symbols " ${name}@${block} ${${block}_since}\n")
 endforeach()
 file(GENERATE OUTPUT ${made}/symbols CONTENT "${symbols}")
 set(CPACK_DEBIAN_LIBCOTAN0_PACKAGE_CONTROL_EXTRA "${made}/shlibs;${made}/symbols;${made}/triggers")
