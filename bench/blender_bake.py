@@ -1,5 +1,6 @@
-# Run by bench/against-blender inside Blender: bakes the normals of HIGH onto LOW (OBJ files) with Cycles and prints
-# the seconds of the bake alone. blender -b --factory-startup -P blender_bake.py -- LOW HIGH SIZE THREADS [FOLDER]
+# Inside Blender: loads LOW and HIGH (OBJ files) for a bake and bakes the normals with Cycles. Run by bench/against-blender
+# it prints the seconds of wall clock and of processor of the bake alone:
+# blender -b --factory-startup -P blender_bake.py -- LOW HIGH SIZE THREADS [FOLDER]
 # FOLDER gets the picture, blender.png, and the meshes as Blender had them, low.obj and high.obj.
 import os
 import resource
@@ -7,10 +8,6 @@ import sys
 import time
 
 import bpy
-
-low_file, high_file, size, threads = sys.argv[sys.argv.index("--") + 1:][:4]
-folder = "".join(sys.argv[sys.argv.index("--") + 5:])
-size, threads = int(size), int(threads)
 
 
 def load(file):
@@ -37,51 +34,73 @@ def load(file):
     return made[0]
 
 
-def keep(thing, name):
+def keep(thing, file):
     bpy.ops.object.select_all(action="DESELECT")
     thing.select_set(True)
-    bpy.ops.wm.obj_export(filepath=os.path.join(folder, name), export_selected_objects=True, export_normals=True,
-                          export_uv=True, export_materials=False)
+    bpy.ops.wm.obj_export(filepath=file, export_selected_objects=True, export_normals=True, export_uv=True,
+                          export_materials=False)
 
 
-bpy.ops.wm.read_factory_settings(use_empty=True)
-scene = bpy.context.scene
-scene.render.engine = "CYCLES"
-scene.cycles.device = "CPU"
-scene.cycles.samples = 1
-scene.cycles.use_denoising = False
-if threads > 0:
-    scene.render.threads_mode = "FIXED"
-    scene.render.threads = threads
-low, high = load(low_file), load(high_file)
+# An empty scene with both meshes, selected for a bake, and an image for Cycles. Gives low, high and the image.
+def prepare(low_file, high_file, size, threads):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.samples = 1
+    scene.cycles.use_denoising = False
+    if threads > 0:
+        scene.render.threads_mode = "FIXED"
+        scene.render.threads = threads
+    low, high = load(low_file), load(high_file)
+    image = bpy.data.images.new("baked", size, size, float_buffer=False)
+    image.colorspace_settings.name = "Non-Color"
+    material = bpy.data.materials.new("low")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.nodes.active = node
+    low.data.materials.clear()
+    low.data.materials.append(material)
+    bpy.ops.object.select_all(action="DESELECT")
+    high.select_set(True)
+    low.select_set(True)
+    bpy.context.view_layer.objects.active = low
+    return low, high, image
 
-image = bpy.data.images.new("baked", size, size, float_buffer=False)
-image.colorspace_settings.name = "Non-Color"
-material = bpy.data.materials.new("low")
-material.use_nodes = True
-node = material.node_tree.nodes.new("ShaderNodeTexImage")
-node.image = image
-material.node_tree.nodes.active = node
-low.data.materials.clear()
-low.data.materials.append(material)
 
-bpy.ops.object.select_all(action="DESELECT")
-high.select_set(True)
-low.select_set(True)
-bpy.context.view_layer.objects.active = low
 # A twentieth of the high mesh's box either way, as `cotan bake` has it.
-reach = 0.05 * sum(d * d for d in high.dimensions) ** 0.5
-start = time.perf_counter()
-processor = resource.getrusage(resource.RUSAGE_SELF)
-bpy.ops.object.bake(type="NORMAL", use_selected_to_active=True, cage_extrusion=reach, max_ray_distance=2 * reach,
-                    margin=0, use_clear=True)
-after = resource.getrusage(resource.RUSAGE_SELF)
-wall = time.perf_counter() - start
-used = after.ru_utime + after.ru_stime - processor.ru_utime - processor.ru_stime
-if folder:
-    image.filepath_raw = os.path.join(folder, "blender.png")
-    image.file_format = "PNG"
-    image.save()
-    keep(low, "low.obj")
-    keep(high, "high.obj")
-print(f"blender-bake {wall:.3f} {used:.3f}")
+def reach_of(high):
+    return 0.05 * sum(d * d for d in high.dimensions) ** 0.5
+
+
+def bake_with_cycles(high):
+    reach = reach_of(high)
+    bpy.ops.object.bake(type="NORMAL", use_selected_to_active=True, cage_extrusion=reach, max_ray_distance=2 * reach,
+                        margin=0, use_clear=True)
+
+
+# Seconds of wall clock and of processor that a call takes.
+def timed(call):
+    start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_SELF)
+    call()
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    return time.perf_counter() - start, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main():
+    low_file, high_file, size, threads = sys.argv[sys.argv.index("--") + 1:][:4]
+    folder = "".join(sys.argv[sys.argv.index("--") + 5:])
+    low, high, image = prepare(low_file, high_file, int(size), int(threads))
+    wall, used = timed(lambda: bake_with_cycles(high))
+    if folder:
+        image.filepath_raw = os.path.join(folder, "blender.png")
+        image.file_format = "PNG"
+        image.save()
+        keep(low, os.path.join(folder, "low.obj"))
+        keep(high, os.path.join(folder, "high.obj"))
+    print(f"blender-bake {wall:.3f} {used:.3f}")
+
+
+if __name__ == "__main__":
+    main()

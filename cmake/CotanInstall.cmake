@@ -15,6 +15,7 @@ set(COTAN_PACKAGE_nlohmann_json::nlohmann_json "nlohmann_json")
 set(COTAN_PACKAGE_PNG::PNG "PNG")
 set(COTAN_PACKAGE_JPEG::JPEG "JPEG")
 set(COTAN_PACKAGE_WebP::webp "WebP")
+set(COTAN_PACKAGE_XxHash::xxhash "XxHash")
 set(COTAN_PACKAGE_zstd::libzstd_shared "zstd CONFIG")
 set(COTAN_PACKAGE_ZLIB::ZLIB "ZLIB")
 set(COTAN_PACKAGE_assimp::assimp "assimp")
@@ -27,6 +28,7 @@ set(COTAN_PC_fmt::fmt "fmt")
 set(COTAN_PC_PNG::PNG "libpng")
 set(COTAN_PC_JPEG::JPEG "libjpeg")
 set(COTAN_PC_WebP::webp "libwebp" "libwebpmux")
+set(COTAN_PC_XxHash::xxhash "libxxhash")
 set(COTAN_PC_zstd::libzstd_shared "libzstd")
 set(COTAN_PC_ZLIB::ZLIB "zlib")
 set(COTAN_PC_assimp::assimp "assimp")
@@ -126,4 +128,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cotanConfig.cmake ${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   cmake/FindWebP.cmake
+  cmake/FindXxHash.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)

@@ -241,5 +241,24 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
               "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
 }
 
+TEST(BakeModel, positionsFromWhichNoRayCanStartAreRefused)
+{
+    // Finite all of them; Embree would end the program.
+    const Scene flat = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}),
+                far = sceneOfMeshes({square({0, 0, 1e20f}, {1, 0, 0})});
+    EXPECT_EQ(errorOf(bakeModel(far, highOf(flat), smallOptions())),
+              "low: expected positions up to 1e+17 from the origin; found 1e+20");
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(far), smallOptions())),
+              "high: expected positions up to 1e+17 from the origin; found 1e+20");
+    BakeModelOptions options = smallOptions();
+    options.cage = &far;
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
+              "options.cage: expected positions up to 1e+17 from the origin; found 1e+20");
+    options.cage = nullptr;
+    options.bake.maxDistance = 1e20f;
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
+              "options.maxDistance: expected at most 1e+17; found 1e+20");
+}
+
 } // namespace
 } // namespace cotan

@@ -236,6 +236,19 @@ TEST(RaysByHand, aCageReachesAsFarBehindTheLowSurfaceAsInFront)
     }
 }
 
+TEST(RaysByHand, aCagesRaysRunAsFarAsTheyAreTold)
+{
+    BakeOptions options = small(4, 4);
+    options.kind = BakeKind::height;
+    const Scene low = sceneOfMeshes({unitSquare(0)});
+    for (const glm::vec3& p : low.meshes[0].positions)
+        options.cage.push_back(p + glm::vec3(0, 0, 1));
+    options.cageReach = 3;
+    for (const auto& [height, found] : {std::pair(0.8f, true), std::pair(-1.9f, true), std::pair(-2.1f, false)})
+        EXPECT_EQ(bakeScenes(low, sceneOfMeshes({unitSquare(height)}), options).statistics.missed, found ? 0u : 16u)
+            << height;
+}
+
 TEST(RaysByHand, theDistanceIsFivePercentOfTheHighSurfacesBoxUnlessGiven)
 {
     BakeOptions options = small(4, 4);

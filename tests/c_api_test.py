@@ -435,6 +435,8 @@ if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="fil
     cotan.cotan_image_free(made)
     wanted.words[1] = b"8"
     assert "--size: expected WxH" in call("cotan_render", None, c.c_size_t(0), None, c.byref(wanted), c.byref(made), None, expect=1)
+    call("cotan_set_reader", c.c_size_t(0), None)
+    assert "words: expected an array" in call("cotan_set_reader", c.c_size_t(1), None, expect=1)
     assert "no such file" in call("cotan_model_open", b"/nowhere/a.glb", c.c_int(1), c.c_int(0), c.byref(made), expect=2)
     assert "no such file" in call("cotan_image_read", b"/nowhere/a.png", c.c_int(0), c.byref(made), expect=2)
 

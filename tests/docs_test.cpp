@@ -100,7 +100,8 @@ TEST(Documents, everyLinkLeadsToAFileAndAHeading)
 std::string wholeSource()
 {
     std::string all;
-    for (const char* folder : {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench", "fuzz"})
+    for (const char* folder :
+         {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench", "bindings", "fuzz"})
         for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
             if (entry.is_regular_file() && entry.path().extension() != ".md"
                 && entry.path().filename() != "docs_test.cpp" && entry.file_size() < (1u << 20))
@@ -114,8 +115,9 @@ TEST(Documents, everyNameInThemIsInTheSources)
     const std::string sources = wholeSource();
     const std::regex name(R"(`([A-Z][a-z0-9]+[A-Z][A-Za-z0-9]*|cotan_[a-z0-9_]+|COTAN_[A-Z0-9_]+)[(`])");
     // Words of other programs and formats.
-    const std::set<std::string> foreign = {"UpperCamel", "GLTFLoader",     "UnpackNormal",    "WebGLRenderer",
-                                           "Cotan_half", "ShaderMaterial", "COTAN_BENCHMARKS"};
+    const std::set<std::string> foreign = {"UpperCamel",       "GLTFLoader", "UnpackNormal",
+                                           "WebGLRenderer",    "Cotan_half", "ShaderMaterial",
+                                           "COTAN_BENCHMARKS", "ValueError", "RuntimeError"};
     std::size_t checked = 0;
     for (const fs::path& file : documents())
         for (const std::string& word : matches(readWhole(file), name, 1)) {

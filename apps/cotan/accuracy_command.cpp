@@ -172,8 +172,10 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
         .in("DEVICE")
         .offers({"auto", "reference", "none"});
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
-    a.option("--csv", o.csv, "write all figures as CSV").in("FILE");
-    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
+    a.option("--csv", o.csv, "write all figures as CSV").in("FILE").writes();
+    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse")
+        .in("FILE")
+        .reads();
     a.flag("--list", o.list, "print the names of the tables and stop");
 }
 

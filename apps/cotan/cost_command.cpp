@@ -84,7 +84,7 @@ void declare(Arguments& a, CostCommandOptions& o)
     a.flag("--no-timing", o.noTiming, "measure no times");
     a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
     a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000);
-    a.option("--csv", o.csv, "write every number, one per line").in("FILE");
+    a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes();
 }
 
 } // namespace

@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#ifdef COTAN_WITH_BATCH
+#include "cotan/batch/child.hpp"
+#endif
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
 #include "cotan/files/output.hpp"
@@ -54,9 +57,9 @@ int runCommandLine(std::vector<std::string> words)
     using namespace cotan::app;
     cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    for (const auto add :
-         {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,
-          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand, addViewCommand})
+    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
+                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
+                           addCostCommand, addViewCommand, addBatchCommand})
         add(tool);
     if (words.size() == 2 && words[0] == "--help-files")
         return finish(writeHelpFiles(tool, words[1]));
@@ -72,6 +75,10 @@ int main(int argc, char** argv)
     cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
+#ifdef COTAN_WITH_BATCH
+        if (cotan::isJobProcess(argc, argv))
+            return cotan::runJobProcess(argc, argv, runCommandLine);
+#endif
         return runCommandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({cotan::ErrorKind::unavailable, "not enough memory"});

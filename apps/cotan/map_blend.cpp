@@ -91,13 +91,13 @@ Status run(const MapBlendCommandOptions& o)
 void declare(Arguments& a, MapBlendCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("BASE", o.base, "the base map").required();
-    a.option("DETAIL", o.detail, "the detail map").required();
+    a.option("BASE", o.base, "the base map").required().reads();
+    a.option("DETAIL", o.detail, "the detail map").required().reads();
     a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear")
         .offers({"reoriented", "whiteout", "udn", "slopes", "linear"});
     a.option("--strength", o.strength, "factor on the detail's slopes");
     a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]");
-    a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE");
+    a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE").reads();
     a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
     a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given")
         .in("WORDS")

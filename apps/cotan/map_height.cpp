@@ -172,7 +172,7 @@ Status runTo(const MapToHeightCommandOptions& o)
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "heights: grey, or the red channel").required();
+    a.option("FILE", o.file, "heights: grey, or the red channel").required().reads();
     a.option("--to", o.convention, "how to store the map: " + conventionWords())
         .in("WORDS")
         .offers(conventionWordList());
@@ -193,7 +193,7 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
+    a.option("FILE", o.file, "the map").required().reads();
     a.option("--from", o.convention, "how the map is stored: " + conventionWords())
         .in("WORDS")
         .offers(conventionWordList());

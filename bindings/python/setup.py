@@ -7,15 +7,19 @@ import setuptools
 from wheel.bdist_wheel import bdist_wheel
 
 
+FOLDER = pathlib.Path(__file__).parent / "cotan"
+CARRIED = [file for name in ("libcotan*", "cotan.dll") for file in FOLDER.glob(name)]
+
+
+class Distribution(setuptools.Distribution):
+    def has_ext_modules(self):
+        return bool(CARRIED)
+
+
 class Wheel(bdist_wheel):
-    def finalize_options(self):
-        super().finalize_options()
-        folder = pathlib.Path(__file__).parent / "cotan"
-        self.root_is_pure = not any(f for name in ("libcotan*", "cotan.dll") for f in folder.glob(name))
-
     def get_tag(self):
-        python, abi, platform = super().get_tag()
-        return ("py3", "none", "any" if self.root_is_pure else platform)
+        platform = super().get_tag()[2]
+        return ("py3", "none", platform if CARRIED else "any")
 
 
-setuptools.setup(cmdclass={"bdist_wheel": Wheel})
+setuptools.setup(distclass=Distribution, cmdclass={"bdist_wheel": Wheel})

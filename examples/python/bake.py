@@ -12,21 +12,25 @@ import cotan
 
 
 def read_obj(file):
-    """The triangles of an OBJ file whose corners are v/vt/vn, one vertex for each different corner."""
-    rows = {"v": [], "vt": [], "vn": [], "f": []}
+    """The mesh in an OBJ file: one vertex for each different corner v/vt/vn, polygons cut into fans."""
+    rows, corners = {"v": [], "vt": [], "vn": []}, []
     with open(file, encoding="utf-8") as lines:
         for line in lines:
             word, *values = line.split() or [""]
             if word in rows:
-                rows[word].append([value.split("/") for value in values] if word == "f" else values)
-    corners = np.array(rows["f"], int).reshape(-1, 3) - 1  # three numbers a corner, counted from 1
-    corners, indices = np.unique(corners, axis=0, return_inverse=True)
-    positions, texcoords, normals = (np.array(rows[word], np.float32) for word in ("v", "vt", "vn"))
+                rows[word].append(values)
+            elif word == "f":
+                face = [[int(number or 0) for number in (corner + "//").split("/")[:3]] for corner in values]
+                for second, third in zip(face[1:], face[2:]):
+                    corners += [face[0], second, third]
+    corners, indices = np.unique(np.array(corners, int), axis=0, return_inverse=True)
+    v, vt, vn = (np.array(rows[word], np.float32) for word in ("v", "vt", "vn"))
+    has_vt, has_vn = (corners[:, 1:] > 0).all(axis=0)  # numbers count from 1; 0: left out
     return cotan.Mesh(
-        positions=positions[corners[:, 0]],
+        positions=v[corners[:, 0] - 1],
         indices=indices,
-        normals=normals[corners[:, 2]],
-        texcoords=texcoords[corners[:, 1]] * [1, -1] + [0, 1],  # v of OBJ runs up
+        normals=vn[corners[:, 2] - 1] if has_vn else None,
+        texcoords=vt[corners[:, 1] - 1] * [1, -1] + [0, 1] if has_vt else None,  # v of OBJ runs up
     )
 
 
@@ -44,7 +48,9 @@ def main(low, high, out):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit("usage: bake.py LOW.obj HIGH.obj MAP.png")
     try:
         main(*sys.argv[1:])
-    except cotan.Error as error:
+    except (cotan.Error, OSError) as error:
         sys.exit(f"bake.py: {error}")

@@ -56,7 +56,7 @@ public:
         if (options_.cage.empty())
             high_.nearest(probes, lift_, options_.highNormals, hits);
         else
-            high_.outermost(probes, options_.highNormals, hits);
+            high_.outermost(probes, options_.cageReach, options_.highNormals, hits);
         if (options_.highMaps && showsNormals(options_.kind))
             for (std::size_t i = 0; i < probes.count; ++i)
                 if (hits.found(i))

@@ -336,12 +336,12 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
     state_->findNormals(probes, normals, hits);
 }
 
-void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
+void HighSurface::outermost(const Probes& probes, float length, HighNormals normals, Hits& hits) const
 {
     RTCIntersectContext context = contextFor(probes);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
-        farthest[i] = 2 * probes.reach[i];
+        farthest[i] = length > 0 && probes.reach[i] > 0 ? length : 2 * probes.reach[i];
     Packet packet(probes, probes.reach, -1, farthest);
     packet.trace(state_->scene, context);
     for (std::size_t i = 0; i < kLanes; ++i)

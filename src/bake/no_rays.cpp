@@ -20,7 +20,7 @@ void HighSurface::curve(int) {}
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
 void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
-void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
+void HighSurface::outermost(const Probes&, float, HighNormals, Hits&) const {}
 bool HighSurface::blocked(const Ray&) const { return false; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }

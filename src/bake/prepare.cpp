@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ namespace cotan {
 namespace {
 
 constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
+constexpr float kFarthest = 1e17f;  // model units: Embree ends the program for rays that start beyond 1.8e18
 
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
@@ -22,6 +24,9 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
         return usageError(
             fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
+    if (!(b.maxDistance <= kFarthest))
+        return usageError(
+            fmt::format("options.maxDistance: expected at most {:g}; found {:g}", kFarthest, b.maxDistance));
     if (options.material >= int(low.materials.size()))
         return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1,
                                       options.material));
@@ -57,6 +62,17 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface
     for (std::size_t i = 0; i < corners.size(); ++i)
         positions[low.indices[i]] = corners[i];
     return positions;
+}
+
+// Whether rays can start at these points.
+Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
+{
+    for (const glm::vec3& p : points)
+        for (const float x : {p.x, p.y, p.z})
+            if (!(std::abs(x) <= kFarthest))
+                return inputError(
+                    fmt::format("{}: expected positions up to {:g} from the origin; found {:g}", what, kFarthest, x));
+    return Done{};
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
@@ -145,6 +161,10 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
     if (!highSurface)
         return highSurface.error();
+    for (const Status& placed : {checkPlaces(lowSurface->positions, "low"), checkPlaces(cage, "options.cage"),
+                                 checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+        if (!placed)
+            return placed.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = nullptr;

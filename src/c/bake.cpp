@@ -60,6 +60,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
 {
     BakeModelOptions options;
     require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
+    require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
     require(o.threads >= 0, "options.threads: expected 0 or more");
     require(o.padding >= -1, "options.padding: expected -1 or more");
     require(o.occlusion_rays >= 0 && o.occlusion_rays <= 1 << 16, "options.occlusion_rays: expected 0 to 65536");
@@ -73,6 +74,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     b.height = map.height;
     b.samples = o.samples != 0 ? o.samples : 1;
     b.maxDistance = o.max_distance;
+    b.cageReach = o.cage_reach;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
     b.threads = o.threads;
     options.tiles = {o.tile != 0 ? o.tile : 1001};
@@ -127,8 +129,8 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
         HighModel model;
-        model.scenes.push_back(sceneOf({meshOf(detailed)}));
-        bakeInto(sceneOf({meshOf(simple)}), std::move(model), options, map, result, nullptr);
+        model.scenes.push_back(sceneOf({meshOf(detailed)}, "high"));
+        bakeInto(sceneOf({meshOf(simple)}, "low"), std::move(model), options, map, result, nullptr);
     });
 }
 

@@ -1,6 +1,7 @@
 // cotan.h: models and pictures in files.
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
+#include "cotan/model/reader.hpp"
 #include "cotan/picture/options.hpp"
 #include "models.hpp"
 #include "pictures.hpp"
@@ -29,6 +30,24 @@ cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_
         *model = new cotan_model{std::move(scene), std::move(warnings)};
     });
 }
+
+cotan_status cotan_set_reader(size_t count, const char* const* words, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(words || count == 0, "words: expected an array, found null");
+        Sandbox reader;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::string_view given = word(words[i], "words");
+            if (i == 0)
+                reader.program = given;
+            else
+                reader.arguments.emplace_back(given);
+        }
+        sandboxByDefault(std::move(reader));
+    });
+}
+
+int cotan_reader_process(void) { return runReaderProcess(); }
 
 cotan_status cotan_image_read(const char* file, int memory, cotan_image** image, char* message, size_t message_size)
 {

@@ -26,6 +26,7 @@ cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes
                 generateNormals(mesh);
             made.push_back(std::move(mesh));
         }
-        *model = new cotan_model{sceneOf(std::move(made)), {}};
+        const std::string name = made.empty() || made[0].name.empty() ? "meshes" : made[0].name;
+        *model = new cotan_model{sceneOf(std::move(made), name), {}};
     });
 }

@@ -26,10 +26,11 @@ inline Mesh meshOf(const cotan_mesh& m)
     return mesh;
 }
 
-// A scene of such meshes, each placed once.
-inline Scene sceneOf(std::vector<Mesh> meshes)
+// A scene of such meshes, each placed once. name: for messages.
+inline Scene sceneOf(std::vector<Mesh> meshes, const std::string& name)
 {
     Scene scene;
+    scene.name = name;
     scene.materials.resize(1);
     scene.instances.resize(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i)

@@ -19,6 +19,13 @@ cotan_status cotan_model_open(const char*, int, int, cotan_model**, char* messag
     return refused(noFiles(), message, message_size);
 }
 
+cotan_status cotan_set_reader(size_t, const char* const*, char* message, size_t message_size)
+{
+    return refused(noFiles(), message, message_size);
+}
+
+int cotan_reader_process(void) { return COTAN_UNAVAILABLE; }
+
 cotan_status cotan_image_read(const char*, int, cotan_image**, char* message, size_t message_size)
 {
     return refused(noFiles(), message, message_size);

@@ -61,7 +61,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          "overcast, or "
          "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
         .in("NAME|FILE")
-        .offers({"studio", "overcast", "evening", "none"});
+        .offers({"studio", "overcast", "evening", "none"})
+        .reads();
     a.option("--environment-rotation", o.environmentRotation,
              "turn the surroundings counter-clockwise, seen from above")
         .within(-360.0, 360.0)
@@ -91,7 +92,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
 void addOwnNormalMap(Arguments& a, OwnMaps& maps)
 {
     a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
-        .in("FILE");
+        .in("FILE")
+        .reads();
     a.option("--convention", maps.convention,
              "how that image is stored, or without one how the model's own normal maps are to be read: "
                  + conventionWords())
@@ -107,11 +109,16 @@ namespace {
 void addOwnMaps(Arguments& a, OwnMaps& maps)
 {
     addOwnNormalMap(a, maps);
-    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB").in("FILE");
+    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB")
+        .in("FILE")
+        .reads();
     a.option("--metallic-roughness", maps.metallicRoughness,
              "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
-        .in("FILE");
-    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's").in("FILE");
+        .in("FILE")
+        .reads();
+    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's")
+        .in("FILE")
+        .reads();
 }
 
 } // namespace
@@ -134,7 +141,8 @@ void addShowOption(Arguments& a, std::string& show)
 
 void addPictureOptions(Arguments& a, PictureOptions& o)
 {
-    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
+    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
+        .reads();
     a.option("--shape", o.shape, "without MODEL: a shape to look at maps on: plane, sphere, torus or teapot")
         .from({"plane", "sphere", "torus", "teapot"})
         .in("NAME");

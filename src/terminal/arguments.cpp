@@ -88,13 +88,13 @@ Argument& Argument::from(std::initializer_list<int> numbers)
 {
     option_->check(CLI::IsMember(numbers));
     for (const int number : numbers)
-        words_->push_back(std::to_string(number));
+        facts_->words.push_back(std::to_string(number));
     return *this;
 }
 
 Argument& Argument::offers(std::vector<std::string> words)
 {
-    *words_ = std::move(words);
+    facts_->words = std::move(words);
     return *this;
 }
 
@@ -123,6 +123,18 @@ Argument& Argument::above0Or(const std::string& word)
         const std::string wrong = text == word ? "" : positiveNumber(text);
         return wrong.empty() ? "" : "expected " + word + " or " + wrong.substr(wrong.find(' ') + 1);
     });
+    return *this;
+}
+
+Argument& Argument::reads()
+{
+    facts_->use = FileUse::reads;
+    return *this;
+}
+
+Argument& Argument::writes()
+{
+    facts_->use = FileUse::writes;
     return *this;
 }
 
@@ -164,7 +176,7 @@ int Argument::count() const { return int(option_->count()); }
 struct Arguments::Tool {
     CLI::App app;
     std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
-    std::map<const CLI::Option*, std::vector<std::string>> words;
+    std::map<const CLI::Option*, Argument::Facts> facts;
     struct Ending {
         std::vector<std::string> examples;
         std::string closing;
@@ -178,7 +190,7 @@ struct Arguments::Tool {
         help.summary = command.get_description();
         for (const CLI::Option* option : command.get_options())
             if (!option->get_group().empty())
-                help.options.push_back(helpOf(*option, words[option]));
+                help.options.push_back(helpOf(*option, facts[option].words));
         for (const CLI::App* inner : commandsOf(command))
             help.commands.push_back(describe(*inner));
         help.examples = endings[&command].examples;
@@ -210,7 +222,7 @@ template<class Value> Argument Arguments::option(const std::string& names, Value
         empty = value.empty();
     if (!empty)
         option->capture_default_str();
-    return Argument(*option, tool_->words[option]);
+    return Argument(*option, tool_->facts[option]);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -228,7 +240,7 @@ void Arguments::flag(const std::string& name, bool& value, const std::string& he
 Argument Arguments::find(const std::string& name)
 {
     CLI::Option* option = app_->get_option(name);
-    return Argument(*option, tool_->words[option]);
+    return Argument(*option, tool_->facts[option]);
 }
 
 void Arguments::takesAnything() { app_->allow_extras(); }
@@ -248,7 +260,8 @@ std::string Arguments::name() const { return app_->get_name(); }
 
 CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 
-Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+// help: the text of --help or --version, where that is asked for.
+Status Arguments::read(std::vector<std::string> words, std::string& help) const
 {
     if (Status known = checkCommandWords(namesOf(*app_), words); !known)
         return known;
@@ -256,20 +269,54 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
         std::ranges::reverse(words); // CLI11 takes them from the back
         app_->parse(std::move(words));
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) { // help or version
+        if (e.get_exit_code() == 0) {
             std::ostringstream text;
             app_->exit(e, text, text);
-            print(text.str());
+            help = text.str();
             return Done{};
         }
         std::string message = e.what();
         std::ranges::replace(message, '\n', ' ');
         return usageError(message + " (see --help)");
     }
+    return Done{};
+}
+
+Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known;
+    if (!help.empty()) {
+        print(help);
+        return Done{};
+    }
     for (const auto& [app, work] : tool_->works)
         if (app->parsed())
             return work();
     return usageError("expected a command; found none");
+}
+
+Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known.error();
+    if (!help.empty())
+        return usageError("expected a command that does something; found --help or --version");
+    GivenCommand given;
+    const CLI::App* app = app_;
+    while (!app->get_subcommands().empty()) { // those that were given
+        app = app->get_subcommands().front();
+        given.name += (given.name.empty() ? "" : " ") + app->get_name();
+        for (const CLI::Option* option : app->get_options())
+            if (option->count() > 0)
+                given.options.push_back(
+                    {option->get_single_name(), option->results(), tool_->facts[option].use});
+    }
+    if (given.name.empty())
+        return usageError("expected a command; found none");
+    return given;
 }
 
 } // namespace cotan

@@ -129,9 +129,24 @@ def test_what_the_library_refuses_has_the_same_parts():
     refused(cotan.UsageError, "kind", lambda: cotan.bake(square(), slope(0), size=8, kind="nonsense"))
     refused(cotan.UsageError, "samples", lambda: cotan.bake(square(), slope(0), size=8, samples=3))
     refused(cotan.UsageError, "max_distance", lambda: cotan.bake(square(), slope(0), size=8, max_distance=-1))
-    refused(cotan.UsageError, "size", lambda: cotan.bake(square(), slope(0), size=65537))
+    refused(cotan.UsageError, "size", lambda: cotan.bake(square(), slope(0), size=16385))
+    refused(cotan.UsageError, "size", lambda: cotan.bake(square(), slope(0), size=8.5))
     refused(cotan.UsageError, "size", lambda: cotan.bake(square(), slope(0), size="8"))
     refused(cotan.UsageError, "convention", lambda: cotan.bake(square(), slope(0), size=8, convention="nonsense"))
+
+
+@pytest.mark.parametrize("value", [-2, 2**32, 2**70, 0.5, "8", None, float("nan")])
+@pytest.mark.parametrize("field", ["threads", "padding", "ao_rays", "material", "udim", "memory"])
+def test_integers_are_never_cut(field, value):
+    files = ("missing.obj", "missing.obj") if field == "memory" else (square(), slope(0))
+    refused(cotan.UsageError, field, lambda: cotan.bake(*files, size=8, **{field: value}))
+
+
+def test_floats_are_finite_numbers():
+    for value in (float("nan"), float("inf"), "x", None, [1]):
+        refused(cotan.UsageError, "max_distance", lambda: cotan.bake(square(), slope(0), size=8, max_distance=value))
+        refused(cotan.UsageError, "distance", lambda: cotan.lint(cotan.Model(square()), distance=value))
+        refused(cotan.UsageError, "scale_x", lambda: cotan.map_from_height(np.zeros((4, 4)), value))
 
 
 def test_numbers_that_are_none_are_refused_where_they_would_spread():
@@ -168,3 +183,10 @@ def test_errors_survive_pickle():
     error = refused(cotan.UsageError, "positions", lambda: cotan.Mesh(P[:, :2], I))
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and vars(again) == vars(error) and str(again) == str(error)
+
+
+def test_results_print_in_a_line_and_meshes_compare_by_identity():
+    mesh = square("panel")
+    assert repr(mesh) == "Mesh(name='panel', vertices=4, triangles=2)"
+    assert mesh == mesh and mesh != square("panel") and {mesh: 1}[mesh] == 1
+    assert len(repr(cotan.bake(mesh, slope(0), size=64))) < 300

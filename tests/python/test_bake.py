@@ -91,6 +91,12 @@ def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path)
     expected = cotan.read_picture(tmp_path / "out.png")
     for caged in (cage, files[2]):
         assert (cotan.bake(bumps(4), bumps(40), cage=caged, size=64).map == expected).all()
+    # From 2 above: to as far below, or as far as the rays are told to run.
+    above, flat, below = square(), square(), square()
+    above.positions = above.positions + np.float32((0, 0, 2))
+    below.positions = below.positions - np.float32((0, 0, 1))
+    for reach, missed in ((0, 0), (2.9, 256), (3.1, 0)):
+        assert cotan.bake(flat, below, cage=above, cage_reach=reach, size=16).missed == missed
     with pytest.raises(cotan.InputError, match="cage") as caught:
         cotan.bake(bumps(4), bumps(40), cage=square(), size=8)
     assert caught.value.field == "cage"
@@ -149,3 +155,18 @@ def test_the_examples_map_is_the_command_lines(source, command, tmp_path):
         sys.argv = words
     command("bake", "--low", low, "--high", high, "--size", "512x512", "-o", tmp_path / "out.png")
     assert (cotan.read_picture(tmp_path / "example.png") == cotan.read_picture(tmp_path / "out.png")).all()
+
+
+def test_what_is_wrong_in_meshes_names_the_keyword_or_the_mesh():
+    bare, flat = square("panel_low"), np.full((4, 4, 3), 128, np.uint8)
+    bare.texcoords = None
+    for call, field in (
+        (lambda: cotan.bake([square(), bare], slope(0.1), size=8), "low"),
+        (lambda: cotan.bake(square("a_low"), slope(0.1), size=8, match_by_name=True), "match_by_name"),
+        (lambda: cotan.bake(square(), slope(0.1, "bumps"), size=8, high_normals="map", high_map=flat), "bumps"),
+        (lambda: cotan.bake(square(), slope(0.1), size=8, high_normals="map"), "meshes"),
+        (lambda: cotan.bake(cotan.Model(bare), slope(0.1), size=8), "panel_low"),
+    ):
+        with pytest.raises(cotan.InputError) as caught:
+            call()
+        assert caught.value.field == field, str(caught.value)

@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -191,3 +193,93 @@ def test_models_keep_their_warnings(model):
     loaded, expected = cotan.load(model), cotan.lint(model).report["warnings"]
     assert loaded.warnings == expected
     assert isinstance(np.array(loaded.warnings), np.ndarray)
+
+
+def test_the_callers_own_readers_and_writers_are_asked(model, tmp_path):
+    expected = cotan.convert(model).glb
+    asked = []
+
+    def decode(name, content):
+        asked.append(name)
+        (tmp_path / "asked.png").write_bytes(content)
+        return cotan.read_picture(tmp_path / "asked.png")
+
+    def encode(picture):
+        asked.append(picture.shape)
+        cotan.write_picture(tmp_path / "written.png", picture)
+        return (tmp_path / "written.png").read_bytes()
+
+    converted = cotan.convert(model, decode=decode, encode=encode)
+    assert asked[0].endswith("the%20map.png") and asked[1:] == [(8, 8, 4)]
+    (tmp_path / "a.glb").write_bytes(expected)
+    (tmp_path / "b.glb").write_bytes(converted.glb)
+    assert cotan.lint(tmp_path / "a.glb").cotangent_degrees == cotan.lint(tmp_path / "b.glb").cotangent_degrees
+
+    def broken(*_):
+        raise ZeroDivisionError
+
+    for own in ({"decode": broken}, {"encode": broken}):
+        with pytest.raises(ZeroDivisionError):
+            cotan.convert(model, **own)
+    with pytest.raises(cotan.UsageError, match="decode: expected shape"):
+        cotan.convert(model, decode=lambda name, content: np.zeros(3, np.uint8))
+
+
+def test_conversion_in_two_steps_is_that_in_one(model, tmp_path):
+    def png(picture):
+        cotan.write_picture(tmp_path / "step.png", picture)
+        return (tmp_path / "step.png").read_bytes()
+
+    conversion = cotan.Conversion(model)
+    assert [p.shape for p in conversion.pictures] == [(8, 8, 4)]
+    with pytest.raises(cotan.UsageError):
+        conversion.end()
+    with pytest.raises(cotan.UsageError):
+        conversion.set(1, b"")
+    conversion.set(0, png(conversion.pictures[0]))
+    steps, whole = conversion.end(), cotan.convert(model, encode=png)
+    assert len(steps.glb) == len(whole.glb) and steps.worst_degrees_after == whole.worst_degrees_after
+    assert steps.report["maps"] == whole.report["maps"]
+
+
+def test_the_pictures_of_a_model_are_listed_as_they_are_stored(model, tmp_path):
+    stored = (tmp_path / "the map.png").read_bytes()
+    for maps_only in (False, True):
+        assert [content for _, content in cotan.model_pictures(model, maps_only)] == [stored]
+
+
+def run(program):
+    """What a Python of its own prints; it must come to its end."""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+LOAD = """
+import cotan, ctypes, sys
+from cotan._library import library
+{before}
+try:
+    cotan.load({file!r})
+    print("read")
+except cotan.Error as error:
+    print(type(error).__name__, error.file, str(error))
+"""
+
+
+def test_a_reader_that_ends_costs_one_line(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    file = str(tmp_path / "a.obj")
+    assert run(LOAD.format(before="", file=file)) == "read\n"
+    before = 'library().cotan_set_reader(1, (ctypes.c_char_p * 1)(b"/bin/false"), None, 0)'
+    said = run(LOAD.format(before=before, file=file))
+    assert said.startswith(f"InputError {file} {file}: the reader of OBJ files") and said.count("\n") == 1, said
+    assert run(LOAD.format(before="library(); library().cotan_set_reader(0, None, None, 0)", file=file)) == "read\n"
+
+
+def test_a_file_that_crashes_its_reader_is_an_input_error(data):
+    file = str(data / "found/cycle.fbx")
+    if not os.path.exists(file):
+        pytest.skip(f"skipped: {file} is not there")
+    said = run(LOAD.format(before="", file=file))
+    assert said.startswith(f"InputError {file} ") and said.count("\n") == 1, said

@@ -14,6 +14,7 @@ call `progress` on the thread that called them, and end at Ctrl-C. Everything th
 from ._library import library_path, library_version
 from ._version import __version__
 from .baking import Baked, bake
+from .conversion import Conversion, model_pictures
 from .errors import Error, InputError, LimitError, OutputError, StoppedError, UnavailableError, UsageError
 from .geometry import (
     Mesh,
@@ -50,4 +51,55 @@ from .pictures import read_picture, write_picture
 from .rendering import render
 from .shaders import shader
 
-__all__ = [name for name in dir() if not name.startswith("_")]
+__all__ = [
+    "Baked",
+    "Conversion",
+    "Converted",
+    "Error",
+    "Green",
+    "InputError",
+    "Level",
+    "LimitError",
+    "Lint",
+    "MapInfo",
+    "Mesh",
+    "Model",
+    "OutputError",
+    "StoppedError",
+    "UnavailableError",
+    "UsageError",
+    "bake",
+    "convert",
+    "describe",
+    "detect",
+    "frame_apply",
+    "frame_encode",
+    "frames",
+    "library_path",
+    "library_version",
+    "lint",
+    "load",
+    "map_blend",
+    "map_convert",
+    "map_from_height",
+    "map_mips",
+    "map_to_height",
+    "model_pictures",
+    "pack_smooth4",
+    "pack_smooth8",
+    "pack_tangents",
+    "pack_triangles",
+    "provoking",
+    "read_picture",
+    "render",
+    "shader",
+    "smooth_cotangents",
+    "split_mirrored",
+    "split_vertices",
+    "tangents",
+    "triangle_vectors",
+    "vertex_frame_apply",
+    "vertex_frame_encode",
+    "write_picture",
+    "__version__",
+]

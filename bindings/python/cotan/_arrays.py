@@ -1,5 +1,7 @@
 """What callers give as the arrays that the library reads: no copy where dtype and layout fit already."""
 
+import math
+import operator
 import os
 
 import numpy as np
@@ -100,17 +102,47 @@ def dtype_of(bits, field="bits"):
     return DTYPES[bits]
 
 
+def integer(value, field, least, most):
+    """An int from `least` to `most`: ctypes would cut larger ones."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise wrong(field, f"an integer from {least} to {most}", repr(value)) from None
+    if not least <= number <= most:
+        raise wrong(field, f"{least} to {most}", number)
+    return number
+
+
+def number(value, field):
+    """A finite float."""
+    try:
+        given = float(value)
+    except (TypeError, ValueError):
+        raise wrong(field, "a number", repr(value)) from None
+    if not math.isfinite(given):
+        raise wrong(field, "a finite number", given)
+    return given
+
+
+def threads_of(threads):
+    return integer(threads, "threads", 0, 1024)
+
+
+def memory_of(memory):
+    return integer(memory, "memory", 1, 65536)
+
+
 def size_of(size):
     """(width, height) of 1024, (1024, 512) or "1024x512"."""
     if isinstance(size, str):
         size = size.split("x")
     try:
         width, height = (size, size) if np.ndim(size) == 0 else size
-        width, height = int(width), int(height)
+        width, height = (int(s) if isinstance(s, str) else operator.index(s) for s in (width, height))
     except (TypeError, ValueError):
         raise wrong("size", "a number, (width, height) or 'WxH'", repr(size)) from None
-    if not (1 <= width <= 65536 and 1 <= height <= 65536):
-        raise wrong("size", "1 to 65536 a side", f"{width} x {height}")
+    if not (1 <= width <= 16384 and 1 <= height <= 16384):
+        raise wrong("size", "1 to 16384 a side", f"{width} x {height}")
     return width, height
 
 

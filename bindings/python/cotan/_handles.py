@@ -15,9 +15,21 @@ def array_of(image):
     """A picture of the library, a handle, as an array over its own pixels; freed with the last view of them."""
     picture = structs.Picture()
     call("cotan_image_picture", image, picture)
-    count = picture.width * picture.height * 4 * picture.bits // 8
-    pixels = (ctypes.c_uint8 * count).from_address(picture.pixels)
+    pixels = _memory_of(picture)
     weakref.finalize(pixels, library().cotan_image_free, image.value)
+    return _shaped(pixels, picture)
+
+
+def array_of_picture(picture):
+    """A copy of a cotan_picture that the library lends."""
+    return _shaped(_memory_of(picture), picture).copy()
+
+
+def _memory_of(picture):
+    return (ctypes.c_uint8 * (picture.width * picture.height * picture.bits // 2)).from_address(picture.pixels)
+
+
+def _shaped(pixels, picture):
     return np.frombuffer(pixels, arrays.DTYPES[picture.bits]).reshape(picture.height, picture.width, 4)
 
 

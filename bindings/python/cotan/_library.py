@@ -40,6 +40,24 @@ def _declare(library):
         function.restype, function.argtypes = result, arguments
 
 
+def _python():
+    """A Python to run beside this one; None where this one is inside of another program and has none."""
+    beside = pathlib.Path(sys.base_exec_prefix, "bin", f"python3.{sys.version_info.minor}")
+    for program in (sys.executable, str(beside)):
+        if program and "python" in os.path.basename(program).lower() and os.access(program, os.X_OK):
+            return program
+    return None
+
+
+def _read_elsewhere(library, candidate):
+    """Has files that readers of other people's make read, such as FBX, read by a child process, which they may crash."""
+    reader, python = pathlib.Path(__file__).resolve().parent / "_reader.py", _python()
+    if not sys.platform.startswith("linux") or python is None or not reader.exists():
+        return
+    words = [os.fsencode(word) for word in (python, "-I", "-S", reader, candidate)]
+    library.cotan_set_reader(len(words), (ctypes.c_char_p * len(words))(*words), None, 0)
+
+
 def _open():
     tried = []
     for candidate in _candidates():
@@ -50,6 +68,7 @@ def _open():
                 tried.append(f"{candidate}: expected version {API_VERSION} of its interface or later, found {version}")
                 continue
             _declare(library)
+            _read_elsewhere(library, candidate)
         except (OSError, AttributeError) as error:
             tried.append(str(error) if candidate in str(error) else f"{candidate}: {error}")
             continue

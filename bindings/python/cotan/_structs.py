@@ -29,7 +29,10 @@ class VertexPlaces(Struct):
 
 class CMesh(Struct):
     _fields_ = _fields(
-        (size_t, "vertex_count"), (pointer, "positions normals texcoords"), (size_t, "index_count"), (pointer, "indices")
+        (size_t, "vertex_count"),
+        (pointer, "positions normals texcoords"),
+        (size_t, "index_count"),
+        (pointer, "indices"),
     )
 
 
@@ -63,6 +66,7 @@ class BakeOptions(Struct):
         (text, "tangents high_normals high_frame high_convention"),
         (size_t, "high_map_count"),
         (pointer, "high_maps mask"),
+        (c.c_float, "cage_reach"),
     )
 
 
@@ -80,7 +84,14 @@ TakeFile = c.CFUNCTYPE(integer, pointer, text, pointer, size_t)
 
 
 class ModelFiles(Struct):
-    _fields_ = _fields((pointer, "user"), (Read, "read"), (Decode, "decode"), (Encode, "encode"), (Done, "done"), (text, "name"))
+    _fields_ = _fields(
+        (pointer, "user"),
+        (Read, "read"),
+        (Decode, "decode"),
+        (Encode, "encode"),
+        (Done, "done"),
+        (text, "name"),
+    )
 
 
 class LintOptions(Struct):
@@ -173,6 +184,7 @@ _STATUS = {
     ),
     "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
     "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
+    "cotan_set_reader": (size_t, c.POINTER(text)),
     "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),
     "cotan_image_picture": (handle, Picture),
     "cotan_image_read": (text, integer, c.POINTER(handle)),
@@ -203,6 +215,7 @@ _OTHERS = {
     "cotan_model_free": (None, handle),
     "cotan_model_warnings": (text, handle),
     "cotan_image_free": (None, handle),
+    "cotan_reader_process": (integer,),
 }
 
 

@@ -12,15 +12,16 @@ from . import _structs as structs
 from ._handles import is_path
 from ._library import call, taken
 from ._work import long_call
+from .errors import InputError
 from .geometry import Mesh
 from .maps import Map
-from .models import Model, Path, Progress, load
-from .pictures import pixels_of
+from .models import Model, Progress, load
+from .pictures import Path, pixels_of
 
 Geometry = Union[Mesh, Path, Model]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Baked:
     """A map, and what became of its texels.
 
@@ -36,8 +37,8 @@ class Baked:
         warnings: one line each.
     """
 
-    map: NDArray[np.generic]
-    mask: Optional[NDArray[np.uint8]]
+    map: NDArray[np.generic] = dataclasses.field(repr=False)
+    mask: Optional[NDArray[np.uint8]] = dataclasses.field(repr=False)
     texels: int
     covered: int
     missed: int
@@ -81,6 +82,7 @@ def bake(
     ao_rays: int = 64,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
+    cage_reach: float = 0.0,
     match_by_name: bool = False,
     material: int = -1,
     udim: int = 1001,
@@ -112,6 +114,7 @@ def bake(
         max_distance: how far rays reach to both sides of the low mesh, in units of the positions; 0: 5 % of the
             diagonal of the high mesh.
         cage: the triangles of the low mesh in their order, moved out around both; rays run from it inwards.
+        cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
         match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
         material: number of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
@@ -133,9 +136,12 @@ def bake(
     for field, value, known in (("samples", samples, (1, 4, 16)), ("bits", bits, (8, 16, 32))):
         if value not in known:
             raise arrays.wrong(field, ", ".join(map(str, known[:-1])) + f" or {known[-1]}", value)
-    for field, value, least, most in (("material", material, -1, 100000), ("udim", udim, 1001, 1999)):
-        if not least <= value <= most:
-            raise arrays.wrong(field, f"{least} to {most}", value)
+    material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
+    padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
+    max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
+    for mesh in _several(low):
+        if isinstance(mesh, Mesh) and mesh.texcoords is None:
+            raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
     width, height = arrays.size_of(size)
     made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
     mask_made = np.empty((height, width, 4), np.uint8) if mask else None
@@ -175,6 +181,7 @@ def bake(
             tile=udim,
             high_map_count=len(pictures),
             high_maps=ctypes.addressof(high_maps) if pictures else None,
+            cage_reach=cage_reach,
             mask=None if mask_picture is None else ctypes.addressof(mask_picture),
             **words,
         )

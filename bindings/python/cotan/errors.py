@@ -1,5 +1,6 @@
 """What can go wrong, as exceptions. Each carries the one line that the library said, and the parts of it."""
 
+import os
 import re
 
 # The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field. What reads words
@@ -13,7 +14,12 @@ _SAYINGS = [
     )
 ]
 # Options of the C API that keywords here have other names for.
-_KEYWORDS = {"occlusion_rays": "ao_rays", "tile": "udim", "tiles": "udim", "high_maps": "high_map", "maxDistance": "max_distance"}
+_KEYWORDS = {
+    "occlusion_rays": "ao_rays",
+    "tile": "udim",
+    "tiles": "udim",
+    "high_maps": "high_map",
+}
 
 
 class Error(Exception):
@@ -74,10 +80,15 @@ class StoppedError(Error, RuntimeError):
 _OF_STATUS = {c.status: c for c in (UsageError, InputError, UnavailableError, OutputError, LimitError, StoppedError)}
 
 
+def _keyword(match):
+    name = re.sub("[A-Z]", lambda m: "_" + m[0].lower(), match[1])
+    return _KEYWORDS.get(name, name)
+
+
 def _in_keywords(status, message):
     """A line about options in the names that they have here: --max-distance and options.max_distance are
     max_distance."""
-    message = re.sub(r"^options\.(\w+)", lambda m: _KEYWORDS.get(m[1], m[1]), message)
+    message = re.sub(r"^options\.(\w+)", _keyword, message)
     if status != UsageError.status:
         return message
     message = re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
@@ -88,9 +99,10 @@ def error_of(status, message, files=()):
     """The exception for a status and a line of the library. files: names that the line may begin with."""
     message = _in_keywords(status, message)
     rest, file = message, None
-    for name in map(str, files):
-        if name and message.startswith(name + ": "):
-            file, rest = name, message[len(name) + 2 :]
+    for name in files:
+        said = os.fsencode(name).decode("utf-8", "replace")
+        if said and message.startswith(said + ": "):
+            file, rest = str(name), message[len(said) + 2 :]
             break
     field = expected = found = None
     parts = next((match for saying in _SAYINGS if (match := saying.fullmatch(rest))), None)

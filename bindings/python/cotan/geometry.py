@@ -15,7 +15,7 @@ Floats = NDArray[np.float32]
 Words = NDArray[np.uint32]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """A mesh of triangles. Arrays of the right dtype in C order are kept as they are, others are converted once.
 
@@ -43,6 +43,9 @@ class Mesh:
             self.normals = arrays.floats(self.normals, "normals", 3, count)
         if self.texcoords is not None:
             self.texcoords = arrays.floats(self.texcoords, "texcoords", 2, count)
+
+    def __repr__(self):
+        return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
 
     def _c(self):
         """The struct over these arrays, which must outlive it."""
@@ -181,7 +184,7 @@ def tangents(mesh: Mesh, kind: str = "mikktspace", threads: int = 0, out: Option
     texcoords. Raises UsageError, and InputError for an index that is out of range.
     """
     out = arrays.made(out, "out", (len(mesh.indices), 4), np.float32)
-    call("cotan_tangents", arrays.encoded(kind, "kind"), mesh._c(), threads, arrays.at(out))
+    call("cotan_tangents", arrays.encoded(kind, "kind"), mesh._c(), arrays.threads_of(threads), arrays.at(out))
     return out
 
 
@@ -196,7 +199,7 @@ def triangle_vectors(mesh: Mesh, threads: int = 0) -> tuple[Floats, Floats]:
     """U and V of the frame "triangle": (t, 3) float32 each, one pair for each triangle."""
     shape = (len(mesh.indices) // 3, 3)
     u, v = np.empty(shape, np.float32), np.empty(shape, np.float32)
-    call("cotan_triangle_vectors", mesh._c(), threads, arrays.at(u), arrays.at(v))
+    call("cotan_triangle_vectors", mesh._c(), arrays.threads_of(threads), arrays.at(u), arrays.at(v))
     return u, v
 
 
@@ -215,11 +218,10 @@ def split_vertices(vertex_count: int, indices: ArrayLike, corners: ArrayLike) ->
     Returns the new indices (3 t,) and for each new vertex the old one that it is a copy of, the old ones first:
     `positions[sources]` are the new positions.
     """
-    indices = arrays.triangles(indices)
+    indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
     corners = arrays.floats(corners, "corners", 4, len(indices))
-    return _split(
-        "cotan_split_vertices", vertex_count, len(indices), vertex_count, len(indices), arrays.at(indices), arrays.at(corners)
-    )
+    sizes = vertex_count, len(indices)
+    return _split("cotan_split_vertices", *sizes, *sizes, arrays.at(indices), arrays.at(corners))
 
 
 def split_mirrored(mesh: Mesh) -> tuple[Words, Words]:
@@ -234,13 +236,13 @@ def provoking(vertex_count: int, indices: ArrayLike, last: bool = False) -> tupl
     WebGPU). Returns the new indices (3 t,), the old vertex of each new one, and corners (3 t,): the old indices with
     each triangle turned so that the provoking one comes first.
     """
-    indices = arrays.triangles(indices)
+    indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
     made, corners = np.empty_like(indices), np.empty_like(indices)
     sources = np.empty(vertex_count + len(indices), np.uint32)
     count = ctypes.c_size_t()
     call(
-        "cotan_provoking", vertex_count, len(indices), arrays.at(indices), int(last), arrays.at(made), arrays.at(sources),
-        count, arrays.at(corners),
+        "cotan_provoking", vertex_count, len(indices), arrays.at(indices), int(last), arrays.at(made),
+        arrays.at(sources), count, arrays.at(corners),
     )  # fmt: skip
     return made, sources[: count.value].copy(), corners
 

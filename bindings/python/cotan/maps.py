@@ -1,7 +1,8 @@
 """Normal maps as arrays.
 
 A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
-three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf", "directx", "unity,xyz".
+three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
+"directx", "unity,xyz".
 """
 
 import dataclasses
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays as arrays
 from . import _structs as structs
+from ._handles import array_of_picture
 from ._library import call
 from .pictures import Path, pixels_of
 
@@ -149,8 +151,10 @@ def map_from_height(
     """
     pixels = pixels_of(height, "height")
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
-    scale_y = scale_x if scale_y is None else scale_y
-    call("cotan_map_from_height", arrays.picture(pixels), scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
+    scale_x = arrays.number(scale_x, "scale_x")
+    scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
+    given = arrays.picture(pixels)
+    call("cotan_map_from_height", given, scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
     return out
 
 
@@ -179,7 +183,7 @@ def map_blend(
     out = _like(under, bits, out)
     call(
         "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
-        arrays.encoded(mode, "mode"), strength, arrays.picture(out),
+        arrays.encoded(mode, "mode"), arrays.number(strength, "strength"), arrays.picture(out),
     )  # fmt: skip
     return out
 
@@ -191,14 +195,9 @@ def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list
     """
     pixels, levels, failures = pixels_of(map), [], []
 
-    def copied(given):
-        p = given[0]
-        flat = np.ctypeslib.as_array(structs.c.cast(p.pixels, structs.c.POINTER(structs.c.c_uint8)), (p.height * p.width * p.bits // 2,))
-        return flat.copy().view(arrays.DTYPES[p.bits]).reshape(p.height, p.width, 4)
-
     def take(_, number, level, rough):
         try:
-            levels.append(Level(copied(level), copied(rough)))
+            levels.append(Level(array_of_picture(level[0]), array_of_picture(rough[0])))
             return 0
         except BaseException as error:  # must not cross the library
             failures.append(error)
@@ -206,8 +205,8 @@ def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list
 
     try:
         call(
-            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"), roughness,
-            structs.TakeLevel(take), None,
+            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"),
+            arrays.number(roughness, "roughness"), structs.TakeLevel(take), None,
         )  # fmt: skip
     except Exception:
         if failures:

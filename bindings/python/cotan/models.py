@@ -13,15 +13,17 @@ import numpy as np
 
 from . import _arrays as arrays
 from . import _structs as structs
-from ._handles import is_path
+from ._handles import array_of_picture, is_path
 from ._library import call, library, taken
 from ._work import long_call
 from .errors import InputError, OutputError, UsageError
 from .geometry import Mesh
+from .pictures import Path
 
-Path = Union[str, "os.PathLike[str]"]
 Bytes = Union[bytes, bytearray, memoryview]
 Progress = Callable[[float], Any]
+Decode = Callable[[str, bytes], Any]
+Encode = Callable[[np.ndarray], bytes]
 
 
 class Model:
@@ -53,11 +55,11 @@ def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
     """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
 
     pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
-    picture, in MiB. The last five formats are read in this process, by Assimp.
+    picture, in MiB. Formats other than glTF are read by a child process.
     Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
-    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), memory, made, files=(file,))
+    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), arrays.memory_of(memory), made, files=(file,))
     model = Model.__new__(Model)
     model._hold(made)
     return model
@@ -89,7 +91,7 @@ class Lint:
     cotangent_degrees: Optional[float]
     smooth_degrees: Optional[float]
     recommendation: str
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,20 +108,20 @@ class Converted:
         report: all of it, map by map.
     """
 
-    glb: Optional[bytes]
+    glb: Optional[bytes] = dataclasses.field(repr=False)
     maps_converted: int
     maps_kept: int
     primitives_given: int
     tangent_bytes_dropped: int
     worst_degrees_before: Optional[float]
     worst_degrees_after: Optional[float]
-    report: dict
+    report: dict = dataclasses.field(repr=False)
 
 
 class Source:
     """A glTF model's bytes, and what its URIs name, as the library asks for them."""
 
-    def __init__(self, model, beside=None):
+    def __init__(self, model, beside=None, decode=None, encode=None):
         self.path = None
         if is_path(model):
             self.path = pathlib.Path(model)
@@ -129,7 +131,12 @@ class Source:
         except (TypeError, ValueError, BufferError):
             raise arrays.wrong("model", "a path or bytes", type(model).__name__) from None
         self.beside, self.kept, self.failures = beside or {}, [], []
+        self.decode, self.encode = decode, encode
         self.files = structs.ModelFiles(read=structs.Read(self._read), done=structs.Done(self._done))
+        if decode is not None:
+            self.files.decode = structs.Decode(self._decode)
+        if encode is not None:
+            self.files.encode = structs.Encode(self._encode)
         if self.path is not None:
             self.files.name = arrays.encoded(self.path, "model")
 
@@ -152,20 +159,39 @@ class Source:
         file = (folder / name).resolve()
         return file.read_bytes() if folder in file.parents and file.is_file() else None
 
-    def _read(self, _, uri, data, size):
+    def _safely(self, work):
+        """What the library is told of work that gives an array or nothing: no exception may cross it."""
         try:
-            found = self._bytes_of(uri)
-            if found is None:
-                return 1
-            array = np.frombuffer(found, np.uint8)
-            self.kept.append(array)  # until the library has copied it
-            data[0], size[0] = arrays.at(array), array.nbytes
-            return 0
+            array = work()
+            if array is not None:
+                self.kept.append(array)  # until the library has copied it
+            return array
         except OSError:
-            return 1
-        except BaseException as error:  # must not cross the library
+            return None
+        except BaseException as error:
             self.failures.append(error)
+            return None
+
+    def _give(self, found, data, size):
+        array = self._safely(lambda: None if found is None else np.frombuffer(found, np.uint8))
+        if array is None:
             return 1
+        data[0], size[0] = arrays.at(array), array.nbytes
+        return 0
+
+    def _read(self, _, uri, data, size):
+        return self._give(self._safely(lambda: self._bytes_of(uri)), data, size)
+
+    def _decode(self, _, name, data, size, picture):
+        name, content = name.decode("utf-8", "replace"), ctypes.string_at(data, size)
+        pixels = self._safely(lambda: arrays.pixels(self.decode(name, content), "decode"))
+        if pixels is None:
+            return 1
+        picture[0] = arrays.picture(pixels)
+        return 0
+
+    def _encode(self, _, picture, data, size):
+        return self._give(self._safely(lambda: self.encode(array_of_picture(picture[0]))), data, size)
 
     def _done(self, _):
         self.kept.clear()
@@ -206,7 +232,7 @@ def lint(
     source = None if is_path(model) or isinstance(model, Model) else Source(model, beside)
 
     def work(told):
-        options = structs.LintOptions(distance=distance, progress=told)
+        options = structs.LintOptions(distance=arrays.number(distance, "distance"), progress=told)
         if source is not None:
             source.call("cotan_lint_gltf", options, result, text)
             return
@@ -229,6 +255,11 @@ def lint(
     )
 
 
+def check_tangents(tangents):
+    if tangents not in ("stored", "generated"):
+        raise arrays.wrong("tangents", "'stored' or 'generated'", repr(tangents))
+
+
 def convert(
     model: Union[Path, Bytes],
     out: Optional[Path] = None,
@@ -241,6 +272,8 @@ def convert(
     overwrite: bool = False,
     progress: Optional[Progress] = None,
     beside: Optional[Mapping[str, bytes]] = None,
+    decode: Optional[Decode] = None,
+    encode: Optional[Encode] = None,
 ) -> Converted:
     """A glTF model's normal maps made for another frame, and its tangents dropped.
 
@@ -255,34 +288,46 @@ def convert(
         overwrite: lets `out` be the model itself.
         progress: called on this thread with the share that is done, 0 to 1; False stops. Ctrl-C stops, too.
         beside: files that a model in bytes names, by their URIs.
+        decode: decode(name, bytes) gives a picture for a PNG or JPEG file, in place of the library's own readers.
+        encode: encode(picture) gives the PNG file of a picture of uint8 or uint16, in place of its own writer.
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError; nothing is written then.
     """
-    if tangents not in ("stored", "generated"):
-        raise arrays.wrong("tangents", "'stored' or 'generated'", repr(tangents))
-    source = Source(model, beside)
+    check_tangents(tangents)
+    source = Source(model, beside, decode, encode)
     if out is not None:
         out = _output(out, source.path, overwrite)
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
-        options = structs.ConvertOptions(
-            to=arrays.encoded(to_frame, "to_frame"),
-            bits=bits,
-            keep_tangents=int(keep_tangents),
-            generate_tangents=int(tangents == "generated"),
-            threads=threads,
-            progress=told,
-        )
-        setattr(options, "from", arrays.encoded(from_frame, "from_frame"))
+        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told)
         source.call("cotan_convert_gltf", options, result, glb, text)
 
     long_call(work, progress)
     report, made = json.loads(taken(text)), taken(glb)
     if out is not None:
         _write_whole(out, made)
+    return converted_of(result, made if out is None else None, report)
+
+
+def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told):
+    """The struct of the C API."""
+    options = structs.ConvertOptions(
+        to=arrays.encoded(to_frame, "to_frame"),
+        bits=arrays.integer(bits, "bits", 0, 16),
+        keep_tangents=int(keep_tangents),
+        generate_tangents=int(tangents == "generated"),
+        threads=arrays.threads_of(threads),
+        progress=told,
+    )
+    setattr(options, "from", arrays.encoded(from_frame, "from_frame"))
+    return options
+
+
+def converted_of(result, glb, report):
+    """The dataclass of a struct of the C API."""
     return Converted(
-        glb=made if out is None else None,
+        glb=glb,
         maps_converted=result.maps_converted,
         maps_kept=result.maps_kept,
         primitives_given=result.primitives_given,

@@ -11,7 +11,7 @@ from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call
 
-Path = Union[str, "os.PathLike[str]"]
+Path = Union[str, os.PathLike[str]]
 
 
 def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
@@ -22,7 +22,7 @@ def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
     here.
     """
     image = structs.handle()
-    call("cotan_image_read", arrays.encoded(file, "file"), memory, image, files=(file,))
+    call("cotan_image_read", arrays.encoded(file, "file"), arrays.memory_of(memory), image, files=(file,))
     return array_of(image)
 
 

@@ -12,7 +12,8 @@ from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call, taken
 from ._work import long_call
-from .models import Bytes, Path, Progress, Source
+from .models import Bytes, Progress, Source
+from .pictures import Path
 
 
 def _word(name, value):
@@ -102,6 +103,7 @@ def render(
     source = None if model is None or is_path(model) else Source(model, beside)
     if is_path(model):
         words += [b"--", arrays.encoded(model, "model")]
+    threads = arrays.threads_of(threads)
     given = (ctypes.c_char_p * len(words))(*words)
     image, text = structs.handle(), structs.handle()
 

@@ -1,5 +1,5 @@
-/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state. Any thread may
- * call any function.
+/* Cotan for C and for bindings to other languages: plain arrays with sizes. There is no global state but what
+ * cotan_set_reader sets. Any thread may call any function.
  *
  * Errors. Every function that can fail returns a cotan_status. Where that is not COTAN_OK, `message` holds one line
  * that says why. It is cut to `message_size` bytes, the zero at its end included. A caller who wants no text passes a
@@ -219,8 +219,8 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
 /* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: "glsl",
- * "essl", "hlsl", "wgsl", "msl" or "cpp". text_size: of the buffer; afterwards what the text takes. A buffer that is
- * too small, or null, is left alone and is no error. */
+ * "essl", "hlsl", "wgsl", "msl", "cpp" or "godot", which is a whole spatial shader. text_size: of the buffer;
+ * afterwards what the text takes. A buffer that is too small, or null, is left alone and is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
 
@@ -231,15 +231,24 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
 typedef struct cotan_model cotan_model;
 void cotan_model_free(cotan_model* model);
 
-/* Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds, the last five in this process by Assimp.
- * Missing normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape.
- * memory: of the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
+/* Reads a model file: .glb, .gltf, .obj, and by Assimp .ply, .stl, .dae, .fbx or .3ds: see cotan_set_reader. Missing
+ * normals are made. pictures: 0: those of its materials are left out, which is enough to bake by its shape. memory: of
+ * the largest picture, in MiB; 0: 640. COTAN_UNAVAILABLE: not built with what reads it. Since version 3. */
 cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
                               size_t message_size);
 
-/* A model of copies of meshes, whose texcoords may be null. names: of the meshes, null: they have none. Since
- * version 3.
- */
+/* Readers of other people's make may crash on broken files. From here on a child process reads models other than glTF,
+ * and pictures other than PNG and JPEG, so that this one goes on with COTAN_INPUT: the program words[0], called with
+ * the other words and one more, which has to call cotan_reader_process before it does anything else. The child may
+ * neither write files nor start programs (Linux). count 0: they are read in this process, as at first. To be called
+ * while no other call is under way. Since version 3. */
+cotan_status cotan_set_reader(size_t count, const char* const* words, char* message, size_t message_size);
+/* Reads for the process that has started this one, and ends this one. Returns, an exit code, only where none has. Since
+ * version 3. */
+int cotan_reader_process(void);
+
+/* A model of copies of meshes, whose normals and texcoords may be null; missing normals are smooth ones. names: of the
+ * meshes; null, or a null among them: none. Since version 3. */
 cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
                                    cotan_model** model, char* message, size_t message_size);
 
@@ -274,6 +283,7 @@ typedef struct cotan_bake_options {
     size_t high_map_count;       /* 0, 1, or one for each detailed model */
     const cotan_picture* const* high_maps; /* that take the place of its own */
     cotan_picture* mask; /* of 8 bits and the map's size: gets what became of each texel; null: not wanted */
+    float cage_reach; /* how far rays run from the cage; 0: as far behind the simple model as the cage is before it */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

@@ -30,7 +30,8 @@ struct BakeOptions {
     glm::ivec2 tile{0, 0};       // unit square of uv
     float maxDistance = 0;       // model units, forward and back along the low normal; 0: 5 % of the high surface's box
     std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
-                                 // low surface, and as far behind it
+                                 // low surface
+    float cageReach = 0;         // model units from the cage; 0: as far behind the low surface as the cage is before it
     HighNormals highNormals = HighNormals::smooth;
     std::shared_ptr<const HighNormalMaps> highMaps; // of the high surface: their normals instead; heights and
                                                     // occlusion take no notice. Null: none

@@ -86,8 +86,9 @@ public:
     // For each probe the hit nearest to the point. The two rays of each start `lift` on the other side of the point, so
     // that a surface through the point is found.
     void nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const;
-    // The same, but only one ray each, from `reach` in front of the point to as far behind it: the hit in front of all.
-    void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
+    // The same, but only one ray each, which starts `reach` in front of the point and is `length` long (0: ends as far
+    // behind the point): the hit in front of all.
+    void outermost(const Probes& probes, float length, HighNormals normals, Hits& hits) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
 

@@ -6,8 +6,9 @@
 //         if (cotan::isReaderProcess(argc, argv))
 //             return cotan::runReaderProcess();
 //
-// most simply the caller itself: /proc/self/exe. Where LoadLimits::sandbox names it, everything that takes LoadLimits
-// reads models other than glTF, and pictures other than PNG and JPEG, through such a child.
+// most simply the caller itself: /proc/self/exe; or that calls runReaderProcess by the word of its own arguments. Where
+// LoadLimits::sandbox names it, everything that takes LoadLimits reads models other than glTF, and pictures other than
+// PNG and JPEG, through such a child.
 //
 // What holds, on Linux: the child has the limits below, no descriptors of ours but one socket, and no core file. It
 // dies with the thread that started it. What it answers is checked, all of it, before it is used. Where the kernel
@@ -17,11 +18,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace cotan {
 
 struct Sandbox {
-    std::filesystem::path program; // empty: everything is read in this process
+    std::filesystem::path program;        // empty: everything is read in this process
+    std::vector<std::string> arguments{}; // that it is given before the reader's own
     // MiB of memory; 0: 640 (LoadLimits::imageBytes if more), 16 a processor, more for large files, up to 8 GiB or
     // twice that.
     std::size_t megabytes = 0;

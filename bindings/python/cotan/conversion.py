@@ -1,0 +1,100 @@
+"""Conversion in two steps, for those who encode pictures by a way of their own, later or side by side; and the
+pictures of a model as they are stored."""
+
+import ctypes
+import json
+import weakref
+from typing import Mapping, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays as arrays
+from . import _structs as structs
+from ._handles import array_of_picture
+from ._library import call, library, taken
+from ._work import long_call
+from .models import (
+    Bytes,
+    Converted,
+    Decode,
+    Progress,
+    Source,
+    check_tangents,
+    convert_options,
+    converted_of,
+)
+from .pictures import Path
+
+
+def model_pictures(
+    model: Union[Path, Bytes], maps_only: bool = False, beside: Optional[Mapping[str, bytes]] = None
+) -> list[tuple[str, bytes]]:
+    """The names and files (PNG, JPEG, ...) of the pictures in a glTF model that are decoded to lint it.
+
+    model: a path or bytes. maps_only: those that are decoded to convert it. beside: files that a model in bytes names.
+    """
+    source, found = Source(model, beside), []
+
+    def take(_, name, data, size):
+        found.append((name.decode("utf-8", "replace"), ctypes.string_at(data, size)))
+        return 0
+
+    source.call("cotan_gltf_pictures", int(maps_only), structs.TakeFile(take), None)
+    return found
+
+
+class Conversion:
+    """What `convert` does in one step: first all but the PNG files of the new maps, then the model.
+
+        conversion = cotan.Conversion("model.glb", to_frame="smooth")
+        for number, picture in enumerate(conversion.pictures):
+            conversion.set(number, png_of(picture))
+        converted = conversion.end()
+
+    Attributes:
+        pictures: (height, width, 4) of uint8 or uint16 each, to be encoded.
+    """
+
+    def __init__(
+        self,
+        model: Union[Path, Bytes],
+        to_frame: str = "cotangent",
+        from_frame: str = "mikktspace",
+        tangents: str = "stored",
+        keep_tangents: bool = False,
+        bits: int = 0,
+        threads: int = 0,
+        progress: Optional[Progress] = None,
+        beside: Optional[Mapping[str, bytes]] = None,
+        decode: Optional[Decode] = None,
+    ):
+        """Arguments and errors are those of `convert`."""
+        check_tangents(tangents)
+        source = Source(model, beside, decode)
+        self._result, self._handle = structs.ConvertResult(), structs.handle()
+
+        def work(told):
+            options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told)
+            source.call("cotan_convert_begin", options, self._result, self._handle)
+
+        long_call(work, progress)
+        weakref.finalize(self, library().cotan_conversion_free, self._handle.value)
+        self.pictures: list[NDArray[np.generic]] = []
+        for number in range(library().cotan_conversion_count(self._handle)):
+            picture = structs.Picture()
+            call("cotan_conversion_picture", self._handle, number, picture)
+            self.pictures.append(array_of_picture(picture))
+
+    def set(self, number: int, png: bytes) -> None:
+        """Gives the PNG file of picture `number`, once."""
+        if not 0 <= number < len(self.pictures):
+            raise arrays.wrong("number", f"0 to {len(self.pictures) - 1}", number)
+        array = np.frombuffer(png, np.uint8)
+        call("cotan_conversion_set", self._handle, number, arrays.at(array), array.nbytes)
+
+    def end(self) -> Converted:
+        """The model as bytes. Raises UsageError where a PNG file is missing."""
+        glb, text = structs.handle(), structs.handle()
+        call("cotan_convert_end", self._handle, glb, text)
+        return converted_of(self._result, taken(glb), json.loads(taken(text)))

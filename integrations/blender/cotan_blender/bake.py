@@ -1,0 +1,188 @@
+"""From a pair of meshes to maps in their materials, in steps that a window can be drawn between."""
+
+import dataclasses
+import os
+import tempfile
+import threading
+
+import bpy
+import numpy as np
+
+from . import cages, images, meshes, nodes
+from .refused import Refused, packages
+
+
+@dataclasses.dataclass
+class Map:
+    """One map to bake."""
+
+    name: str
+    slots: list  # material slots of the simple object that will read it; empty: it has none yet
+    arguments: dict  # for cotan.bake, without the progress function
+    path: str = ""  # file; "": packed
+
+
+@dataclasses.dataclass
+class Outcome:
+    made: list = dataclasses.field(default_factory=list)  # images
+    notes: list = dataclasses.field(default_factory=list)  # sentences: what to know of what was made
+    failures: list = dataclasses.field(default_factory=list)  # sentences: what was not made, and why
+
+
+def _slots_of(low, surface, each):
+    """Lists of slots, one for each map, and which triangles each shows."""
+    used = np.unique(np.clip(surface.slots, 0, max(len(low.material_slots) - 1, 0)))
+    if not each or len(used) < 2:
+        return [([int(s) for s in used] if len(low.material_slots) else [], slice(None))]
+    return [([int(s)], surface.slots == s) for s in used]
+
+
+def _check_uv(low, texcoords, triangles, uv_map):
+    corners = texcoords[triangles]
+    if not np.isfinite(corners).all():
+        raise Refused(f"The uv map '{uv_map}' of '{low.name}' has places that are not finite numbers")
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    flat = u[:, 0] * v[:, 1] == u[:, 1] * v[:, 0]
+    if flat.all():
+        raise Refused(f"The uv map '{uv_map}' of '{low.name}' has no area: unwrap it again")
+    inside = ((corners.max(axis=1) > 0) & (corners.min(axis=1) < 1)).all(axis=1)
+    if not (inside & ~flat).any():
+        raise Refused(f"The uv map '{uv_map}' of '{low.name}' lies outside of the square from 0 to 1")
+
+
+def check_low(low, settings):
+    """Raises Refused where the simple object cannot have a map. Before anything is evaluated."""
+    if low.mode != "OBJECT":
+        raise Refused(f"'{low.name}' is being edited: go back to Object Mode first")
+    if settings.assign:
+        if not low.material_slots and low.data.library is not None:
+            raise Refused(f"'{low.name}' has no material, and its mesh comes from a library file: {nodes.MEND}")
+        if low.library is not None and any(slot.material is None for slot in low.material_slots):
+            raise Refused(f"'{low.name}' has an empty material slot and comes from a library file: {nodes.MEND}")
+        for slot in low.material_slots:
+            nodes.writable(slot.material)
+
+
+def prepare(context, settings, pair):
+    """The maps of one pair, and sentences about it. Raises Refused."""
+    low = pair.low
+    check_low(low, settings)
+    if not pair.highs:
+        raise Refused(f"There is no visible object named like '{low.name}' with high or hi in place of low")
+    others = [o for o in (pair.cage, settings.cage_object, context.scene.render.bake.cage_object) if o is not None]
+    with meshes.as_rendered(context, [low, *pair.highs, *others], settings.as_rendered) as depsgraph:
+        surface = meshes.low_surface(low, depsgraph, settings.uv_map)
+        rays = cages.cage_for(settings, context.scene.render.bake, surface, low, pair.cage, depsgraph)
+        matrix = low.evaluated_get(depsgraph).matrix_world.copy()
+        positions, normals, triangles = meshes.joined(meshes.high_surfaces(pair.highs, depsgraph))
+    surface = meshes.placed(surface, matrix, low.name)
+    cotan = packages()
+    high = cotan.Mesh(positions, triangles, normals)
+    common = {
+        "size": (settings.width, settings.height),
+        "frame": settings.frame,
+        "convention": "blender",
+        "bits": int(settings.bits),
+        "samples": int(settings.samples),
+        "padding": settings.padding,
+    }
+    maps = []
+    parts = _slots_of(low, surface, settings.each_material)
+    for slots, shown in parts:
+        material = low.material_slots[slots[0]].material if slots else None
+        part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
+        name = f"{low.name}{part}_normal"
+        chosen = surface.triangles[shown]
+        _check_uv(low, surface.texcoords, chosen, surface.uv_map)
+        mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
+        arguments = {"low": mesh, "high": high, **common, **rays}
+        if "cage" in rays:
+            arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
+        maps.append(Map(name, slots, arguments, images.file_for(settings, name)))
+    return maps, surface.uv_map, _notes_on(low, matrix)
+
+
+def _notes_on(low, matrix):
+    sizes = matrix.to_scale()
+    if max(map(abs, sizes)) > 1.001 * min(map(abs, sizes)):
+        return [f"'{low.name}' is scaled by different factors along its axes: apply the scale, or programs differ"]
+    return []
+
+
+class Work(threading.Thread):
+    """A bake into a PNG file, on a thread of its own."""
+
+    def __init__(self, arguments, file):
+        super().__init__(name="cotan bake")
+        self.arguments, self.file, self.share, self.stop = arguments, file, 0.0, False
+        self.baked = self.error = None
+        self.start()
+
+    def _told(self, share):
+        self.share = share
+        return not self.stop
+
+    def run(self):
+        try:
+            self.baked = packages().bake(progress=self._told, **self.arguments)
+            packages().write_picture(self.file, self.baked.map)
+        except BaseException as error:  # for the thread that waits
+            self.error = error
+
+
+def _put(low, made, image, uv_map, outcome):
+    """Assigns the image to the materials of the slots."""
+    if not made.slots:
+        low.data.materials.append(None)
+        made.slots = [0]
+    shown_anyway = next((layer.name for layer in low.data.uv_layers if layer.active_render), uv_map) == uv_map
+    for material_slot in [low.material_slots[s] for s in made.slots]:
+        if material_slot.material is None:
+            material_slot.material = bpy.data.materials.new(low.name)
+            outcome.notes.append(f"'{low.name}' had no material: '{material_slot.material.name}' was made")
+        problem = nodes.assign(material_slot.material, image, "" if shown_anyway else uv_map)
+        if problem:
+            outcome.notes.append(problem)
+
+
+def _notes_of(baked, name):
+    notes = []
+    if baked.covered and baked.missed > 0.001 * baked.covered:
+        share = f"{100 * baked.missed / baked.covered:.1f} %"
+        notes.append(f"{name}: {share} of the texels found no detailed surface: let rays run further, or use a cage")
+    if baked.covered and baked.twice > 0.01 * baked.covered:
+        share = f"{100 * baked.twice / baked.covered:.1f} %"
+        notes.append(f"{name}: {share} of the texels belong to several faces: the uv map overlaps itself")
+    return notes
+
+
+def run(context, settings, pairs, outcome):
+    """A generator: bakes all pairs, and yields how much is done, 0 to 1. To stop, close it: what is finished stays."""
+    for number, pair in enumerate(pairs):
+        yield number / len(pairs)
+        try:
+            maps, uv_map, notes = prepare(context, settings, pair)
+            outcome.notes += notes
+            for index, made in enumerate(maps):
+                with tempfile.TemporaryDirectory() as folder:
+                    work = Work(made.arguments, made.path or os.path.join(folder, "map.png"))
+                    try:
+                        while work.is_alive():
+                            work.join(0.02)
+                            yield (number + (index + work.share) / len(maps)) / len(pairs)
+                    finally:
+                        work.stop = True
+                        work.join()
+                    if work.error is not None:
+                        raise work.error
+                    image = images.stored(made.name, work.file, not made.path, settings.frame)
+                outcome.made.append(image)
+                outcome.notes += _notes_of(work.baked, image.name)
+                if settings.assign:
+                    _put(pair.low, made, image, uv_map, outcome)
+        except Refused as error:
+            outcome.failures.append(str(error))
+        except packages().Error as error:
+            outcome.failures.append(f"'{pair.low.name}': {error}")
+        except MemoryError:
+            outcome.failures.append(f"'{pair.low.name}': there is not enough memory for a map of this size")

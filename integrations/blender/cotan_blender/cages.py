@@ -1,0 +1,47 @@
+"""Where rays start: the words of Blender's own baker, or a mesh."""
+
+import dataclasses
+
+import numpy as np
+
+from .meshes import mesh_of, got, placed
+from .refused import Refused
+
+
+FOREVER = 1e18  # a reach without a limit, far from what float can square
+
+
+def _around(surface, cage, depsgraph, low):
+    """Positions of a cage's vertices, in its own space, for each vertex of the surface."""
+    with mesh_of(cage.evaluated_get(depsgraph), depsgraph) as mesh:
+        positions = got(mesh.vertices, "co", 3)
+    if len(positions) != surface.vertex_count:
+        raise Refused(
+            f"The cage '{cage.name}' has {len(positions)} vertices where '{low.name}' has {surface.vertex_count}: "
+            "make it from a copy of it"
+        )
+    moved = dataclasses.replace(surface, positions=positions[surface.vertices])
+    return placed(moved, cage.matrix_world, cage.name).positions
+
+
+def cage_for(settings, bake, surface, low, named, depsgraph):
+    """Arguments for cotan.bake: max_distance, or cage_reach and cage, the positions of the vertices of `surface`.
+
+    surface: of the object `low`, in its own space. bake: Blender's own settings. named: a cage found by name, or None.
+    """
+    if settings.cage == "NEAREST":
+        return {"max_distance": settings.distance}
+    if settings.cage == "MESH":
+        cage = named or settings.cage_object
+        if cage is None or cage.type != "MESH":
+            raise Refused(f"There is no cage for '{low.name}': choose a mesh, or name one like it")
+        return {"cage": _around(surface, cage, depsgraph, low)}
+    # Blender's: extrusion in the space of the simple mesh, the distance in the world; 0 is without limit.
+    reach = bake.max_ray_distance or FOREVER
+    if bake.use_cage and bake.cage_object is not None:
+        return {"cage": _around(surface, bake.cage_object, depsgraph, low), "cage_reach": reach}
+    if not bake.cage_extrusion > 0:
+        return {"max_distance": bake.max_ray_distance}
+    outwards = surface.smooth if bake.use_cage else surface.normals
+    moved = dataclasses.replace(surface, positions=surface.positions + np.float32(bake.cage_extrusion) * outwards)
+    return {"cage": placed(moved, low.matrix_world, low.name).positions, "cage_reach": reach}

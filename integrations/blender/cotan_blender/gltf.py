@@ -1,0 +1,167 @@
+"""Models on their way through Blender's own glTF exporter."""
+
+import os
+import tempfile
+
+import bpy
+import numpy as np
+
+from . import images, meshes, nodes
+from .refused import Refused, packages
+
+
+def exported(context, things, apply_modifiers=True):
+    """The bytes of a .glb of these objects, without tangents, as Blender's exporter writes it. Raises Refused."""
+    if "gltf" not in dir(bpy.ops.export_scene):
+        raise Refused("Blender's glTF exporter is switched off: enable 'glTF 2.0 format' in Preferences > Add-ons")
+    active, selected = context.view_layer.objects.active, context.selected_objects
+    try:
+        for thing in selected:
+            thing.select_set(False)
+        for thing in things:
+            thing.select_set(True)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "model.glb")
+            bpy.ops.export_scene.gltf(
+                filepath=path,
+                export_format="GLB",
+                use_selection=True,
+                export_tangents=False,
+                export_apply=apply_modifiers,
+            )
+            with open(path, "rb") as file:
+                return file.read()
+    except (RuntimeError, OSError) as error:
+        raise Refused(f"Blender's glTF exporter failed: {_last_line(error)}") from None
+    finally:
+        for thing in context.selected_objects:
+            thing.select_set(False)
+        for thing in selected:
+            thing.select_set(True)
+        context.view_layer.objects.active = active
+
+
+def _last_line(error):
+    lines = [line for line in str(error).splitlines() if line.strip()]
+    return lines[-1].strip() if lines else type(error).__name__
+
+
+def normal_images(things):
+    """The images that the materials of these objects read as normal maps, each once."""
+    found = []
+    for slot in [slot for thing in things for slot in thing.material_slots]:
+        _, texture = nodes.map_of(slot.material)
+        if texture is not None and texture.image is not None and texture.image not in found:
+            found.append(texture.image)
+    return found
+
+
+def frame_of(image):
+    """The frame that the image was baked for: as we have noted it, else what everybody else bakes for."""
+    return image.get("cotan_frame", "mikktspace")
+
+
+def frame_of_all(things):
+    """The one frame that all maps of these objects were made for. Raises Refused where there are several."""
+    frames = {}
+    for image in normal_images(things):
+        frames.setdefault(frame_of(image), image)
+    if len(frames) > 1:
+        (a, first), (b, second) = list(frames.items())[:2]
+        raise Refused(f"'{first.name}' was baked for {a} and '{second.name}' for {b}: bake them for one frame")
+    return next(iter(frames), "mikktspace")
+
+
+def _uv_of_texture(thing, texture):
+    """Name of the uv map that the image is read with; None: it cannot be told."""
+    socket = texture.inputs["Vector"]
+    if not socket.is_linked:
+        return next((layer.name for layer in thing.data.uv_layers if layer.active_render), None)
+    node = socket.links[0].from_node
+    return node.uv_map if node.type == "UVMAP" else None
+
+
+def _on_uv(thing):
+    """Sentences on the uv maps of a mesh object."""
+    said, layers = [], thing.data.uv_layers
+    for slot in thing.material_slots:
+        reader, texture = nodes.map_of(slot.material)
+        if texture is None:
+            continue
+        if not layers:
+            said.append(f"'{thing.name}' has no uv map: no program can show the normal map of '{slot.material.name}'")
+            continue
+        active = next((layer.name for layer in layers if layer.active_render), layers[0].name)
+        of_texture, of_tangents = _uv_of_texture(thing, texture), reader.uv_map or active
+        if of_texture and of_texture != of_tangents:
+            said.append(
+                f"'{slot.material.name}' reads its normal map with uv '{of_texture}' and its tangents with "
+                f"'{of_tangents}': glTF knows one for both"
+            )
+        elif len(layers) > 1:
+            said.append(
+                f"'{thing.name}' has {len(layers)} uv maps: its normal map is read with '{of_tangents}', and programs "
+                f"that know only the first read '{layers[0].name}'"
+            )
+    return said
+
+
+def _on_mesh(thing, mesh, apply_modifiers):
+    """Sentences on the faces and normals. mesh: as it is exported."""
+    said, own = [], thing.data
+    corners = meshes.got(mesh.polygons, "loop_total", dtype=np.int32)
+    if (corners > 4).any():
+        said.append(
+            f"'{thing.name}' has {int((corners > 4).sum())} faces of more than four corners: Blender writes no "
+            "tangents for such a mesh, without a word, and each program cuts them in its own way. Add a Triangulate "
+            "modifier before you bake and export"
+        )
+    if not np.isfinite(meshes.got(mesh.vertices, "co", 3)).all():
+        raise Refused(f"'{thing.name}' has vertices without a place (NaN or infinite)")
+    if own.has_custom_normals and hasattr(own, "use_auto_smooth") and not own.use_auto_smooth:
+        said.append(f"'{thing.name}' has custom normals, but its Auto Smooth is off, so they are not exported")
+    elif own.has_custom_normals and not mesh.has_custom_normals:
+        said.append(f"'{thing.name}' loses its custom normals to a modifier")
+    if apply_modifiers and own.shape_keys and len(own.shape_keys.key_blocks) > 1:
+        said.append(
+            f"'{thing.name}' has shape keys: they are exported as they stand and cannot be moved any more, since "
+            "modifiers are applied"
+        )
+    if not apply_modifiers and any(m.show_viewport and m.type != "ARMATURE" for m in thing.modifiers):
+        said.append(f"'{thing.name}' is exported without its modifiers")
+    return said
+
+
+def warnings(context, things, apply_modifiers=True):
+    """Sentences on what other programs will show differently, where exporters say nothing. Raises Refused for what
+    cannot be exported."""
+    said, depsgraph = [], context.evaluated_depsgraph_get()
+    for thing in [t for t in things if t.type == "MESH"]:
+        said += _on_uv(thing)
+        sizes = [abs(s) for s in thing.matrix_world.to_scale()]
+        if max(sizes) > 1.001 * min(sizes):
+            said.append(
+                f"'{thing.name}' is scaled by different factors along its axes: programs differ in what they do to "
+                "tangents then. Apply the scale"
+            )
+        if apply_modifiers:
+            with meshes.mesh_of(thing.evaluated_get(depsgraph), depsgraph) as mesh:
+                said += _on_mesh(thing, mesh, apply_modifiers)
+        else:
+            said += _on_mesh(thing, thing.data, apply_modifiers)
+    return said
+
+
+def detected(image):
+    """One sentence: which way green of a normal map points, judged by the map alone. In Blender it has to point up."""
+    in_file = image.source == "FILE" and not image.has_data and not image.packed_file
+    if in_file and not os.path.exists(bpy.path.abspath(image.filepath)):
+        return f"'{image.name}': its file is missing"
+    if 0 in tuple(image.size):
+        return f"'{image.name}' has no pixels"
+    green = packages().detect(images.pixels_of(image))
+    if green.green == "undecidable":
+        return f"'{image.name}': which way green points cannot be told ({green.reason})"
+    turned = " Turn it: Blender shows every bump as a dent along v" if green.green == "down" else ""
+    swapped = " Red and green are exchanged." if green.swapped else ""
+    return f"'{image.name}': green points {green.green}, {green.confidence}.{swapped}{turned}"

@@ -1,0 +1,183 @@
+"""Meshes as Blender evaluates them (modifiers, shape keys, instances), as numpy arrays."""
+
+import contextlib
+import dataclasses
+from typing import Optional
+
+import numpy as np
+
+from .refused import Refused
+
+SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}  # objects that have faces
+
+
+@dataclasses.dataclass
+class Surface:
+    """Triangles. Vertices are Blender's, or one for each corner of its faces."""
+
+    positions: np.ndarray  # (n, 3) float32
+    normals: np.ndarray  # (n, 3) float32, unit
+    triangles: np.ndarray  # (t, 3) uint32
+    slots: np.ndarray  # (t,) int32: material slot
+    vertices: np.ndarray  # (n,) int32: Blender's vertex that each is
+    vertex_count: int  # of Blender's mesh
+    smooth: np.ndarray  # (n, 3) float32: the normal of Blender's vertex, whatever is sharp
+    texcoords: Optional[np.ndarray] = None  # (n, 2) float32, v down
+    uv_map: str = ""
+
+
+def got(items, attribute, width=1, dtype=np.float32):
+    """One attribute of all items of a collection: (n,), or (n, width)."""
+    values = np.empty(len(items) * width, dtype)
+    items.foreach_get(attribute, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def _corner_normals(mesh):
+    if hasattr(mesh, "calc_normals_split"):  # before 4.1
+        mesh.calc_normals_split()
+        return got(mesh.loops, "normal", 3)
+    return got(mesh.corner_normals, "vector", 3)
+
+
+def _one_normal_a_vertex(mesh):
+    if hasattr(mesh, "normals_domain"):  # since 4.1, which has no Auto Smooth
+        return mesh.normals_domain == "POINT"
+    return not mesh.use_auto_smooth and bool(got(mesh.polygons, "use_smooth", dtype=bool).all())
+
+
+def _uv_of(mesh, name, wanted):
+    layer = mesh.uv_layers.get(wanted) if wanted else mesh.uv_layers.active
+    if layer is None:
+        have = ", ".join(f"'{each.name}'" for each in mesh.uv_layers)
+        if wanted and have:
+            raise Refused(f"'{name}' has no uv map '{wanted}', only {have}")
+        raise Refused(f"'{name}' has no uv map: unwrap it first")
+    return layer
+
+
+def surface_of(mesh, name, with_uv=False, uv_map=""):
+    """The Surface of a mesh, in its own space. Raises Refused where it has no faces or no such uv map."""
+    mesh.calc_loop_triangles()
+    if len(mesh.loop_triangles) == 0:
+        raise Refused(f"'{name}' has no faces, or none are left after its modifiers")
+    positions = got(mesh.vertices, "co", 3)
+    smooth = got(mesh.vertex_normals, "vector", 3)
+    slots = got(mesh.loop_triangles, "material_index", dtype=np.int32)
+    if not with_uv and _one_normal_a_vertex(mesh):
+        triangles = got(mesh.loop_triangles, "vertices", 3, np.int32).astype(np.uint32)
+        vertex = np.arange(len(positions), dtype=np.int32)
+        return Surface(positions, smooth, triangles, slots, vertex, len(positions), smooth)
+    # One vertex for each corner: Cotan finds those that are equal where its frames are averaged.
+    triangles = got(mesh.loop_triangles, "loops", 3, np.int32).astype(np.uint32)
+    vertex = got(mesh.loops, "vertex_index", dtype=np.int32)
+    made = Surface(positions[vertex], _corner_normals(mesh), triangles, slots, vertex, len(positions), smooth[vertex])
+    if with_uv:
+        layer = _uv_of(mesh, name, uv_map)
+        made.texcoords, made.uv_map = got(layer.data, "uv", 2), layer.name
+        made.texcoords[:, 1] = 1 - made.texcoords[:, 1]
+    return made
+
+
+def placed(surface, matrix, name):
+    """The Surface in the world. Raises Refused where the matrix flattens it or rays could not start at a position."""
+    m = np.array(matrix, np.float64)
+    turn, size = m[:3, :3], abs(np.linalg.det(m[:3, :3]))
+    if not size > 1e-12 * np.linalg.norm(turn) ** 3:
+        raise Refused(f"'{name}' is scaled to nothing along an axis")
+    positions = surface.positions @ turn.T.astype(np.float32) + m[:3, 3].astype(np.float32)
+    bad = np.unique(surface.vertices[~(np.abs(positions) <= 1e17).all(axis=1)])
+    if len(bad):
+        raise Refused(
+            f"'{name}': {len(bad)} of its vertices have no place (NaN, infinite or too far away), the first is number "
+            f"{bad[0]}"
+        )
+    triangles = surface.triangles if np.linalg.det(turn) > 0 else np.ascontiguousarray(surface.triangles[:, ::-1])
+    inverse = np.linalg.inv(turn).astype(np.float32)
+    return dataclasses.replace(
+        surface,
+        positions=positions,
+        normals=_unit(surface.normals @ inverse),
+        smooth=_unit(surface.smooth @ inverse),
+        triangles=triangles,
+    )
+
+
+def _unit(vectors):
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+
+
+def joined(surfaces):
+    """Positions, normals and triangles of all of them."""
+    starts = np.cumsum([0] + [len(s.positions) for s in surfaces[:-1]]).astype(np.uint32)
+    return (
+        np.concatenate([s.positions for s in surfaces]),
+        np.concatenate([s.normals for s in surfaces]),
+        np.concatenate([s.triangles + start for s, start in zip(surfaces, starts)]),
+    )
+
+
+@contextlib.contextmanager
+def mesh_of(evaluated, depsgraph, layers=False):
+    """The mesh of an evaluated object, for a while. layers: with all uv maps."""
+    mesh = evaluated.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph) if layers else evaluated.to_mesh()
+    try:
+        if mesh is None:
+            raise Refused(f"'{evaluated.name}' has no faces, or none are left after its modifiers")
+        yield mesh
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def low_surface(thing, depsgraph, uv_map=""):
+    """The simple mesh in its own space, with uv."""
+    evaluated = thing.evaluated_get(depsgraph)
+    with mesh_of(evaluated, depsgraph, layers=True) as mesh:
+        return surface_of(mesh, thing.name, with_uv=True, uv_map=uv_map)
+
+
+def high_surfaces(things, depsgraph):
+    """The detailed objects, and all that they instance, in the world. Raises Refused where there are no faces."""
+    wanted, local, found = set(things), {}, []
+    for instance in depsgraph.object_instances:
+        owner = instance.parent if instance.is_instance else instance.object
+        evaluated = instance.object
+        if owner is None or owner.original not in wanted or evaluated.type not in SOLID:
+            continue
+        key = (evaluated.as_pointer(), evaluated.data.as_pointer() if evaluated.data else 0)
+        if key not in local:
+            try:
+                with mesh_of(evaluated, depsgraph) as mesh:
+                    local[key] = surface_of(mesh, evaluated.name)
+            except Refused:
+                local[key] = None  # others may have faces
+        if local[key] is not None:
+            found.append(placed(local[key], instance.matrix_world, evaluated.name))
+    if not found:
+        names = ", ".join(f"'{thing.name}'" for thing in things)
+        raise Refused(f"No faces are left of {names} after modifiers, or it is hidden")
+    return found
+
+
+@contextlib.contextmanager
+def as_rendered(context, things, wanted=True):
+    """A depsgraph in which these objects are as a render would show them: modifiers that are on for renders, and their
+    levels of subdivision. What was changed for that is put back. Linked objects stay as the viewport shows them."""
+    changed = []
+    for modifier in [m for thing in things if wanted and thing.library is None for m in thing.modifiers]:
+        pairs = [("show_viewport", "show_render")]
+        if modifier.type in {"SUBSURF", "MULTIRES"}:
+            pairs.append(("levels", "render_levels"))
+        for view, render in pairs:
+            old, new = getattr(modifier, view), getattr(modifier, render)
+            if old != new:
+                changed.append((modifier, view, old))
+                setattr(modifier, view, new)
+    try:
+        if changed:
+            context.view_layer.update()
+        yield context.evaluated_depsgraph_get()
+    finally:
+        for modifier, view, old in changed:
+            setattr(modifier, view, old)

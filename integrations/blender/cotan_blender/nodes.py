@@ -1,0 +1,72 @@
+"""Materials: where a normal map is read, and how one is put there."""
+
+from .refused import Refused
+
+
+MEND = "make it local first, or do not assign the map"
+
+
+def _principled(material):
+    """The Principled BSDF that the material shows, or any; None."""
+    nodes = material.node_tree.nodes if material.use_nodes and material.node_tree else []
+    shaders = [n for n in nodes if n.type == "BSDF_PRINCIPLED"]
+    shown = [n for n in shaders if n.outputs[0].is_linked]
+    return (shown or shaders or [None])[0]
+
+
+def _source(socket, kind):
+    """The node of that type that the socket is linked from, or None."""
+    node = socket.links[0].from_node if socket.is_linked else None
+    return node if node is not None and node.type == kind else None
+
+
+def _normal_socket(shader):
+    """Where the normal comes in: at the shader, or before a Bump node that is in between."""
+    socket = shader.inputs["Normal"]
+    bump = _source(socket, "BUMP")
+    return bump.inputs["Normal"] if bump else socket
+
+
+def map_of(material):
+    """(Normal Map node, Image Texture node) that the material's normal comes from; None for what there is not."""
+    shader = _principled(material) if material is not None else None
+    reader = _source(_normal_socket(shader), "NORMAL_MAP") if shader else None
+    return reader, _source(reader.inputs["Color"], "TEX_IMAGE") if reader else None
+
+
+def writable(material):
+    """Raises Refused where the material cannot be changed."""
+    if material is not None and material.library is not None:
+        raise Refused(f"The material '{material.name}' comes from a library file: {MEND}")
+
+
+def assign(material, image, uv_map):
+    """Lets the material's normal be read from the image. uv_map: name, "" for the one that renders use anyway.
+    Returns a sentence for what could not be done, or ""."""
+    material.use_nodes = True
+    tree = material.node_tree
+    shader = _principled(material)
+    reader, texture = map_of(material)
+    x, y = shader.location if shader else (0, 0)
+    if texture is None:
+        texture = tree.nodes.new("ShaderNodeTexImage")
+        texture.location = (x - 600, y - 350)
+    texture.image = image
+    if reader is None:
+        reader = tree.nodes.new("ShaderNodeNormalMap")
+        reader.location = (x - 250, y - 350)
+    tree.links.new(texture.outputs["Color"], reader.inputs["Color"])
+    reader.space = "TANGENT"
+    reader.uv_map = uv_map
+    if uv_map:
+        chosen = _source(texture.inputs["Vector"], "UVMAP")
+        if chosen is None:
+            chosen = tree.nodes.new("ShaderNodeUVMap")
+            chosen.location = (x - 850, y - 450)
+            tree.links.new(chosen.outputs["UV"], texture.inputs["Vector"])
+        chosen.uv_map = uv_map
+    tree.nodes.active = texture
+    if shader is None:
+        return f"the material '{material.name}' has no Principled BSDF, so its Normal Map node is linked to nothing"
+    tree.links.new(reader.outputs["Normal"], _normal_socket(shader))
+    return ""

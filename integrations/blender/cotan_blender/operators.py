@@ -1,0 +1,180 @@
+"""What the buttons do."""
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty
+from bpy_extras.io_utils import ExportHelper
+
+from . import bake, check, gltf, pairs
+from .refused import Refused, packages
+
+
+def say(operator, outcome):
+    """Everything in Blender's report. What was made counts: only where nothing was is it an error."""
+    for note in outcome.notes:
+        operator.report({"WARNING"}, note)
+    for failure in outcome.failures:
+        operator.report({"WARNING"} if outcome.made else {"ERROR"}, failure)
+    if outcome.made:
+        first = outcome.made[0]
+        what = f"'{first.name}'" if len(outcome.made) == 1 else f"{len(outcome.made)} maps"
+        operator.report({"INFO"}, f"Baked {what} for the frame {first['cotan_frame']}")
+    return {"FINISHED"} if outcome.made else {"CANCELLED"}
+
+
+class CotanBake(bpy.types.Operator):
+    """Bake the normals of detailed meshes into a map for a simple one"""
+
+    bl_idname = "object.cotan_bake"
+    bl_label = "Bake Normal Map"
+    bl_options = {"UNDO"}
+
+    which: EnumProperty(
+        name="Which",
+        items=[
+            ("ACTIVE", "Selected to Active", "The selected objects onto the active mesh"),
+            ("NAMES", "Pairs by Name", "Each selected mesh x_low, or each there is, from what is named x_high"),
+        ],
+        default="ACTIVE",
+    )
+
+    def _begin(self, context):
+        if context.mode != "OBJECT":
+            raise Refused("Go back to Object Mode first")
+        found = pairs.by_name(context) if self.which == "NAMES" else pairs.by_selection(context)
+        self._outcome = bake.Outcome()
+        self._steps = bake.run(context, context.scene.cotan, found, self._outcome)
+
+    def execute(self, context):
+        try:
+            self._begin(context)
+        except Refused as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for _ in self._steps:
+            pass
+        return say(self, self._outcome)
+
+    def invoke(self, context, event):
+        """The same while the window goes on being drawn. Esc stops; other keys wait until it is done."""
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            self._begin(context)
+        except Refused as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
+        context.window_manager.cotan_running = True
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self._steps.close()
+            self._end(context)
+            self._outcome.notes.append("Stopped: what was not finished is as it was")
+            say(self, self._outcome)
+            return {"FINISHED"} if self._outcome.made else {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            share = next(self._steps)
+        except StopIteration:
+            self._end(context)
+            return say(self, self._outcome)
+        except BaseException:
+            self._end(context)
+            raise
+        context.window_manager.cotan_progress = 100 * share
+        context.workspace.status_text_set(f"Cotan bakes: {100 * share:.0f} %. Esc stops")
+        _redraw(context)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context):  # Blender is being closed
+        self._steps.close()
+
+    def _end(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.cotan_running = False
+        context.workspace.status_text_set(None)
+        _redraw(context)
+
+
+def _redraw(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"PROPERTIES", "IMAGE_EDITOR", "VIEW_3D"}:
+                area.tag_redraw()
+
+
+class CotanCheck(bpy.types.Operator):
+    """Say what is wrong with the active mesh and its normal maps, and select the faces in question"""
+
+    bl_idname = "object.cotan_check"
+    bl_label = "Check Mesh"
+    bl_options = {"UNDO"}
+
+    kind: EnumProperty(name="Select", items=check.KINDS, default="ALL", description="Which faces")
+
+    def execute(self, context):
+        thing = context.view_layer.objects.active
+        lines = context.window_manager.cotan_lines
+        lines.clear()
+        try:
+            if context.mode != "OBJECT" and thing is not None and thing.type == "MESH":
+                bpy.ops.object.mode_set(mode="OBJECT")
+            said, asked = check.verdict(context, thing, context.scene.cotan.degrees)
+        except (Refused, packages().Error) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for question in asked:
+            self._add(lines, f"{len(question.faces)} faces {question.text}", question.kind)
+        for text in said:
+            self._add(lines, text, "")
+        if not asked:
+            self._add(lines, "No face is in question", "")
+        chosen = [q.faces for q in asked if self.kind in ("ALL", q.kind)]
+        if chosen and thing.data.library is not None:
+            self._add(lines, f"The mesh of '{thing.name}' comes from a library file: its faces cannot be selected", "")
+        elif chosen:
+            check.select(context, thing, np.concatenate(chosen))
+        return {"FINISHED"}
+
+    def _add(self, lines, text, kind):
+        line = lines.add()
+        line.text, line.kind = text, kind
+        self.report({"WARNING"} if kind else {"INFO"}, text)
+
+
+class CotanExport(bpy.types.Operator, ExportHelper):
+    """Export the selected objects as glTF without tangents, with their normal maps made for a frame that needs none"""
+
+    bl_idname = "export_scene.cotan_gltf"
+    bl_label = "Export glTF without Tangents"
+    filename_ext = ".glb"
+
+    apply_modifiers: BoolProperty(
+        name="Apply Modifiers", default=True, description="Shape keys stay as they stand then"
+    )
+
+    def execute(self, context):
+        frame = context.scene.cotan.to_frame
+        try:
+            if context.mode != "OBJECT":
+                raise Refused("Go back to Object Mode first")
+            things = context.selected_objects
+            if not any(t.type == "MESH" for t in things):
+                raise Refused("No mesh is selected: select what is to be exported")
+            notes = gltf.warnings(context, things, self.apply_modifiers)
+            made_for = gltf.frame_of_all(things)
+            model = gltf.exported(context, things, self.apply_modifiers)
+            done = packages().convert(model, self.filepath, to_frame=frame, from_frame=made_for, tangents="generated")
+        except (Refused, packages().Error) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for note in notes:
+            self.report({"WARNING"}, note)
+        maps = f"{done.maps_converted} maps converted, {done.maps_kept} kept as they are"
+        self.report({"INFO"}, f"Exported for the frame {frame}: {maps}")
+        return {"FINISHED"}

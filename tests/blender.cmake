@@ -1,0 +1,17 @@
+# integrations/blender inside Debian's Blender. A library with sanitizers cannot be loaded there.
+if(CMAKE_CXX_FLAGS MATCHES "fsanitize" OR NOT TARGET cotan_c)
+  return()
+endif()
+find_package(Python3 COMPONENTS Interpreter)
+if(NOT Python3_FOUND)
+  return()
+endif()
+function(cotan_blender name script)
+  cotan_door(Blender.${name} COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/blender/run.py ${ARGN}
+    $<TARGET_FILE:cotan_c> $<TARGET_FILE:cotan> ${script})
+endfunction()
+cotan_blender(bakesWhatItSees bake_facts.py)
+cotan_blender(checksAndExports check_facts.py)
+cotan_blender(saysWhatIsWrongInOneSentence state_facts.py)
+cotan_blender(isInstalledFromItsZip install_facts.py --installed)
+cotan_blender(bakesWhileTheWindowGoesOn window_facts.py --window)

@@ -1,0 +1,429 @@
+"""Maps against what mathematics says: a square below spheres and tori, in all the ways that Blender makes meshes."""
+
+import math
+import os
+
+import bpy
+import cotan
+import facts
+import numpy as np
+from facts import baked, ball, degrees, directions, moved, places, select, settings, square, thing, torus
+from mathutils import Euler, Matrix
+
+# A sphere of 128 cells leaves normals between vertices some 0.01 degrees off, and 16 bits 0.002.
+NEAR = 0.03
+
+
+def of_sphere(x, y, radius=1.0):
+    """Unit normals of a sphere in the middle, seen from above, and where it is well inside of its rim."""
+    inside = x * x + y * y < (0.9 * radius) ** 2
+    z = np.sqrt(np.maximum(radius * radius - x * x - y * y, 0))
+    return np.stack([x, y, z], -1) / radius, inside
+
+
+def expect_sphere(found, x, y, radius=1.0, least=1000):
+    truth, inside = of_sphere(x, y, radius)
+    assert inside.sum() > least, inside.sum()
+    assert degrees(found[inside], truth[inside]).max() < NEAR, degrees(found[inside], truth[inside]).max()
+
+
+def aSphereHasItsOwnNormals():
+    x, y = places()
+    for frame in ("mikktspace", "smooth", "cotangent", "orthonormal", "triangle", "vertex"):
+        expect_sphere(baked(square(), ball(), frame=frame, distance=2), x, y)
+        bpy.data.objects.remove(bpy.data.objects["low"])
+        bpy.data.objects.remove(bpy.data.objects["high"])
+
+
+def aTorusHasItsOwnNormals():
+    x, y = places()
+    bpy.context.scene.render.bake.cage_extrusion = 1  # nearest would be as well the lower half
+    found = baked(square(), torus(), cage="BLENDER")
+    r = np.hypot(x, y)
+    side = (r - 0.6) / 0.3
+    on = np.abs(side) < 0.9
+    truth = np.stack([side * x / r, side * y / r, np.sqrt(np.maximum(1 - side * side, 0))], -1)
+    assert on.sum() > 1000 and degrees(found[on], truth[on]).max() < 0.1, degrees(found[on], truth[on]).max()
+
+
+def placesInTheWorldDoNotMatter():
+    x, y = places()
+    turned = moved(3, -2, 5) @ Euler((0.7, -1.1, 2.3)).to_matrix().to_4x4() @ Matrix.Scale(2.5, 4)
+    # The detailed mesh has a place of its own, the simple one another; together they are the square and the sphere.
+    high = ball(centre=(0, 0, -3), matrix=turned @ moved(0, 0, 3))
+    low = square(matrix=turned)
+    expect_sphere(baked(low, high, distance=5), x, y)
+
+
+def mirroredObjectsKeepTheirBumps():
+    x, y = places()
+    mirrored = Matrix.Diagonal((-1, 1, 1, 1))
+    expect_sphere(baked(square(matrix=mirrored), ball(centre=(0.25, 0.1, 0)), distance=2), x + 0.25, y - 0.1, least=500)
+    # The other way round, too: a mirrored detailed mesh below.
+    bpy.data.objects.remove(bpy.data.objects["high"])
+    high = ball("mirror", centre=(0.25, 0.1, 0), matrix=mirrored)
+    expect_sphere(baked(square("other"), high, distance=2), x + 0.25, y - 0.1, least=500)
+
+
+def stretchedDetailHasTheNormalsOfTheEllipsoid():
+    x, y = places()
+    found = baked(square(), ball(matrix=Matrix.Diagonal((1, 0.5, 1, 1))), distance=2)
+    truth, inside = of_sphere(x, 2 * y)
+    truth = truth * (1, 2, 1)
+    assert inside.sum() > 500 and degrees(found[inside], truth[inside]).max() < NEAR
+
+
+def instancesOfACollectionCount():
+    x, y = places()
+    high = ball()
+    hidden = bpy.data.collections.new("parts")
+    bpy.context.collection.objects.unlink(high)
+    hidden.objects.link(high)
+    empty = bpy.data.objects.new("placed", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", hidden
+    empty.matrix_world = moved(0.3, -0.2) @ Matrix.Scale(0.5, 4)
+    bpy.context.collection.objects.link(empty)
+    expect_sphere(baked(square(), empty, distance=2), x - 0.3, y + 0.2, 0.5, least=500)
+
+
+def instancesOnVerticesCount():
+    x, y = places()
+    high = ball(radius=0.4, cells=64)
+    parent = thing("points", [(-0.5, 0, 0), (0.5, 0, 0)], [])
+    parent.instance_type = "VERTS"
+    high.parent = parent
+    found = baked(square(), parent, distance=2)
+    for centre in (-0.5, 0.5):
+        truth, inside = of_sphere(x - centre, y, 0.4)
+        assert inside.sum() > 300 and degrees(found[inside], truth[inside]).max() < 0.1
+
+
+def instancesOfGeometryNodesCount():
+    x, y = places()
+    high = ball(radius=0.5, centre=(0, 0, 0), matrix=moved(9))
+    placer = thing("placer", [(0, 0, 0)], [], matrix=moved(0.2, -0.3))
+    tree = bpy.data.node_groups.new("place", "GeometryNodeTree")
+    tree.outputs.new("NodeSocketGeometry", "Geometry")
+    info, out = tree.nodes.new("GeometryNodeObjectInfo"), tree.nodes.new("NodeGroupOutput")
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = high, True
+    tree.links.new(info.outputs["Geometry"], out.inputs[0])
+    placer.modifiers.new("place", "NODES").node_group = tree
+    expect_sphere(baked(square(), placer, distance=2), x - 0.2, y + 0.3, 0.5, least=500)
+
+
+def textAndCurvesCount():
+    curve = bpy.data.curves.new("disc", "CURVE")
+    curve.dimensions, curve.fill_mode = "2D", "BOTH"
+    spline = curve.splines.new("POLY")
+    spline.points.add(3)
+    for point, (x, y) in zip(spline.points, ((-2, -2), (2, -2), (2, 2), (-2, 2))):
+        point.co = (x, y, 0, 1)
+    spline.use_cyclic_u = True
+    disc = bpy.data.objects.new("disc", curve)
+    disc.matrix_world = moved(z=-0.2) @ Matrix.Rotation(0.1, 4, "Y")
+    bpy.context.collection.objects.link(disc)
+    assert degrees(baked(square(), disc, distance=2), (math.sin(0.1), 0, math.cos(0.1))).max() < 0.01
+
+
+def modifiersAreApplied():
+    x, y = places()
+    high = ball(centre=(-0.5, 0, 0), radius=0.45)
+    array = high.modifiers.new("twice", "ARRAY")
+    array.use_relative_offset, array.use_constant_offset, array.constant_offset_displace = False, True, (1, 0, 0)
+    half = [(-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 0, 0)]
+    low = thing("low", half, [(0, 1, 2, 3)], [(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
+    mirror = low.modifiers.new("both halves", "MIRROR")
+    mirror.use_axis = (False, True, False)
+    mirror.use_mirror_v = True
+    found = baked(low, high, distance=2)
+    for centre in (-0.5, 0.5):
+        truth, inside = of_sphere(x - centre, y, 0.45)
+        assert inside.sum() > 400 and degrees(found[inside], truth[inside]).max() < NEAR
+
+
+def subdivisionIsThatOfARenderAndIsPutBack():
+    high = thing("high", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [(0, 1, 2, 3)])
+    subdivided = high.modifiers.new("fine", "SUBSURF")
+    subdivided.levels, subdivided.render_levels, subdivided.show_viewport = 0, 4, False
+    from cotan_blender import meshes
+
+    for wanted, faces in ((True, 4**4), (False, 1)):
+        with meshes.as_rendered(bpy.context, [high], wanted) as depsgraph:
+            surface = meshes.high_surfaces([high], depsgraph)[0]
+        assert len(surface.triangles) == 2 * faces, len(surface.triangles)
+        assert (subdivided.levels, subdivided.show_viewport) == (0, False)
+
+
+def shapeKeysAreMixedIn():
+    x, y = places()
+    high = ball()
+    high.shape_key_add(name="Basis")
+    key = high.shape_key_add(name="aside")
+    for point in key.data:
+        point.co.x += 0.6
+    key.value = 0.5
+    expect_sphere(baked(square(), high, distance=2), x - 0.3, y)
+
+
+def theChosenUvMapCounts():
+    x, y = places()
+    low, high = square(), ball(centre=(0.3, 0.1, 0))
+    turned = low.data.uv_layers.new(name="turned")  # by a quarter: u along y, v against x
+    for loop in low.data.loops:
+        co = low.data.vertices[loop.vertex_index].co
+        turned.data[loop.index].uv = ((co.y + 1) / 2, (1 - co.x) / 2)
+    expect_sphere(baked(low, high, distance=2), x - 0.3, y - 0.1)
+    found = baked(low, high, distance=2, uv_map="turned")
+    # Along the picture's x is the world's y, along its y the world's -x: so are the normals.
+    truth, inside = of_sphere(-y - 0.3, x - 0.1)
+    truth = np.stack([truth[..., 1], -truth[..., 0], truth[..., 2]], -1)
+    assert degrees(found[inside], truth[inside]).max() < NEAR
+    reader = next(n for n in low.data.materials[0].node_tree.nodes if n.type == "NORMAL_MAP")
+    assert reader.uv_map == "turned"
+    texture = reader.inputs["Color"].links[0].from_node
+    assert texture.inputs["Vector"].links[0].from_node.uv_map == "turned"
+
+
+def customNormalsCount():
+    high = square("high")
+    high.data.use_auto_smooth = True
+    leaning = (math.sin(0.3), 0, math.cos(0.3))
+    high.data.normals_split_custom_set([leaning] * 4)
+    found = baked(square(), high, distance=1)
+    assert degrees(found, leaning).max() < 0.02  # Blender keeps them in 16 bits
+
+
+def customNormalsOfTheSimpleMeshCount():
+    # The surface leans by 0.2 against what the normals say: the flat detail does, too, the other way.
+    low = square()
+    low.data.use_auto_smooth = True
+    low.data.normals_split_custom_set([(math.sin(0.2), 0, math.cos(0.2))] * 4)
+    found = baked(low, square("high", half=4, z=0.01), frame="orthonormal", distance=1)
+    assert degrees(found, (-math.sin(0.2), 0, math.cos(0.2))).max() < 0.02
+
+
+def flatFacesStayFlat():
+    # A roof over the y axis: smooth it would have one normal on the ridge.
+    corners = [(-1, -1, 0), (0, -1, 0.5), (1, -1, 0), (1, 1, 0), (0, 1, 0.5), (-1, 1, 0)]
+    roof = thing("high", corners, [(0, 1, 4, 5), (1, 2, 3, 4)], smooth=False)
+    found = baked(square(), roof, distance=1)
+    assert degrees(found[:, :32], (-0.5, 0, 1)).max() < 0.01 and degrees(found[:, 32:], (0.5, 0, 1)).max() < 0.01
+
+
+def nGonsAreCutAsBlenderCutsThem():
+    # A hollow pentagon: a fan from its first corner would leave it.
+    outline = [(-1, -1), (1, -1), (1, 1), (0, -0.5), (-1, 1)]
+    uv = [((x + 1) / 2, (y + 1) / 2) for x, y in outline]
+    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3, 4)], uv)
+    found = baked(low, square("high", half=3, z=0.1), distance=1, width=128, height=128, bits="8")
+    image = bpy.data.images["low_normal"]
+    from cotan_blender import meshes
+
+    with meshes.as_rendered(bpy.context, [low]) as depsgraph:
+        surface = meshes.low_surface(low, depsgraph)
+    corners = surface.positions[surface.triangles]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
+    assert len(area) == 3 and (area > 0).all() and abs(area.sum() - 2.5) < 1e-6, area
+    assert tuple(image.size) == (128, 128) and degrees(found, (0, 0, 1)).max() < 0.01
+
+
+def eachMaterialHasItsMapWhereAsked():
+    # Two faces side by side in space, both over the whole uv square; each has a hill of its own.
+    outline = [(-2, -1), (0, -1), (0, 1), (-2, 1), (2, -1), (2, 1)]
+    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3), (1, 4, 5, 2)], [(0, 0)] * 6)
+    for polygon in low.data.polygons:
+        for loop, uv in zip(polygon.loop_indices, [(0, 0), (1, 0), (1, 1), (0, 1)]):
+            low.data.uv_layers[0].data[loop].uv = uv
+    for name in ("left", "right"):
+        low.data.materials.append(bpy.data.materials.new(name))
+    low.data.polygons[1].material_index = 1
+    settings(each_material=True, distance=2)
+    select(ball("a", (-1.2, 0, 0)), ball("b", (1.3, 0.2, 0)), low)
+    assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+    x, y = places()
+    expect_sphere(directions(bpy.data.images["low_left_normal"]), x + 0.2, y)
+    expect_sphere(directions(bpy.data.images["low_right_normal"]), x - 0.3, y - 0.2)
+    for name in ("left", "right"):
+        used = [n.image.name for n in bpy.data.materials[name].node_tree.nodes if n.type == "TEX_IMAGE"]
+        assert used == [f"low_{name}_normal"], used
+    # One map for both, and both read it.
+    settings(each_material=False, distance=2)
+    assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+    for name in ("left", "right"):
+        used = [n.image.name for n in bpy.data.materials[name].node_tree.nodes if n.type == "TEX_IMAGE"]
+        assert used == ["low_normal"], used
+
+
+def two_hills():
+    """A flat square high above, and one that leans along x below it, behind the simple one."""
+    near = square("near", half=2, z=0.5)
+    far = thing("far", [(-2, -2, -0.8), (2, -2, -0.4), (2, 2, -0.4), (-2, 2, -0.8)], [(0, 1, 2, 3)])
+    return near, far, (-0.1, 0, 1)
+
+
+def blendersOwnCageCounts():
+    near, far, leaning = two_hills()
+    low, bake = square(), bpy.context.scene.render.bake
+    # The nearer one is above by 0.5, the leaning one 0.4 to 0.8 below.
+    flat = (0, 0, 1)
+    for extrusion, distance, truth in ((0.6, 0, flat), (0.3, 0, leaning), (0.3, 1.3, leaning), (0.6, 0.2, flat)):
+        for use_cage in (False, True):
+            bake.cage_extrusion, bake.max_ray_distance, bake.use_cage = extrusion, distance, use_cage
+            found = baked(low, near, far, cage="BLENDER")
+            assert degrees(found, truth).max() < 0.01, (extrusion, distance, use_cage)
+    # A ray of 0.9 from 0.3 above ends before the left half of what is below: those texels are flat.
+    bake.cage_extrusion, bake.max_ray_distance = 0.3, 0.9
+    found = baked(low, near, far, cage="BLENDER")
+    assert degrees(found[:, 40:], leaning).max() < 0.01 and degrees(found[:, :24], (0, 0, 1)).max() < 0.01
+    # Extrusion is in the space of the simple mesh, as it is in Blender: twice as far in one of twice the size.
+    big = square("big", matrix=Matrix.Scale(2, 4))
+    bake.cage_extrusion, bake.max_ray_distance = 0.29, 0
+    assert degrees(baked(big, near, cage="BLENDER"), (0, 0, 1)).max() < 0.01
+    bake.use_cage, bake.cage_object, bake.max_ray_distance = True, square("cage", z=0.45), 0
+    assert degrees(baked(low, near, far, cage="BLENDER"), leaning).max() < 0.01
+    bake.cage_object.location.z = 0.1
+    bpy.context.view_layer.update()
+    assert degrees(baked(low, near, far, cage="BLENDER"), (0, 0, 1)).max() < 0.01
+
+
+def aMeshIsACage():
+    near, far, leaning = two_hills()
+    low = square()
+    assert degrees(baked(low, near, far, cage="MESH", cage_object=square("cage", z=1)), (0, 0, 1)).max() < 0.01
+    bpy.data.objects["cage"].location.z = -0.4  # from 0.6 above to as far below: the right half of what leans
+    bpy.context.view_layer.update()
+    found = baked(low, far, cage="MESH")
+    assert degrees(found[:, 40:], leaning).max() < 0.01 and degrees(found[:, :24], (0, 0, 1)).max() < 0.01
+    bpy.data.objects.remove(bpy.data.objects["cage"])
+    one = thing("cage", [(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(0, 1, 2)])
+    settings(cage="MESH", cage_object=one)
+    select(near, low)
+    text = facts.said(bpy.ops.object.cotan_bake)
+    assert text.startswith("The cage 'cage' has 3 vertices where 'low' has 4"), text
+
+
+def pairsAreFoundByName():
+    x, y = places()
+    names = (("door_low", "door_high"), ("bolt.lo", "Bolt.HI.001"), ("Wall_low", "wall_high_a"))
+    for number, (low, high) in enumerate(names):
+        square(low, matrix=moved(4 * number))
+        ball(high, matrix=moved(4 * number), centre=(0.1 * number, 0, 0))
+    ball("wall_high_b", centre=(-0.8, 0.8, 0), radius=0.15, matrix=moved(8))
+    torus("unrelated")
+    settings(distance=2)
+    select()
+    assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
+    for number, low in enumerate(("door_low", "bolt.lo", "Wall_low")):
+        found = directions(bpy.data.images[f"{low}_normal"])
+        expect_sphere(found, x - 0.1 * number, y)
+    expect_sphere(found, x + 0.8, y - 0.8, 0.15, least=50)
+    # Only those that are selected, and one without its counterpart does not stop the others.
+    for image in list(bpy.data.images):
+        bpy.data.images.remove(image)
+    square("alone_low")
+    select(bpy.data.objects["door_low"], bpy.data.objects["alone_low"])
+    assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
+    assert [i.name for i in bpy.data.images] == ["door_low_normal"]
+    select(bpy.data.objects["alone_low"])
+    found = facts.said(bpy.ops.object.cotan_bake, which="NAMES")
+    assert found.startswith("There is no visible object named like 'alone_low'"), found
+
+
+def theNormalNodeReadsTheMap():
+    low, high = square(), ball()
+    material = bpy.data.materials.new("worn")
+    material.use_nodes = True
+    low.data.materials.append(material)
+    baked(low, high, distance=2)
+    nodes = material.node_tree.nodes
+
+    def chain():
+        reader = nodes["Principled BSDF"].inputs["Normal"].links[0].from_node
+        return reader, reader.inputs["Color"].links[0].from_node
+
+    reader, texture = chain()
+    assert (reader.type, texture.type, texture.image.name) == ("NORMAL_MAP", "TEX_IMAGE", "low_normal")
+    assert texture.image.colorspace_settings.name == "Non-Color" and texture.image.packed_file
+    assert (texture.image.is_float, tuple(texture.image.size)) == (True, (64, 64))
+    count = len(nodes)
+    baked(low, high, distance=2, bits="8")  # again: the same nodes, the new picture, and no other one
+    assert len(nodes) == count and chain()[1].image.is_float is False and len(bpy.data.images) == 1
+    # With a Bump node between, the map goes before it.
+    bump = nodes.new("ShaderNodeBump")
+    for link in list(nodes["Principled BSDF"].inputs["Normal"].links):
+        material.node_tree.links.remove(link)
+    material.node_tree.links.new(bump.outputs["Normal"], nodes["Principled BSDF"].inputs["Normal"])
+    baked(low, high, distance=2)
+    assert nodes["Principled BSDF"].inputs["Normal"].links[0].from_node == bump
+    assert bump.inputs["Normal"].links[0].from_node.type == "NORMAL_MAP"
+    settings(assign=False)
+    bpy.data.objects.remove(low)
+    other = square("other")
+    baked(other, high, distance=2, assign=False)
+    assert not other.data.materials and bpy.data.images["other_normal"]
+
+
+def mapsAreSavedAsFiles():
+    low, high = square(), ball()
+    folder = os.path.join(facts.FOLDER, "maps")
+    os.mkdir(folder)
+    for bits, depth in (("8", 24), ("16", 96)):
+        found = baked(low, high, distance=2, bits=bits, store="FILE", folder=folder)
+        path = os.path.join(folder, "low_normal.png")
+        image = bpy.data.images["low_normal"]
+        assert os.path.isfile(path) and image.packed_file is None and bpy.path.abspath(image.filepath) == path
+        again = cotan.read_picture(path)
+        assert again.dtype == (np.uint8 if bits == "8" else np.uint16) and image.depth == depth, image.depth
+        stored = (again[..., :3].astype(float) - 2 ** (int(bits) - 1)) / (2 ** (int(bits) - 1) - 1)
+        assert np.abs(stored - found).max() < 1e-4
+    # A file that no image stands for is not replaced unasked.
+    bpy.data.images.remove(bpy.data.images["low_normal"])
+    assert "is there already" in facts.said(bpy.ops.object.cotan_bake)
+    bpy.context.scene.cotan.overwrite = True
+    assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+
+
+def mapsAreThereAfterSavingAndOpening():
+    folder = os.path.join(facts.FOLDER, "project")
+    os.mkdir(folder)
+    blend, elsewhere = os.path.join(folder, "scene.blend"), os.path.join(facts.FOLDER, "moved")
+    bpy.ops.wm.save_as_mainfile(filepath=blend)
+    packed = baked(square("packed"), ball(), distance=2, frame="smooth")
+    filed = baked(square("filed"), bpy.data.objects["high"], distance=2, store="FILE", folder="//")
+    bpy.ops.wm.save_mainfile()
+    os.rename(folder, elsewhere)
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(elsewhere, "scene.blend"))
+    for name, expected, frame in (("packed", packed, "smooth"), ("filed", filed, "smooth")):
+        image = bpy.data.images[f"{name}_normal"]
+        assert (directions(image) == expected).all() and image["cotan_frame"] == frame
+        assert image.colorspace_settings.name == "Non-Color"
+
+
+def theMapIsThatOfTheCommandLine():
+    # A hull of few faces around a bumpy ball, leaning in the world, its uv a mess of charts.
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=20, ring_count=12, radius=1.02)
+    low = bpy.context.object
+    low.name = "low"
+    bpy.ops.object.shade_smooth()
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
+    high = bpy.context.object
+    high.name = "high"
+    bpy.ops.object.shade_smooth()
+    for vertex in high.data.vertices:
+        vertex.co *= 1 + 0.03 * math.sin(9 * vertex.co.x) * math.sin(7 * vertex.co.y + 5 * vertex.co.z)
+    for each in (low, high):
+        each.modifiers.new("triangles", "TRIANGULATE")
+        each.matrix_world = moved(1, 2, 3) @ Euler((0.3, 0.4, 0.5)).to_matrix().to_4x4()
+    files = facts.exported("low", low), facts.exported("high", high)
+    for frame in ("mikktspace", "smooth", "cotangent"):
+        ours = baked(low, high, frame=frame, width=256, height=256)
+        out = os.path.join(facts.FOLDER, f"{frame}.png")
+        words = ["--frame", frame, "--size", "256x256", "--bits", "16", "--padding", "-1", "--tangents", "generated"]
+        facts.command("bake", "--low", files[0], "--high", files[1], *words, "-o", out)
+        theirs = (cotan.read_picture(out)[..., :3].astype(float) - 32768) / 32767
+        off = degrees(ours, theirs)
+        assert off.mean() < 0.01, (frame, off.mean(), off.max())
+        assert degrees(ours, (0, 0, 1)).mean() > 1  # there is something to compare
+
+
+facts.hold_all(__name__)

@@ -1,0 +1,163 @@
+"""Facts inside Blender: each is a function that asserts, on an empty scene."""
+
+import inspect
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import traceback
+
+import bpy
+import cotan
+import cotan_blender
+import numpy as np
+from mathutils import Matrix
+
+TOOL = os.environ["COTAN_TOOL"]
+FOLDER = tempfile.mkdtemp()  # Blender's own folder for temporary files goes with each file that is read
+
+
+def hold_all(module):
+    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers.
+    Leaves Blender with exit code 1 where one does not hold."""
+    functions = filter(inspect.isfunction, vars(sys.modules[module]).values())
+    own = [function for function in functions if function.__module__ == module]
+    facts = [fact for fact in own if not inspect.signature(fact).parameters and "_" not in fact.__name__]
+    cotan_blender.register()
+    failed = 0
+    for fact in facts:
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        try:
+            fact()
+            print(f"[ OK ] {fact.__name__}", flush=True)
+        except BaseException:
+            failed += 1
+            print(f"[FAIL] {fact.__name__}\n{traceback.format_exc()}", flush=True)
+    cotan_blender.unregister()
+    print(f"{len(facts) - failed} of {len(facts)} facts hold", flush=True)
+    if failed:
+        sys.exit(1)
+
+
+def said(call, **arguments):
+    """The error that an operator reports: one sentence without a traceback; "" where it ends well."""
+    try:
+        call(**arguments)
+        return ""
+    except RuntimeError as error:
+        text = str(error).strip()
+        assert text.startswith("Error: ") and "\n" not in text and "Traceback" not in text, text
+        return text[len("Error: ") :]
+
+
+def thing(name, vertices, faces, uv=None, matrix=None, smooth=True):
+    """A mesh object. uv: (u, v) of each vertex, v up."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(map(float, v)) for v in vertices], [], [tuple(map(int, f)) for f in faces])
+    if uv is not None:
+        layer = mesh.uv_layers.new(name="UVMap")
+        for loop in mesh.loops:
+            layer.data[loop.index].uv = uv[loop.vertex_index]
+    mesh.polygons.foreach_set("use_smooth", [smooth] * len(mesh.polygons))
+    mesh.update()
+    made = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(made)
+    if matrix is not None:
+        made.matrix_world = matrix
+    return made
+
+
+def square(name="low", half=1.0, z=0.0, matrix=None):
+    """A square in the plane z, whose uv fill the unit square: u along x, v along y."""
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    uv = [((x + 1) / 2, (y + 1) / 2) for x, y in corners]
+    return thing(name, [(half * x, half * y, z) for x, y in corners], [(0, 1, 2, 3)], uv, matrix)
+
+
+def ball(name="high", centre=(0, 0, 0), radius=1.0, cells=128, matrix=None):
+    """The upper part of a sphere, to 71 degrees from the top, smooth: a grid of squares on it, without a pole."""
+    along = np.tan(np.linspace(-1, 1, cells + 1) * np.radians(71))
+    x, y = (a.ravel() for a in np.meshgrid(along, along))
+    ways = np.stack([x, y, np.ones(len(x))], -1)
+    vertices = np.array(centre) + radius * ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    first = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
+    faces = np.stack([first, first + 1, first + cells + 2, first + cells + 1], -1)
+    return thing(name, vertices, faces, matrix=matrix)
+
+
+def torus(name="high", major=0.6, minor=0.3, segments=256):
+    """A torus around z, smooth."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=segments, minor_segments=segments // 2, major_radius=major, minor_radius=minor
+    )
+    made = bpy.context.object
+    made.name = name
+    bpy.ops.object.shade_smooth()
+    return made
+
+
+def select(*things):
+    """Selects these and no others, the last one active."""
+    for other in bpy.context.selected_objects:
+        other.select_set(False)
+    for each in things:
+        each.select_set(True)
+    bpy.context.view_layer.objects.active = things[-1] if things else None
+
+
+def settings(**wanted):
+    """The panel's settings; small maps of 16 bits, without padding."""
+    s = bpy.context.scene.cotan
+    for name, value in {"width": 64, "height": 64, "bits": "16", "padding": -1, **wanted}.items():
+        setattr(s, name, value)
+    return s
+
+
+def baked(low, *highs, **wanted):
+    """Bakes by the operator, and gives the map as directions: (height, width, 3), rows from the top."""
+    settings(**wanted)
+    select(*highs, low)
+    assert bpy.ops.object.cotan_bake(which="ACTIVE") == {"FINISHED"}
+    return directions(bpy.data.images[f"{low.name}_normal"])
+
+
+def directions(image):
+    """What the texels say, x to the right, y up the picture."""
+    width, height = image.size
+    values = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(values)
+    codes = values.reshape(height, width, 4)[::-1, :, :3].astype(np.float64)
+    return (codes * 65535 - 32768) / 32767 if image.is_float else (np.rint(codes * 255) - 128) / 127
+
+
+def degrees(one, other):
+    """Between directions of any length."""
+    one, other = np.asarray(one, float), np.asarray(other, float)
+    cosine = (one * other).sum(-1) / (np.linalg.norm(one, axis=-1) * np.linalg.norm(other, axis=-1))
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def places(size=64, half=1.0):
+    """x and y of the centres of a map's texels on square(): (size, size) each, rows from the top."""
+    along = ((np.arange(size) + 0.5) / size * 2 - 1) * half
+    return np.meshgrid(along, -along)
+
+
+def command(*arguments):
+    """Runs the command line."""
+    done = subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def exported(name, *things):
+    """A .glb of these objects by Blender's exporter."""
+    select(*things)
+    path = os.path.join(FOLDER, f"{name}.glb")
+    bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", use_selection=True, export_apply=True)
+    return path
+
+
+def moved(x=0.0, y=0.0, z=0.0):
+    return Matrix.Translation((x, y, z))

@@ -1,0 +1,130 @@
+"""The package itself: where it looks for the library, how it installs, what it says of itself."""
+
+import inspect
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import typing
+
+import pytest
+
+import cotan
+
+LIBRARY = os.environ.get("COTAN_LIBRARY", "")
+
+
+def without(*names):
+    """The variables of this process but those."""
+    return {name: value for name, value in os.environ.items() if name not in names}
+
+
+def run(program, package, **environment):
+    """What a Python that has the package in `package` prints."""
+    variables = dict(without("COTAN_LIBRARY"), PYTHONPATH=str(package), **environment)
+    done = subprocess.run([sys.executable, "-c", program], env=variables, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+SAY = """
+import cotan
+try:
+    print(cotan.library_path(), cotan.library_version())
+except cotan.UnavailableError as error:
+    print(error)
+"""
+
+
+@pytest.fixture
+def copy(source, tmp_path):
+    """The package in a folder of its own."""
+    shutil.copytree(source / "bindings/python/cotan", tmp_path / "cotan", ignore=shutil.ignore_patterns("*.so*"))
+    return tmp_path
+
+
+def test_a_library_inside_the_package_comes_first(copy):
+    inside = copy / "cotan" / "libcotan.so.0"
+    inside.symlink_to(pathlib.Path(LIBRARY).resolve())
+    assert run(SAY, copy, COTAN_LIBRARY="/nowhere/libcotan.so") == f"{inside} {cotan.__version__}"
+
+
+def test_then_the_one_that_the_variable_names(copy):
+    assert run(SAY, copy, COTAN_LIBRARY=LIBRARY) == f"{LIBRARY} {cotan.__version__}"
+
+
+def test_then_the_systems(copy, tmp_path):
+    (tmp_path / "libcotan.so.0").symlink_to(pathlib.Path(LIBRARY).resolve())
+    assert run(SAY, copy, LD_LIBRARY_PATH=str(tmp_path)) == f"libcotan.so.0 {cotan.__version__}"
+
+
+def test_a_missing_library_is_said_when_it_is_needed_with_what_to_do(copy):
+    said = run(SAY, copy, COTAN_LIBRARY="/nowhere/libcotan.so", LD_LIBRARY_PATH="")
+    if said.startswith("libcotan.so.0 "):
+        pytest.skip("skipped: this system has a libcotan")
+    assert said.startswith("libcotan is missing") and "COTAN_LIBRARY" in said and "libcotan0" in said
+    assert "/nowhere/libcotan.so" in said and "\n" not in said
+
+
+def test_what_is_no_libcotan_is_said(copy, tmp_path):
+    (tmp_path / "text.so").write_text("this is no library")
+    assert "text.so" in run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "text.so"), LD_LIBRARY_PATH="")
+    program = tmp_path / "old.c"
+    program.write_text("int cotan_api_version(void) { return 2; }\n")
+    subprocess.run(["cc", "-shared", "-fPIC", program, "-o", tmp_path / "old.so"], check=True)
+    said = run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "old.so"), LD_LIBRARY_PATH="")
+    assert "expected version 3 of its interface or later, found 2" in said
+
+
+def public():
+    return [getattr(cotan, name) for name in cotan.__all__ if not inspect.ismodule(getattr(cotan, name))]
+
+
+def test_everything_public_says_what_it_does():
+    assert len(public()) > 35
+    for thing in public():
+        if callable(thing):
+            assert inspect.getdoc(thing), thing
+
+
+def test_everything_imported_is_listed_for_type_checkers():
+    """They read the list, and take what is not in it for private."""
+    imported = {name for name, thing in vars(cotan).items() if not name.startswith("_") and not inspect.ismodule(thing)}
+    assert imported | {"__version__"} == set(cotan.__all__)
+
+
+def test_everything_public_is_typed():
+    assert (pathlib.Path(cotan.__file__).parent / "py.typed").exists()
+    for thing in public():
+        if inspect.isfunction(thing):
+            hints = typing.get_type_hints(thing)
+            assert set(hints) == {*inspect.signature(thing).parameters, "return"}, thing.__name__
+
+
+def test_every_function_of_the_c_api_is_reached(source):
+    from cotan import _structs
+
+    text = "".join(file.read_text() for file in (source / "bindings/python/cotan").glob("*.py") if file.name != "_structs.py")
+    left_out = {name for name in _structs.FUNCTIONS if f'"{name}"' not in text and f".{name}" not in text}
+    assert left_out == {"cotan_bake"}  # cotan_bake_models does it
+
+
+def test_the_pages_examples_run(source, tmp_path, monkeypatch):
+    import re
+
+    import numpy as np
+
+    from shapes import bumps, write_obj, write_stretched
+
+    monkeypatch.chdir(tmp_path)
+    write_obj("low.obj", bumps(4))
+    write_obj("high.obj", bumps(24))
+    (tmp_path / "model.glb").write_bytes(cotan.convert(write_stretched(tmp_path), to_frame="mikktspace").glb)
+    cotan.write_picture("rocks.png", np.full((16, 16, 3), 128, np.uint8))
+    for page in ("docs/python.md", "bindings/python/README.md"):
+        blocks = re.findall(r"```python\n(.*?)```", (source / page).read_text(), re.S)
+        assert blocks
+        names = {"low": bumps(4), "high": bumps(24)}
+        for block in blocks:
+            exec(compile(block, page, "exec"), names)
