@@ -57,7 +57,7 @@ A part needs the development files of what it is made with; those are
 recommended.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
-libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libzstd-dev, nlohmann-json3-dev, \
+libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev, \
 zlib1g-dev")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config")
 cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
@@ -65,6 +65,7 @@ cotan_package(python3-cotan python "normal mapping without precomputed tangents:
 This is the package for Python: bake, lint, convert and render with arrays
 of numpy.")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_DEPENDS "libcotan0 (>= ${PROJECT_VERSION}), python3:any, python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_SUGGESTS "cotan (= ${version}), python3-distributed")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_ARCHITECTURE all)
 
 install(FILES CHANGELOG.md DESTINATION share/doc/cotan RENAME changelog COMPONENT cotan EXCLUDE_FROM_ALL)
