@@ -67,6 +67,7 @@ of numpy.")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_DEPENDS "libcotan0 (>= ${PROJECT_VERSION}), python3:any, python3-numpy")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_SUGGESTS "cotan (= ${version}), python3-distributed")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_CONTROL_EXTRA "${packaging}/python/postinst;${packaging}/python/prerm")
 
 install(FILES CHANGELOG.md DESTINATION share/doc/cotan RENAME changelog COMPONENT cotan EXCLUDE_FROM_ALL)
 install(DIRECTORY bindings/python/cotan DESTINATION lib/python3/dist-packages COMPONENT python3-cotan EXCLUDE_FROM_ALL
