@@ -57,7 +57,7 @@ A part needs the development files of what it is made with; those are
 recommended.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
-libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libzstd-dev, nlohmann-json3-dev, \
+libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev, \
 zlib1g-dev")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config")
 cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
@@ -65,7 +65,9 @@ cotan_package(python3-cotan python "normal mapping without precomputed tangents:
 This is the package for Python: bake, lint, convert and render with arrays
 of numpy.")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_DEPENDS "libcotan0 (>= ${PROJECT_VERSION}), python3:any, python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_SUGGESTS "cotan (= ${version}), python3-distributed")
 set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_CONTROL_EXTRA "${packaging}/python/postinst;${packaging}/python/prerm")
 
 install(FILES CHANGELOG.md DESTINATION share/doc/cotan RENAME changelog COMPONENT cotan EXCLUDE_FROM_ALL)
 install(DIRECTORY bindings/python/cotan DESTINATION lib/python3/dist-packages COMPONENT python3-cotan EXCLUDE_FROM_ALL
@@ -75,8 +77,10 @@ file(CONFIGURE OUTPUT ${made}/METADATA CONTENT "Metadata-Version: 2.1\nName: cot
 install(FILES ${made}/METADATA DESTINATION lib/python3/dist-packages/cotan-${PROJECT_VERSION}.dist-info
   COMPONENT python3-cotan EXCLUDE_FROM_ALL)
 
-# What other packages are told of libcotan0. Its symbols are those of the version script, all as old as the first package.
-set(minor ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+# What other packages are told of libcotan0. Its symbols are those of the version script; since when each block is there.
+set(COTAN_1_since 0.2.0)
+set(COTAN_2_since 0.2.0)
+set(COTAN_3_since 0.2.0)
 file(CONFIGURE OUTPUT ${made}/shlibs CONTENT "libcotan @PROJECT_VERSION_MAJOR@ libcotan0 (>= @PROJECT_VERSION@)\n" @ONLY)
 file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n" @ONLY)
 file(READ src/c/cotan.map script)
@@ -86,8 +90,11 @@ foreach(name ${names})
   if(name MATCHES "^(.*) {$")
     set(block ${CMAKE_MATCH_1})
     set(name ${block})
+    if(NOT DEFINED ${block}_since)
+      message(FATAL_ERROR "src/c/cotan.map has ${block}: say in cmake/CotanPackages.cmake since which version it is there")
+    endif()
   endif()
-  string(APPEND symbols " ${name}@${block} 0.2.0\n")
+  string(APPEND symbols " ${name}@${block} ${${block}_since}\n")
 endforeach()
 file(GENERATE OUTPUT ${made}/symbols CONTENT "${symbols}")
 set(CPACK_DEBIAN_LIBCOTAN0_PACKAGE_CONTROL_EXTRA "${made}/shlibs;${made}/symbols;${made}/triggers")

@@ -15,6 +15,8 @@ import time
 tool, share, part = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
 FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-transpose paper-orthogonal unit orthonormal " \
     "gradient exact smooth vertex mikktspace triangle".split()
+# Words that are taken and that nobody needs: what is always there.
+UNTOLD = {("shader", "--set"): {"frame"}}
 # Options that take a name which nobody can list.
 FREE_NAMES = {("cost", "--device"), ("accuracy", "--scene")}
 
@@ -250,6 +252,12 @@ def words():
                 if "expected" in run.stderr and "'zzz'" in run.stderr and said & set(listed):
                     assert run.returncode == 1 and set(listed) <= said, f"{command}: {set(listed) - said}: {run.stderr}"
                     checked += 1
+                    # A plain list of all words there are: none is kept from those who ask a shell.
+                    told = re.search(r"expected (?:one of )?([\w., -]+); found 'zzz'", run.stderr)
+                    names = re.split(", | or ", told.group(1)) if told else []
+                    if all(re.fullmatch(r"[\w.-]+", name) for name in names):
+                        kept = set(names) - set(listed) - UNTOLD.get((command, option.names[-1]), set())
+                        assert not kept, f"{command} {option.names[-1]} also takes {kept}"
     assert checked > 30, checked
     return checked
 

@@ -21,6 +21,7 @@ TEST(Version, isTheSameWhereverItIsWrittenAgain)
     const std::string number = R"((\d+\.\d+\.\d+))";
     for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
                                               {"bindings/python/cotan/_version.py", "__version__ = \""},
+                                              {"cmake/packages/changelog", "^cotan \\("},
                                               {"bindings/js/README.md", "cotan-"},
                                               {"bindings/js/types/tangents.d.ts", "version of the library, \""},
                                               {"src/c/include/cotan.h", "/\\* \""}}) {
@@ -39,6 +40,22 @@ TEST(Version, isThatOfTheNewestSectionOfTheChangelog)
     const std::size_t begin = text.find("\n## ", text.find("## Unreleased") + 1);
     ASSERT_NE(begin, std::string::npos);
     EXPECT_EQ(text.substr(begin + 4, text.find_first_of(" \n", begin + 4) - begin - 4), COTAN_VERSION);
+}
+
+TEST(Version, isTheOneThatExamplesAskFor)
+{
+    const std::regex asked(R"(find_package\(cotan (\d+\.\d+))");
+    int found = 0;
+    for (const char* folder : {"examples", "docs", "tests/smallest"})
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(std::filesystem::path(COTAN_SOURCE_DIR) / folder))
+            if (entry.path().filename() == "CMakeLists.txt" || entry.path().extension() == ".md") {
+                const std::string text = readWhole(entry.path());
+                for (auto it = std::sregex_iterator(text.begin(), text.end(), asked); it != std::sregex_iterator();
+                     ++it, ++found)
+                    EXPECT_TRUE(std::string(COTAN_VERSION).starts_with((*it)[1].str() + ".")) << entry.path();
+            }
+    EXPECT_GE(found, 6);
 }
 
 TEST(Version, isWhatTheToolSays)
