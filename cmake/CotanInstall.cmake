@@ -15,6 +15,7 @@ set(COTAN_PACKAGE_nlohmann_json::nlohmann_json "nlohmann_json")
 set(COTAN_PACKAGE_PNG::PNG "PNG")
 set(COTAN_PACKAGE_JPEG::JPEG "JPEG")
 set(COTAN_PACKAGE_WebP::webp "WebP")
+set(COTAN_PACKAGE_XxHash::xxhash "XxHash")
 set(COTAN_PACKAGE_zstd::libzstd_shared "zstd CONFIG")
 set(COTAN_PACKAGE_ZLIB::ZLIB "ZLIB")
 set(COTAN_PACKAGE_assimp::assimp "assimp")
@@ -27,6 +28,7 @@ set(COTAN_PC_fmt::fmt "fmt")
 set(COTAN_PC_PNG::PNG "libpng")
 set(COTAN_PC_JPEG::JPEG "libjpeg")
 set(COTAN_PC_WebP::webp "libwebp" "libwebpmux")
+set(COTAN_PC_XxHash::xxhash "libxxhash")
 set(COTAN_PC_zstd::libzstd_shared "libzstd")
 set(COTAN_PC_ZLIB::ZLIB "zlib")
 set(COTAN_PC_assimp::assimp "assimp")
@@ -65,7 +67,7 @@ foreach(name ${components})
 
   set(target cotan_${name})
   install(TARGETS ${target} EXPORT cotanTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libcotan0 NAMELINK_COMPONENT libcotan-dev)
   if(NOT name STREQUAL "portable")
     get_target_property(type ${target} TYPE)
     set(library "")
@@ -115,7 +117,7 @@ install(FILES ${PROJECT_BINARY_DIR}/include/cotan/version.hpp DESTINATION ${CMAK
 get_property(includes GLOBAL PROPERTY COTAN_INCLUDES)
 install(DIRECTORY include/cotan ${includes} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/cotan DESTINATION share/cotan/shaders)
-install(FILES LICENSE DESTINATION share/doc/cotan)
+install(FILES LICENSE DESTINATION share/doc/cotan COMPONENT license)
 install(EXPORT cotanTargets NAMESPACE cotan:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)
 
 list(REMOVE_ITEM components portable)
@@ -126,4 +128,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cotanConfig.cmake ${PROJECT_BINARY_DIR}/cotanConfigVersion.cmake
   cmake/FindWebP.cmake
+  cmake/FindXxHash.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)

@@ -46,6 +46,7 @@ cotan_optional(ASSIMP assimp::assimp Assimp libassimp-dev "of models only glTF a
 cotan_optional(DRACO draco::draco Draco libdraco-dev "no glTF compressed with Draco" draco CONFIG)
 cotan_optional(MESHOPTIMIZER meshoptimizer::meshoptimizer meshoptimizer libmeshoptimizer-dev
   "no glTF compressed with meshoptimizer" meshoptimizer CONFIG)
+cotan_optional(XXHASH XxHash::xxhash xxHash libxxhash-dev "no cotan batch" XxHash)
 cotan_optional(EMBREE embree "Embree 3" libembree-dev "no baking" embree 3 CONFIG)
 cotan_optional(VULKAN Vulkan::Headers Vulkan "libvulkan-dev glslang-tools"
   "pictures are drawn on the processor, no cotan cost" Vulkan)

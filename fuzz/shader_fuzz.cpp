@@ -14,7 +14,7 @@ namespace {
 Choice choiceOf(Values values)
 {
     Choice choice;
-    choice.language = shader_text::kLanguages[values.choose(6)];
+    choice.language = shader_text::kLanguages[values.choose(int(std::size(shader_text::kLanguages)))];
     choice.frame = Frame(values.choose(kFrameCount));
     const auto presets = conventionPresets();
     if (const int preset = values.choose(int(presets.size()) + 1); preset > 0)
@@ -29,6 +29,8 @@ Choice choiceOf(Values values)
         choice.form = form == 1 ? Form::fused : Form::total;
     choice.uvSets = values.next<std::int8_t>();
     choice.callerDifferences = values.flip();
+    choice.functionsOnly = values.flip();
+    choice.twoSided = values.flip();
     for (const shader_text::Set set : shader_text::kSets)
         if (values.flip())
             choice.sets.push_back(set);

@@ -22,3 +22,8 @@ set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
 cotan_test(words_test
   SOURCES picture_options_test.cpp
   LIBRARIES cotan_app cotan_shapes fmt::fmt)
+# The manual's pages, and completion by the shells themselves.
+foreach(part man words bash zsh fish)
+  add_test(NAME HelpFiles.${part} COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/help_files_test.py $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share ${part})
+  set_tests_properties(HelpFiles.${part} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+endforeach()

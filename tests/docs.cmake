@@ -1,8 +1,8 @@
 # The documents against the tool, the sources and the measured tables.
 cotan_test(docs_test
-  SOURCES docs_test.cpp
+  SOURCES docs_test.cpp version_test.cpp
   LIBRARIES fmt::fmt)
-target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_VERSION="${PROJECT_VERSION}")
 add_dependencies(docs_test cotan)
 # The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
 find_package(Python3 COMPONENTS Interpreter)

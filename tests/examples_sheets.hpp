@@ -40,20 +40,38 @@ inline Vec domes(double u, double v)
     return z2 > 0.36 ? Vec{x, y, std::sqrt(z2)} : Vec{0, 0, 1};
 }
 
-// u = |x| + (1 - y)/2, v = 1 - y on a sheet of which x and y are the axes, by hand: grad u = (sign x, -1/2),
-// grad v = (0, -1); the longer, grad u, is sqrt(5)/2. Zero where the ray misses, or near a rim or an edge.
-inline Vec truth(Vec ray, double middle, double angle)
+// The frames that stand on the sheet as on paper.
+enum class SheetFrame {
+    cotangent,
+    gradient,
+    orthonormal, // tangent first
+};
+
+// Where a ray from the eye meets the plane of a sheet: along the sheet's own axes, from its middle.
+inline std::array<double, 2> onSheet(Vec ray, double middle, double angle)
 {
     const double c = std::cos(angle), s = std::sin(angle);
     const Vec normal{s, 0, c}, along{c, 0, -s}, toMiddle{middle, 0, -4};
     const double depth = dot(normal, toMiddle) / dot(normal, ray);
     const Vec hit{ray[0] * depth - toMiddle[0], ray[1] * depth, ray[2] * depth - toMiddle[2]};
-    const double x = dot(hit, along), y = hit[1];
+    return {dot(hit, along), hit[1]};
+}
+
+// u = |x| + (1 - y)/2, v = 1 - y on a sheet of which x and y are the axes, by hand: grad u = (sign x, -1/2),
+// grad v = (0, -1); the longer, grad u, is sqrt(5)/2; along u runs (sign x, 0). Zero where the ray misses, or near a
+// rim or an edge.
+inline Vec truth(Vec ray, double middle, double angle, SheetFrame frame = SheetFrame::cotangent,
+                 Vec (*map)(double, double) = domes)
+{
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Vec normal{s, 0, c}, along{c, 0, -s};
+    const auto [x, y] = onSheet(ray, middle, angle);
     if (!(std::abs(x) < 0.999 && std::abs(y) < 0.999 && std::abs(x) > 1e-3))
         return {0, 0, 0};
-    const Vec m = domes(std::abs(x) + (1 - y) / 2, 1 - y);
-    const double longest = std::sqrt(1.25);
-    const double onX = m[0] * (x < 0 ? -1 : 1) / longest, onY = (-0.5 * m[0] - m[1]) / longest;
+    const Vec m = map(std::abs(x) + (1 - y) / 2, 1 - y);
+    const double longest = frame == SheetFrame::cotangent ? std::sqrt(1.25) : 1;
+    const double onX = m[0] * (x < 0 ? -1 : 1) / longest;
+    const double onY = frame == SheetFrame::orthonormal ? -m[1] : (-0.5 * m[0] - m[1]) / longest;
     const double side = dot(normal, ray) < 0 ? 1 : -1; // a thin sheet
     return {side * (onX * along[0] + m[2] * normal[0]), side * onY, side * (onX * along[2] + m[2] * normal[2])};
 }

@@ -145,15 +145,28 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
 {
     TemporaryFolder folder;
     const pid_t child = ::fork();
-    if (child == 0)
-        ::_exit(0);
-    ASSERT_EQ(::waitpid(child, nullptr, 0), child); // its number is free now
-    const fs::path left = folder / (".cotan-" + std::to_string(child) + "-0.part.png");
-    std::ofstream(left) << "half";
-    std::ofstream(folder / (".cotan-" + std::to_string(::getpid()) + "-7.part.png")) << "half";
+    if (child == 0) {
+        const auto half = OutputFile::begin(folder / "a.png");
+        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing it
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child); // its number is free now
+    ASSERT_EQ(status, 0);
+    const fs::path left = fs::directory_iterator(folder.path())->path();
+    EXPECT_TRUE(left.filename().string().starts_with(".cotan-" + std::to_string(child) + "-")) << left;
+    auto ours = OutputFile::begin(folder / "b.png");
+    ASSERT_TRUE(ours && writeBytes(ours->path(), {}));
+    std::string elsewhere = left.filename().string(); // the same process number on another machine
+    const std::size_t machine = elsewhere.find(".part") - 1;
+    elsewhere[machine] = elsewhere[machine] == '0' ? '1' : '0';
+    std::ofstream(folder / elsewhere) << "theirs";
     std::ofstream(folder / ".cotan-x-0.part") << "mine";
     std::ofstream(folder / "a.part.png") << "mine";
     EXPECT_EQ(leftParts(folder.path()), std::vector<fs::path>{left});
+    removeParts(folder.path(), child);
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(folder / elsewhere));
+    EXPECT_TRUE(fs::exists(ours->path()));
 }
 
 // Dies by `signal` in the middle of writing; the status of the process.

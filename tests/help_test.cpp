@@ -74,6 +74,8 @@ void prepare(const TemporaryFolder& folder)
     ASSERT_EQ(runTool({"tangents", "quad.gltf", "-o", "model.glb"}, folder.path()).code, 0);
     for (const char* name : {"rocks.png", "other.png", "grain.png", "height.png"})
         ASSERT_TRUE(writeImage(folder / name, makeReliefMap(Relief::domes, 64)));
+    std::ofstream(folder / "jobs.jsonl") << "{\"command\": [\"lint\", \"model.glb\"]}\n";
+    ASSERT_EQ(runTool({"batch", "jobs.jsonl", "--store", "results"}, folder.path()).code, 0);
     for (const char* name : {"statue.obj", "statue_low.obj"})
         std::ofstream(folder / name) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
                                         "f 1/1/1 2/2/1 3/3/1 4/4/1\n";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cotan/files/output.hpp"
 #include "cotan/image/file.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
@@ -165,11 +166,16 @@ TEST_F(Overwrite, unwritableReportsAreNoticedBeforeTheMainOutput)
 TEST_F(Overwrite, whatAKilledRunLeftIsSaidByTheNextOne)
 {
     const pid_t child = ::fork();
-    if (child == 0)
-        ::_exit(0);
+    if (child == 0) {
+        const auto half = OutputFile::begin(folder / "half.png");
+        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing it
+    }
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
-    const std::string part = fmt::format(".cotan-{}-0.part.png", child);
-    std::ofstream(folder / part) << "half";
+    std::string part;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        if (entry.path().filename().string().starts_with(fmt::format(".cotan-{}-", child)))
+            part = entry.path().filename();
+    ASSERT_FALSE(part.empty());
     const ToolRun run =
         runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png"}, folder.path());
     EXPECT_EQ(run.code, 0);

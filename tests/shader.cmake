@@ -5,7 +5,7 @@ cotan_test(frame_table_test SOURCES frame_table_test.cpp LIBRARIES cotan_shader_
 # The printed shader text, compiled and run in every language that this machine can run.
 if(COTAN_GLSLANG)
   cotan_test(shader_test
-    SOURCES shader_test.cpp shader_cases.cpp shader_light.cpp shader_draw.cpp shader_compute.cpp shader_run_cpp.cpp shader_run_browser.cpp
+    SOURCES shader_test.cpp shader_godot_test.cpp shader_cases.cpp shader_light.cpp shader_draw.cpp shader_compute.cpp shader_run_cpp.cpp shader_run_browser.cpp
     LIBRARIES cotan_shader_text cotan_scene cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_definitions(shader_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
     COTAN_CXX="${CMAKE_CXX_COMPILER}" COTAN_GLSLANG_PATH="${COTAN_GLSLANG}")

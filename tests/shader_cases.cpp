@@ -66,6 +66,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.text = [choice](Language l) {
         Choice in = choice;
         in.language = l;
+        in.functionsOnly = l == Language::godot;
         const auto text = makeShaderText(in);
         if (!text)
             throw std::runtime_error(text.error().message);
@@ -321,6 +322,15 @@ std::vector<Case> frameCases(bool drawn)
         all.push_back(frameCase(std::string(f.name) + ", fused", choice, drawn));
     }
     return all;
+}
+
+std::vector<Case> godotCases()
+{
+    std::vector<Case> some;
+    for (Case& c : cases())
+        if (c.text(Language::godot).find("uint") == std::string::npos)
+            some.push_back(std::move(c));
+    return some;
 }
 
 std::vector<Case> drawnCases()

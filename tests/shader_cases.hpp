@@ -51,6 +51,7 @@ struct Case {
 // blend.h, light.h, sheen.h, environment.h, tone.h and shadow.h.
 std::vector<Case> cases();
 std::vector<Case> frameCases(bool drawn = false); // the frames of them
+std::vector<Case> godotCases();                   // what needs no bits of floats
 std::vector<Case> litCases();                     // light, surroundings, tone and shadow
 
 // A target of kTiles x kTiles tiles, each with differences of its own that are constant in it: the
@@ -86,11 +87,12 @@ Results runCpp(const std::vector<Case>& cases, const std::vector<Sample>& sample
 Results runMsl(const std::vector<Case>& cases, const std::vector<Sample>& samples);
 // What SPIRV-Cross makes of the printed GLSL, as Metal text.
 Results runSpirvCross(const std::vector<Case>& cases, const std::vector<Sample>& samples);
-Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, bool hlsl);
+// language: GLSL, HLSL, or Godot's, whose functions are GLSL as they stand.
+Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, shader_text::Language language);
 
 // For each drawn case its pixels in the order of memory, with clip space as it is, then with y
 // turned round.
-Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, bool hlsl);
+Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, shader_text::Language language);
 
 struct BrowserResults {
     Results essl, wgsl, drawnEssl, drawnWgsl;

@@ -7,8 +7,9 @@ using shader_text::Language;
 
 namespace {
 
-std::string shaderOf(const Case& c, bool hlsl)
+std::string shaderOf(const Case& c, Language language)
 {
+    const bool hlsl = language == Language::hlsl;
     auto in = [](int i) { return "inputs[i * 16u + " + std::to_string(i) + "u]"; };
     auto vec = [&](const std::string& type, int i, int n) {
         std::string text = type + "(";
@@ -28,7 +29,7 @@ std::string shaderOf(const Case& c, bool hlsl)
             + "[numthreads(1, 1, 1)]\nvoid main(uint3 id : SV_DispatchThreadID)\n{\n    uint i = id.x;\n" + body;
     return "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer In { float inputs[]; };\n"
            "layout(std430, binding = 1) buffer Out { float outputs[]; };\n"
-        + c.text(Language::glsl) + "void main()\n{\n    uint i = gl_GlobalInvocationID.x;\n" + body;
+        + c.text(language) + "void main()\n{\n    uint i = gl_GlobalInvocationID.x;\n" + body;
 }
 
 } // namespace
@@ -54,6 +55,9 @@ std::string toSpirv(const std::string& shader, const std::string& stage, bool hl
     return spirv;
 }
 
-std::string computeSpirv(const Case& c, bool hlsl) { return toSpirv(shaderOf(c, hlsl), "comp", hlsl, c.name); }
+std::string computeSpirv(const Case& c, Language language)
+{
+    return toSpirv(shaderOf(c, language), "comp", language == Language::hlsl, c.name);
+}
 
 } // namespace cotan::test

@@ -32,9 +32,9 @@ void main()
 }
 )";
 
-std::string fragmentOf(const Case& c, bool hlsl)
+std::string fragmentOf(const Case& c, Language language)
 {
-    if (hlsl)
+    if (language == Language::hlsl)
         return c.text(Language::hlsl)
             + "[[vk::location(0)]] float4 main([[vk::location(0)]] float3 n : A, [[vk::location(1)]] float3 p : B,\n"
               "    [[vk::location(2)]] float2 uv : C, [[vk::location(3)]] float3 m : D) : SV_Target\n"
@@ -42,7 +42,7 @@ std::string fragmentOf(const Case& c, bool hlsl)
             + c.call + ", 1.0);\n}\n";
     return "#version 450\nlayout(location = 0) in vec3 n;\nlayout(location = 1) in vec3 p;\n"
            "layout(location = 2) in vec2 uv;\nlayout(location = 3) in vec3 m;\nlayout(location = 0) out vec4 color;\n"
-        + c.text(Language::glsl) + "void main()\n{\n    color = vec4(" + c.call + ", 1.0);\n}\n";
+        + c.text(language) + "void main()\n{\n    color = vec4(" + c.call + ", 1.0);\n}\n";
 }
 
 class Painter {
@@ -155,12 +155,13 @@ private:
 
 } // namespace
 
-Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, bool hlsl)
+Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, Language language)
 {
-    return onFirstDevice(hlsl, [&](cost::Device& device, Results& results) {
+    return onFirstDevice(language, [&](cost::Device& device, Results& results) {
         Painter painter(device, corners);
         for (const Case& c : drawn)
-            results.values.push_back(painter.draw(toSpirv(fragmentOf(c, hlsl), "frag", hlsl, c.name)));
+            results.values.push_back(
+                painter.draw(toSpirv(fragmentOf(c, language), "frag", language == Language::hlsl, c.name)));
     });
 }
 

@@ -43,7 +43,7 @@ inline bool shell(const std::string& line, const std::filesystem::path& log)
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label);
 
 // A case as a compute shader: inputs at binding 0, outputs at binding 1.
-std::string computeSpirv(const Case& c, bool hlsl);
+std::string computeSpirv(const Case& c, shader_text::Language language);
 
 inline std::vector<std::uint32_t> wordsOf(const std::string& spirv)
 {

@@ -95,7 +95,7 @@ Results runSpirvCross(const std::vector<Case>& cases, const std::vector<Sample>&
     const std::regex number(R"((\d+\.\d+(e[+-]?\d+)?))");
     std::string source = "#include <cstdio>\n#include <metal_stdlib>\n";
     for (std::size_t k = 0; k < cases.size(); ++k) {
-        std::ofstream(folder / "spv", std::ios::binary) << computeSpirv(cases[k], false);
+        std::ofstream(folder / "spv", std::ios::binary) << computeSpirv(cases[k], Language::glsl);
         if (!shell("spirv-cross --msl '" + f + "/spv' --output '" + f + "/metal'", folder / "log"))
             throw std::runtime_error(cases[k].name + ": " + readWhole(folder / "log"));
         // Metal's literals are floats, C++'s are doubles.

@@ -73,12 +73,12 @@ private:
 
 } // namespace
 
-Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, bool hlsl)
+Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, shader_text::Language language)
 {
-    return onFirstDevice(hlsl, [&](cost::Device& device, Results& results) {
+    return onFirstDevice(language, [&](cost::Device& device, Results& results) {
         Computer computer(device, samples);
         for (const Case& c : cases)
-            results.values.push_back(computer.run(wordsOf(computeSpirv(c, hlsl))));
+            results.values.push_back(computer.run(wordsOf(computeSpirv(c, language))));
     });
 }
 

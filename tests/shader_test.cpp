@@ -150,8 +150,14 @@ TEST(ShaderParity, spirvCrossMetalTextOfTheGlslAsCpp)
 }
 
 #ifdef COTAN_WITH_VULKAN
-TEST(ShaderParity, glslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), false)); }
-TEST(ShaderParity, hlslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), true)); }
+TEST(ShaderParity, glslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), Language::glsl)); }
+TEST(ShaderParity, hlslOnVulkan) { expectParity(runVulkan(allCases(), allSamples(), Language::hlsl)); }
+TEST(ShaderParity, godotOnVulkan)
+{
+    const std::vector<Case> some = godotCases();
+    ASSERT_GT(some.size() + 12, allCases().size()); // all but what packs
+    expectParity(runVulkan(some, allSamples(), Language::godot), some);
+}
 #endif
 // y of window space runs along with clip space's in WebGL and Vulkan, against it in WebGPU.
 void expectDrawn(const Results& r)
@@ -181,8 +187,9 @@ void expectDrawn(const Results& r)
 }
 
 #ifdef COTAN_WITH_VULKAN
-TEST(ShaderParity, glslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), false)); }
-TEST(ShaderParity, hlslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), true)); }
+TEST(ShaderParity, glslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), Language::glsl)); }
+TEST(ShaderParity, hlslDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), Language::hlsl)); }
+TEST(ShaderParity, godotDrawnWithVulkan) { expectDrawn(drawVulkan(drawnCases(), corners(tiles()), Language::godot)); }
 #endif
 TEST(ShaderParity, webGl2AndWebGpu)
 {
@@ -218,7 +225,10 @@ TEST(ShaderText, theSameChoiceGivesTheSameBytesInEveryLanguage)
             Choice choice;
             choice.language = l;
             choice.frame = f.frame;
-            choice.sets = {std::begin(shader_text::kSets), std::end(shader_text::kSets)};
+            for (const shader_text::Set set : shader_text::kSets)
+                if (hasSet(l, set))
+                    choice.sets.push_back(set);
+            choice.functionsOnly = f.frame == Frame::exact; // Godot's shaders do not see edges
             const std::string text = makeShaderText(choice)->text;
             EXPECT_EQ(text, makeShaderText(choice)->text);
             // No macro of the portable text is left, no line is too wide for a page.
@@ -289,15 +299,23 @@ TEST(ShaderText, everySetCompilesAsAFragmentShader)
 TEST(ShaderCommand, badWordsGetOneLineAndExitCode1)
 {
     TemporaryFolder folder;
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"shader"},
-                                                  {"shader", "--lang", "cg"},
-                                                  {"shader", "--lang", "glsl", "--frame", "nothing"},
-                                                  {"shader", "--lang", "glsl", "--frame", "unit", "--form", "fused"},
-                                                  {"shader", "--lang", "glsl", "--preset", "quake"},
-                                                  {"shader", "--lang", "glsl", "--green", "up"},
-                                                  {"shader", "--lang", "glsl", "--channels", "4"},
-                                                  {"shader", "--lang", "glsl", "--uv-sets", "9"},
-                                                  {"shader", "--lang", "glsl", "--set", "tone,nothing"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"shader"},
+          {"shader", "--lang", "cg"},
+          {"shader", "--lang", "glsl", "--frame", "nothing"},
+          {"shader", "--lang", "glsl", "--frame", "unit", "--form", "fused"},
+          {"shader", "--lang", "glsl", "--preset", "quake"},
+          {"shader", "--lang", "glsl", "--green", "up"},
+          {"shader", "--lang", "glsl", "--channels", "4"},
+          {"shader", "--lang", "glsl", "--uv-sets", "9"},
+          {"shader", "--lang", "glsl", "--set", "tone,nothing"},
+          {"shader", "--lang", "glsl", "--functions"},
+          {"shader", "--lang", "wgsl", "--two-sided"},
+          {"shader", "--lang", "godot", "--set", "shadow"},
+          {"shader", "--lang", "godot", "--frame", "exact"},
+          {"shader", "--lang", "godot", "--frame", "triangle", "--form", "total"},
+          {"shader", "--lang", "godot", "--uv-sets", "3"},
+          {"shader", "--lang", "godot", "--frame", "triangle", "--stage", "mesh"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 1) << words.back();
         EXPECT_EQ(lines(run.err), 1) << run.err;

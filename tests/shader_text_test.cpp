@@ -88,6 +88,55 @@ TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
     EXPECT_FALSE(has(translate(Language::glsl, kSmall), "struct")) << "one that nothing uses";
 }
 
+// ---- without structs ------------------------------------------------------------------------
+
+const char* const kPair = "struct cotan_two {\n    cotan_real a;\n    cotan_vec3 b;\n};\n";
+
+TEST(WithoutStructs, whatIsReturnedIsWrittenToParametersAndFieldsAreVariables)
+{
+    const std::string text = std::string(kPair)
+        + "COTAN_FUNCTION cotan_two two_of(cotan_real x)\n{\n    // first\n    cotan_two t;\n    t.a = x;\n"
+          "    t.b = cotan_vec3(x, x, x);\n    return t;\n}\n"
+          "COTAN_FUNCTION cotan_real sum_of(cotan_two t)\n{\n    return t.a + t.b.x;\n}\n"
+          "COTAN_FUNCTION cotan_real both(cotan_real x)\n{\n    return sum_of(two_of(x)) + two_of(x * x).b.y;\n}\n"
+          "COTAN_FUNCTION cotan_two again(cotan_real x)\n{\n    if (x < cotan_real(0.0))\n        return two_of(-x);\n"
+          "    cotan_two s = two_of(x);\n    cotan_two u = s;\n    u = two_of(u.a);\n    return u;\n}\n";
+    EXPECT_EQ(translate(Language::godot, text),
+              "void two_of(float x, out float t_a, out vec3 t_b)\n{\n"
+              "    t_a = x;\n    t_b = vec3(x, x, x);\n}\n\n"
+              "float sum_of(float t_a, vec3 t_b)\n{\n    return t_a + t_b.x;\n}\n\n"
+              "float both(float x)\n{\n    float two_a;\n    vec3 two_b;\n    two_of(x, two_a, two_b);\n"
+              "    float two_too_a;\n    vec3 two_too_b;\n    two_of(x * x, two_too_a, two_too_b);\n"
+              "    return sum_of(two_a, two_b) + two_too_b.y;\n}\n\n"
+              "void again(float x, out float result_a, out vec3 result_b)\n{\n"
+              "    if (x < 0.0) {\n        two_of(-x, result_a, result_b);\n        return;\n    }\n"
+              "    float s_a;\n    vec3 s_b;\n    two_of(x, s_a, s_b);\n"
+              "    float u_a;\n    vec3 u_b;\n    u_a = s_a;\n    u_b = s_b;\n    two_of(u_a, u_a, u_b);\n"
+              "    result_a = u_a;\n    result_b = u_b;\n}\n");
+}
+
+// A local variable that is returned early too is still the parameter.
+TEST(WithoutStructs, whatIsReturnedEarlyEndsThere)
+{
+    const std::string text = std::string(kPair)
+        + "COTAN_FUNCTION cotan_two early(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    t.b = cotan_vec3(x, x, "
+          "x);\n"
+          "    if (x < cotan_real(0.0))\n        return t;\n    t.a = x * x;\n    return t;\n}\n";
+    EXPECT_TRUE(
+        has(translate(Language::godot, text), "    if (x < 0.0) {\n        return;\n    }\n    t_a = x * x;\n}\n"));
+}
+
+TEST(WithoutStructs, aNameThatIsTakenAndAStructBehindAConditionAreRefused)
+{
+    const std::string start =
+        std::string(kPair) + "COTAN_FUNCTION cotan_real f(cotan_two t, cotan_two s, cotan_real x)\n{\n";
+    EXPECT_THROW(translate(Language::godot, start + "    cotan_real t_a = x;\n    return t_a;\n}\n"),
+                 std::runtime_error);
+    EXPECT_THROW(
+        translate(Language::godot, start + "    cotan_two u = x < cotan_real(0.0) ? t : s;\n    return u.a;\n}\n"),
+        std::runtime_error);
+}
+
 // ---- simplified functions -------------------------------------------------------------------
 
 // The body of a function f(cotan_real x), simplified, in GLSL.
@@ -204,10 +253,13 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
             choice.callerDifferences = caller;
             const auto text = makeShaderText(choice);
             ASSERT_TRUE(text);
-            EXPECT_EQ(text->functions.back() == "cotan_perturb_normal", !caller && language != Language::cpp)
-                << name(language);
+            const auto taken = [](const ShaderText& t) {
+                return std::ranges::count(t.functions, "cotan_perturb_normal");
+            };
+            EXPECT_EQ(taken(*text), !caller && language != Language::cpp) << name(language);
             choice.frame = Frame::exact; // from edges
-            EXPECT_NE(makeShaderText(choice)->functions.back(), "cotan_perturb_normal") << name(language);
+            choice.functionsOnly = true;
+            EXPECT_EQ(taken(*makeShaderText(choice)), 0) << name(language);
         }
 }
 

@@ -10,9 +10,9 @@ namespace cotan::test {
 
 // The values of cases on the first device that has what pricing needs: work(device, results) adds them. Without one,
 // results say why they were skipped.
-template<class Work> Results onFirstDevice(bool hlsl, const Work& work)
+template<class Work> Results onFirstDevice(shader_text::Language language, const Work& work)
 {
-    Results results{hlsl ? "hlsl" : "glsl", "no Vulkan device", {}};
+    Results results{std::string(shader_text::name(language)), "no Vulkan device", {}};
     try {
         const cost::Instance instance = cost::openInstance();
         for (cost::Device& device : cost::listDevices(instance)) {

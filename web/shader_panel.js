@@ -2,19 +2,20 @@
 import { choice, download, el } from './elements.js';
 import { cotan } from './library.js';
 
-const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', cpp: 'C++' };
+const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', godot: 'Godot 3 and 4', cpp: 'C++' };
 const kFrames = {
   cotangent: 'cotangent: nothing stored, exact on stretched uv', orthonormal: 'orthonormal: for maps baked for MikkTSpace',
   triangle: 'triangle: two vectors a triangle, the cheapest', smooth: 'smooth: cotangents at the vertices', mikktspace: 'mikktspace: stored tangents',
 };
 const kMaps = { gltf: 'glTF', opengl: 'OpenGL, green up', directx: 'DirectX, green down', unity: 'Unity', unreal: 'Unreal', godot: 'Godot', blender: 'Blender' };
 const kStages = { '': 'all', fragment: 'pixel', vertex: 'vertex', mesh: 'mesh', compute: 'compute' };
-const kEnds = { essl: 'glsl', glsl: 'glsl', wgsl: 'wgsl', hlsl: 'hlsl', msl: 'metal', cpp: 'hpp' };
+const kEnds = { essl: 'glsl', glsl: 'glsl', wgsl: 'wgsl', hlsl: 'hlsl', msl: 'metal', cpp: 'hpp', godot: 'shader' };
 
 export async function showShader(panel) {
   const words = new URLSearchParams(location.hash.startsWith('#shader?') ? location.hash.slice(8) : '');
   const word = (name, known, otherwise) => words.get(name) in known ? words.get(name) : otherwise;
-  const state = { lang: word('lang', kLanguages, 'essl'), frame: word('frame', kFrames, 'cotangent'), map: word('map', kMaps, 'gltf'), stage: word('stage', kStages, '') };
+  const state = { lang: word('lang', kLanguages, 'essl'), frame: word('frame', kFrames, 'cotangent'), map: '', stage: word('stage', kStages, '') };
+  state.map = word('map', kMaps, state.lang === 'godot' ? 'godot' : 'gltf');
   const text = el('code', {}), said = el('p', { role: 'status', class: 'small' }), how = el('div', {}), stages = el('div', {});
   const select = (label, known, name) => choice(label, known, state[name], value => { state[name] = value; chosen(true); });
   const stage = select('Stage', kStages, 'stage');
@@ -55,6 +56,13 @@ export async function showShader(panel) {
 }
 
 function instructions({ lang, frame }) {
+  if (lang === 'godot')
+    return [el('h3', {}, 'Where it goes'), el('ol', {},
+      el('li', {}, 'It is a whole spatial shader: give it to a ShaderMaterial. In Godot 4 name the file .gdshader.'),
+      el('li', {}, 'Set its normal_map, imported without sRGB. Choose “The map is stored for Godot”, since the importer may drop blue.'),
+      el('li', {}, frame === 'cotangent' || frame === 'orthonormal' ? 'Switch off tangents where meshes are imported. In Godot 3 the driver is GLES3.'
+        : frame === 'mikktspace' ? 'Keep tangents where meshes are imported.' : 'The comment at the top says which arrays of the mesh it reads.')),
+    el('p', { class: 'small' }, 'The address of this page keeps your choice.')];
   const needs = {
     cotangent: 'Call cotan_perturb_normal once in the pixel stage, before any branch.', orthonormal: 'Call cotan_perturb_normal once in the pixel stage, before any branch.',
     triangle: 'Make the two vectors of a triangle where triangles are at hand (load, vertex, mesh or compute stage), hand them on without interpolation, and call cotan_perturb_normal_on_triangle.',

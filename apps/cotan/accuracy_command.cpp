@@ -150,16 +150,32 @@ Status run(const AccuracyCommandOptions& o)
     return o.against.empty() ? Status(Done{}) : compareWith(o, rows);
 }
 
+std::vector<std::string> tableWords()
+{
+    std::vector<std::string> words;
+    for (const AccuracyTable& table : accuracyTables())
+        words.emplace_back(table.name);
+    words.emplace_back(kRendered);
+    return words;
+}
+
 void declare(Arguments& a, AccuracyCommandOptions& o)
 {
-    a.option("--tables", o.tables, "tables, separated by commas (default: all; see --list)").in("A,B");
-    a.option("--frames", o.frames, "frames, separated by commas (default: all): " + frameNames()).in("A,B");
+    a.option("--tables", o.tables, "tables, separated by commas (default: all; see --list)")
+        .in("A,B")
+        .offers(tableWords());
+    a.option("--frames", o.frames, "frames, separated by commas (default: all): " + frameNames())
+        .in("A,B")
+        .offers(frameWords());
     a.option("--device", o.device,
              "device for the table `rendered`: auto, reference, a part of a Vulkan device's name, or none")
-        .in("DEVICE");
+        .in("DEVICE")
+        .offers({"auto", "reference", "none"});
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
-    a.option("--csv", o.csv, "write all figures as CSV").in("FILE");
-    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse").in("FILE");
+    a.option("--csv", o.csv, "write all figures as CSV").in("FILE").writes();
+    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse")
+        .in("FILE")
+        .reads();
     a.flag("--list", o.list, "print the names of the tables and stop");
 }
 

@@ -174,9 +174,9 @@ Status run(const BakeCommandOptions& o)
 
 void declare(Arguments& a, BakeCommandOptions& o)
 {
-    a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE");
-    a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE");
-    a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME");
+    a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE").reads();
+    a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE").reads();
+    a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME").offers(frameWords());
     a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
@@ -188,7 +188,8 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("D");
     a.option("--cage", o.cage,
              "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
-        .in("FILE");
+        .in("FILE")
+        .reads();
     a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
@@ -202,19 +203,23 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option(
          "--high-frame", o.highFrame,
          "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")
-        .in("NAME");
+        .in("NAME")
+        .offers(frameWords());
     a.option("--high-map", o.highMaps,
              "image that takes the place of the high mesh's normal maps; one, or one for each --high")
-        .in("FILE");
+        .in("FILE")
+        .reads();
     a.option("--high-convention", o.highConvention,
              "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME");
+        .in("NAME")
+        .offers(presetWords());
     a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention,
              "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
-        .in("NAME");
+        .in("NAME")
+        .offers(presetWords());
     a.option("--unsigned", o.expansion,
              "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
         .from({"exact", "biased"})
@@ -224,11 +229,12 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .within(-1, 65536)
         .in("N");
     a.option("--ao-rays", o.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
-    a.option("--mask", o.mask, "write a picture of what became of each texel").in("FILE");
+    a.option("--mask", o.mask, "write a picture of what became of each texel").in("FILE").writes();
     addMemoryOption(a, o.memory);
     a.option("--verify", o.verify,
              "draw the low mesh with the map, compare it with the high one, and write the pictures into this folder")
-        .in("DIR");
+        .in("DIR")
+        .writes();
     addDeviceOption(a, o.device, "for --verify: ");
 }
 

@@ -16,5 +16,6 @@ void addLintCommand(Arguments& tool);
 void addConvertCommand(Arguments& tool);
 void addShaderCommand(Arguments& tool);
 void addCostCommand(Arguments& tool);
+void addBatchCommand(Arguments& tool); // of the commands of `tool`, which it outlives not
 
 } // namespace cotan::app

@@ -25,11 +25,11 @@ int printErrno = 0; // of the first print that failed
 
 void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp)
 {
-    Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH");
+    Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH").writes();
     if (outputHelp.empty())
         output.unlisted().refused(
             [name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
-    command.option("--json", options.json, "write a machine-readable report; - is standard output").in("FILE");
+    command.option("--json", options.json, "write a machine-readable report; - is standard output").in("FILE").writes();
     command.flag("--quiet", options.quiet, "print no notes and warnings");
     command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024);
     command.flag("--overwrite", options.overwrite, "let outputs replace input files");
@@ -43,13 +43,7 @@ void addOlderName(Arguments& command, const std::string& older, const std::strin
     });
 }
 
-void addExamples(Arguments& command, const std::vector<std::string>& lines)
-{
-    std::string text = "Examples:\n";
-    for (const std::string& line : lines)
-        text += "  " + line + "\n";
-    command.footer(text + "\n" + kExitCodes);
-}
+void addExamples(Arguments& command, const std::vector<std::string>& lines) { command.examples(lines, kExitCodes); }
 
 Status withThreads(int threads, const std::function<Status()>& work)
 {

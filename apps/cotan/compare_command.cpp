@@ -93,7 +93,7 @@ Status run(const CompareCommandOptions& o)
 void declare(Arguments& a, CompareCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frames", o.frames, "the two frames, from: " + frameNames()).in("A,B");
+    a.option("--frames", o.frames, "the two frames, from: " + frameNames()).in("A,B").offers(frameWords());
 }
 
 } // namespace

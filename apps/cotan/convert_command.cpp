@@ -209,10 +209,11 @@ Status run(const ConvertCommandOptions& o)
 
 void declare(Arguments& a, ConvertCommandOptions& o)
 {
-    a.option("MODEL", o.model, "glTF or GLB file").required();
-    a.option("--from-frame", o.from, "frame that the maps were made for").in("FRAME");
+    a.option("MODEL", o.model, "glTF or GLB file").required().reads();
+    a.option("--from-frame", o.from, "frame that the maps were made for").in("FRAME").offers(frameWords());
     a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
-        .in("FRAME");
+        .in("FRAME")
+        .offers(frameWords());
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
     addTangentsOption(
@@ -235,7 +236,8 @@ void declare(Arguments& a, ConvertCommandOptions& o)
     addMemoryOption(a, o.memory);
     a.option("--verify", o.verify,
              "draw both models from five sides, compare normals, and write the pictures into this folder")
-        .in("FOLDER");
+        .in("FOLDER")
+        .writes();
     addDeviceOption(a, o.device, "for --verify: ");
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cotan/cost/rows.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/report/cost_tables.hpp"
 #include "loading.hpp"
@@ -59,21 +60,31 @@ Status run(const CostCommandOptions& o)
     return report->codeSilence.empty() ? Status(Done{}) : unavailableError(report->codeSilence);
 }
 
+std::vector<std::string> rowWords()
+{
+    std::vector<std::string> words;
+    for (const cost::Row& row : cost::rows())
+        words.emplace_back(row.name);
+    return words;
+}
+
 void declare(Arguments& a, CostCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
-        .in("A,B");
+        .in("A,B")
+        .offers(rowWords());
     a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
              "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
              "given: POLARIS10, VEGA10, NAVI21, GFX1100")
-        .in("NAME");
+        .in("NAME")
+        .offers({"POLARIS10", "VEGA10", "NAVI21", "GFX1100"});
     a.flag("--no-timing", o.noTiming, "measure no times");
     a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
     a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000);
-    a.option("--csv", o.csv, "write every number, one per line").in("FILE");
+    a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes();
 }
 
 } // namespace

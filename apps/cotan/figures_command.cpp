@@ -74,9 +74,10 @@ Status run(const FiguresCommandOptions& o)
 void declare(Arguments& a, FiguresCommandOptions& o)
 {
     a.option("--size", o.size, "width and height of a panel in pixels; square panels take the height").in("WxH");
-    a.option("--only", o.only,
-             fmt::format("figures to make, separated by commas: {}", fmt::join(figures::figureNames(), ", ")))
-        .in("NAMES");
+    const auto names = figures::figureNames();
+    a.option("--only", o.only, fmt::format("figures to make, separated by commas: {}", fmt::join(names, ", ")))
+        .in("NAMES")
+        .offers({names.begin(), names.end()});
     addDeviceOption(a, o.device);
 }
 

@@ -127,7 +127,7 @@ Status run(const LintCommandOptions& o)
 void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
-    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required();
+    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
     addMemoryOption(a, o.memory);
     a.flag("--details", o.details,
            "print the figures of each primitive and map, too, and cameras that look at the worst places");

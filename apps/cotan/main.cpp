@@ -2,16 +2,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#ifdef COTAN_WITH_BATCH
+#include "cotan/batch/child.hpp"
+#endif
 #include "cotan/files/account.hpp"
 #include "cotan/files/interrupt.hpp"
+#include "cotan/files/output.hpp"
 #include "cotan/files/sandbox.hpp"
 #include "cotan/model/reader.hpp"
+#include "cotan/terminal/help_files.hpp"
 #include "view_command.hpp"
 
 namespace {
@@ -21,6 +27,18 @@ int fail(const cotan::Error& error)
 {
     std::fputs(fmt::format("cotan: error: {}\n", error.message).c_str(), stderr);
     return int(error.kind);
+}
+
+// The manual's pages and the completion of shells, into a folder as share/ has them. For the build: see CMakeLists.txt.
+cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
+{
+    for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION)) {
+        std::error_code failed; // the file then cannot be written, either
+        std::filesystem::create_directories((folder / file.path).parent_path(), failed);
+        if (cotan::Status written = cotan::writeFileWhole(folder / file.path, file.text); !written)
+            return written;
+    }
+    return cotan::Done{};
 }
 
 // The exit code of a command, once what it printed has arrived.
@@ -39,10 +57,12 @@ int runCommandLine(std::vector<std::string> words)
     using namespace cotan::app;
     cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    for (const auto add :
-         {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand, addBakeCommand,
-          addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand, addCostCommand, addViewCommand})
+    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
+                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
+                           addCostCommand, addViewCommand, addBatchCommand})
         add(tool);
+    if (words.size() == 2 && words[0] == "--help-files")
+        return finish(writeHelpFiles(tool, words[1]));
     return finish(tool.run(std::move(words), print));
 }
 
@@ -55,6 +75,10 @@ int main(int argc, char** argv)
     cotan::sandboxByDefault({.program = "/proc/self/exe"});
     cotan::removePartsOnInterrupt();
     try {
+#ifdef COTAN_WITH_BATCH
+        if (cotan::isJobProcess(argc, argv))
+            return cotan::runJobProcess(argc, argv, runCommandLine);
+#endif
         return runCommandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({cotan::ErrorKind::unavailable, "not enough memory"});

@@ -91,15 +91,18 @@ Status run(const MapBlendCommandOptions& o)
 void declare(Arguments& a, MapBlendCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("BASE", o.base, "the base map").required();
-    a.option("DETAIL", o.detail, "the detail map").required();
-    a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear");
+    a.option("BASE", o.base, "the base map").required().reads();
+    a.option("DETAIL", o.detail, "the detail map").required().reads();
+    a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear")
+        .offers({"reoriented", "whiteout", "udn", "slopes", "linear"});
     a.option("--strength", o.strength, "factor on the detail's slopes");
     a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]");
-    a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE");
-    a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS");
-    a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given").in("WORDS");
-    a.option("--to", o.to, "how to store the blend; as the base if not given").in("WORDS");
+    a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE").reads();
+    a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given")
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--to", o.to, "how to store the blend; as the base if not given").in("WORDS").offers(conventionWordList());
     addBits(a, o, " (as the base)");
     addDither(a, o.dither);
 }

@@ -7,15 +7,17 @@ namespace cotan::app {
 
 void addBits(Arguments& command, MapOptions& options, const std::string& help)
 {
-    command.option("--bits", options.bits, "bits per component: auto" + help + ", 8, 16, half (.exr) or float");
+    command.option("--bits", options.bits, "bits per component: auto" + help + ", 8, 16, half (.exr) or float")
+        .offers({"auto", "8", "16", "half", "float"});
 }
 
 void addCompress(Arguments& command, std::string& compress)
 {
-    command.option(
-        "--compress", compress,
-        "for .dds and .ktx2: none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
-        "bc7, x, y, z and alpha");
+    command
+        .option("--compress", compress,
+                "for .dds and .ktx2: none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
+                "bc7, x, y, z and alpha")
+        .offers({"none", "bc5", "bc7"});
 }
 
 void addDither(Arguments& command, bool& dither)

@@ -75,17 +75,23 @@ Status run(const MapConvertCommandOptions& o)
 void declare(Arguments& a, MapConvertCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
-    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").required();
-    a.option("--to", o.to, "how to store the result; the same words").in("WORDS").required();
+    a.option("FILE", o.file, "the map").required().reads();
+    a.option("--from", o.from, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList())
+        .required();
+    a.option("--to", o.to, "how to store the result; the same words")
+        .in("WORDS")
+        .offers(conventionWordList())
+        .required();
     addBits(a, o, "");
     a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents");
     a.flag("--normalise", o.normalise,
            "make every vector of unit length; without this, vectors of three channels keep their lengths");
     addCompress(a, o.compress);
     addDither(a, o.dither);
-    a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE");
-    a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map");
+    a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE").reads();
+    a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map").offers(frameWords());
     a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all").within(-1, 1 << 20);
     a.option("--tangents", o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated")
         .from({"stored", "generated"});

@@ -42,10 +42,10 @@ Status run(const MapDiffCommandOptions& o)
 void declare(Arguments& a, MapDiffCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("A", o.a, "the first map").required();
-    a.option("B", o.b, "the second, of the same size").required();
-    a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS");
-    a.option("--to", o.to, "how B is stored; as A if not given").in("WORDS");
+    a.option("A", o.a, "the first map").required().reads();
+    a.option("B", o.b, "the second, of the same size").required().reads();
+    a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--to", o.to, "how B is stored; as A if not given").in("WORDS").offers(conventionWordList());
 }
 
 } // namespace

@@ -172,8 +172,10 @@ Status runTo(const MapToHeightCommandOptions& o)
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "heights: grey, or the red channel").required();
-    a.option("--to", o.convention, "how to store the map: " + conventionWords()).in("WORDS");
+    a.option("FILE", o.file, "heights: grey, or the red channel").required().reads();
+    a.option("--to", o.convention, "how to store the map: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--metres", o.metres, "size of the picture in metres; with --range").in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--range", o.range, "metres from black to white (floats: metres per unit); below 0: white is low")
@@ -181,8 +183,9 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
         .withoutDefault();
     a.option("--strength", o.strength,
              "without --metres: height from black to white, in hundredths of the picture's width");
-    a.option("--kernel", o.kernel, "how slopes are measured: forward, central, sobel or scharr");
-    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror");
+    a.option("--kernel", o.kernel, "how slopes are measured: forward, central, sobel or scharr")
+        .offers({"forward", "central", "sobel", "scharr"});
+    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror").offers({"repeat", "clamp", "mirror"});
     addBits(a, o, " (as the heights)");
     addDither(a, o.dither);
 }
@@ -190,13 +193,16 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
-    a.option("--from", o.convention, "how the map is stored: " + conventionWords()).in("WORDS");
+    a.option("FILE", o.file, "the map").required().reads();
+    a.option("--from", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--metres", o.metres, "size of the picture in metres; heights are then in metres, without this in texels")
         .in("W[xH]");
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--kernel", o.kernel,
-             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
+             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr")
+        .offers({"spectral", "forward", "central", "sobel", "scharr"});
     a.flag("--free", o.free, "the map does not repeat at its borders");
     addBits(a, o, " (16 where the file can hold it)");
 }

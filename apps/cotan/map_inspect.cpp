@@ -44,7 +44,7 @@ Status runDetect(const InspectOptions& o)
 void declare(Arguments& a, InspectOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
+    a.option("FILE", o.file, "the map").required().reads();
 }
 
 } // namespace

@@ -62,11 +62,12 @@ Status run(const MapMipsCommandOptions& o)
 void declare(Arguments& a, MapMipsCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required();
-    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS");
-    a.option("--to", o.to, "how to store the levels; as the map if not given").in("WORDS");
+    a.option("FILE", o.file, "the map").required().reads();
+    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--to", o.to, "how to store the levels; as the map if not given").in("WORDS").offers(conventionWordList());
     a.option("--roughness", o.roughness, "perceptual roughness of the material, 0 to 1").within(0.0, 1.0);
-    a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean");
+    a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean")
+        .offers({"toksvig", "vmf", "lean"});
     a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths");
     addBits(a, o, " (as the map)");
     addCompress(a, o.compress);

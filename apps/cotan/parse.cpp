@@ -5,6 +5,14 @@
 
 namespace cotan::app {
 
+std::vector<std::string> presetWords()
+{
+    std::vector<std::string> words;
+    for (const ConventionPreset& p : conventionPresets())
+        words.emplace_back(p.name);
+    return words;
+}
+
 std::vector<std::string> splitAtCommas(const std::string& text)
 {
     std::vector<std::string> words;

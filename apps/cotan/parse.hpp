@@ -13,6 +13,9 @@
 
 namespace cotan::app {
 
+// The names of the conventions that have one.
+std::vector<std::string> presetWords();
+
 // The words between commas; none of an empty text.
 std::vector<std::string> splitAtCommas(const std::string& text);
 

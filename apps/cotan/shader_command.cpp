@@ -21,6 +21,7 @@ struct ShaderCommandOptions : CommonOptions {
     std::vector<std::string> sets;
     std::string differences = "shader";
     int uvSets = 1;
+    bool functions = false, twoSided = false;
 };
 
 Result<Convention> conventionOf(const ShaderCommandOptions& o)
@@ -29,7 +30,9 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
     Words<Convention> presets;
     for (const ConventionPreset& p : conventionPresets())
         presets.push_back({p.name, p.convention});
-    if (Status ok = choose(c, "--preset", o.preset, presets); !ok)
+    // Godot's importer may drop blue; a text that reads it would fail without a word.
+    const std::string preset = o.preset.empty() && o.language == "godot" ? o.language : o.preset;
+    if (Status ok = choose(c, "--preset", preset, presets); !ok)
         return ok.error();
     if (Status ok = choose(c.channels, "--channels", o.channels,
                            {{"3", Channels::xyz},
@@ -88,10 +91,20 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
         return convention.error();
     choice.convention = *convention;
     choice.uvSets = o.uvSets;
+    if (o.functions && choice.language != shader_text::Language::godot)
+        return usageError("--functions: for --lang godot; the other languages have nothing but functions");
+    if (o.twoSided && (choice.language != shader_text::Language::godot || o.functions))
+        return usageError("--two-sided: for --lang godot and a whole shader; functions are for either");
+    choice.functionsOnly = o.functions;
+    choice.twoSided = o.twoSided;
     Words<std::vector<shader_text::Set>> sets{{"frame", {}}};
-    for (const shader_text::Set set : shader_text::kSets)
+    std::vector<shader_text::Set> all;
+    for (const shader_text::Set set : shader_text::kSets) {
         sets.push_back({name(set), {set}});
-    sets.push_back({"all", {std::begin(shader_text::kSets), std::end(shader_text::kSets)}});
+        if (hasSet(choice.language, set))
+            all.push_back(set);
+    }
+    sets.push_back({"all", all});
     for (const std::string& word : o.sets) {
         const auto chosen = oneOf("--set", word, sets);
         if (!chosen)
@@ -132,39 +145,58 @@ Status run(const ShaderCommandOptions& o)
 void declare(Arguments& a, ShaderCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
-    a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl or cpp").required().in("NAME");
-    a.option("--frame", o.frame, "one of " + frameNames()).in("NAME");
+    a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
+        .required()
+        .in("NAME");
+    a.option("--frame", o.frame, "one of " + frameNames()).in("NAME").offers(frameWords());
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
          "three covectors, for any input; readable: another word for total. Default: fused where there is one, but for "
          "smooth")
-        .in("NAME");
+        .in("NAME")
+        .offers({"fused", "total", "readable"});
     a.option("--stage", o.stage,
              "of the frame triangle: fragment, the pixel's part; vertex or mesh, what makes its two vectors there; "
              "compute, both in one. Default: all")
-        .in("NAME");
+        .in("NAME")
+        .offers({"fragment", "vertex", "mesh", "compute"});
     a.option("--preset", o.preset,
              "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
              "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
-             "v, exact")
-        .in("NAME");
-    a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope").in("N");
-    a.option("--green", o.green, "where green points: along-v or against-v").in("WAY");
+             "v, exact; for Godot: godot")
+        .in("NAME")
+        .offers(presetWords());
+    a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope")
+        .in("N")
+        .offers({"3", "2", "stereographic", "slope"});
+    a.option("--green", o.green, "where green points: along-v or against-v").in("WAY").offers({"along-v", "against-v"});
     a.option("--unsigned", o.expansion,
              "how a stored value c becomes a number: exact, (255c - 128)/127; exact16, the same for maps of 16 bits; "
              "biased, 2c - 1; signed, as sampled")
-        .in("NAME");
+        .in("NAME")
+        .offers({"exact", "exact16", "biased", "signed"});
     a.option("--uv-sets", o.uvSets,
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
     a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all")
         .separatedByCommas()
         .in("A,B");
+    a.flag("--functions", o.functions,
+           "Godot: the functions alone, to paste or as a .gdshaderinc, without shader_type, the map and fragment()");
+    a.flag("--two-sided", o.twoSided, "Godot: with back faces, as of a thin sheet: a bump in front is a dent behind");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")
-        .in("WHO");
+        .in("WHO")
+        .offers({"shader", "caller"});
+    std::vector<std::string> languages, sets = {"all"};
+    for (const shader_text::Language l : shader_text::kLanguages)
+        languages.emplace_back(name(l));
+    for (const shader_text::Set set : shader_text::kSets)
+        sets.emplace_back(name(set));
+    a.find("--lang").offers(std::move(languages));
+    a.find("--set").offers(std::move(sets));
 }
 
 } // namespace

@@ -170,10 +170,11 @@ Status run(const TangentsCommandOptions& o)
 
 void declare(Arguments& a, TangentsCommandOptions& o)
 {
-    a.option("MODEL", o.model, "glTF or GLB file").required();
+    a.option("MODEL", o.model, "glTF or GLB file").required().reads();
     a.option("--frame", o.frame,
              "mikktspace (every shared edge joined, as in three.js 0.187), vertex (classic averages), or smooth "
-             "(statistics only)");
+             "(statistics only)")
+        .offers({"mikktspace", "vertex", "smooth"});
     a.flag("--replace", o.replace,
            "generate tangents also where the file has them; without this only where they are missing");
 }

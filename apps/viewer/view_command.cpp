@@ -86,7 +86,7 @@ void declare(Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
-    a.option("--second", o.second, "another frame, beside the first").in("NAME");
+    a.option("--second", o.second, "another frame, beside the first").in("NAME").offers(frameWords());
     addShowOption(a, o.picture.show);
     a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
         .in("TEXT");

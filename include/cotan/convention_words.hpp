@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cotan/convention.hpp"
 #include "cotan/result.hpp"
@@ -15,5 +16,6 @@ Result<Convention> conventionFromWords(std::string_view text);
 
 // All words that it knows, for help texts.
 std::string conventionWords();
+std::vector<std::string> conventionWordList();
 
 } // namespace cotan

@@ -12,6 +12,7 @@
 //                     <cotan/portable.hpp>, once per scalar type, inside a namespace. It asks for
 //                     cotan_inverse_power_of_two of that type, cotan_pack_half and
 //                     cotan_unpack_half, as portable.hpp has them.
+//   COTAN_LANG_GODOT  for `cotan shader` alone, which has Godot's words: floats without access to their bits
 //
 // What the text may use: scalars and vectors of two to four components, structs, functions,
 // selects. What it may not: matrices (row and column order differ between the languages),
@@ -93,6 +94,12 @@ inline cotan_real cotan_power_of_two_scale(cotan_real m)
     m = min(max(m, cotan_real(1e-37)), COTAN_HUGE);
     return cotan_inverse_power_of_two(m);
 }
+#elif defined(COTAN_LANG_GODOT)
+// Without access to bits: as near to a power of two as exp2 is.
+COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
+{
+    return exp2(-floor(log2(min(max(m, cotan_real(1e-37)), COTAN_HUGE))));
+}
 #else
 COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
 {
@@ -105,6 +112,12 @@ COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
 // x with the sign bit of s. x: not negative. s: any; -0 counts as negative.
 #if defined(COTAN_LANG_CPP)
 inline cotan_real cotan_copy_sign(cotan_real x, cotan_real s) { return copysign(x, s); }
+#elif defined(COTAN_LANG_GODOT)
+// Without access to bits: -0 counts as positive.
+COTAN_FUNCTION cotan_real cotan_copy_sign(cotan_real x, cotan_real s)
+{
+    return s < cotan_real(0.0) ? -x : x;
+}
 #else
 COTAN_FUNCTION cotan_real cotan_copy_sign(cotan_real x, cotan_real s)
 {

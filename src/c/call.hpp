@@ -128,7 +128,7 @@ inline void giveText(std::string_view text, cotan_bytes** to)
 {
     if (!to)
         return;
-    const auto bytes = std::as_bytes(std::span(text));
+    const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
     *to = new cotan_bytes{{bytes.begin(), bytes.end()}};
 }
 

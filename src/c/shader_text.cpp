@@ -15,7 +15,7 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         const auto known = shader_text::languageFromName(word(language, "language"));
         if (!known)
             fail(ErrorKind::usage,
-                 "language: expected glsl, essl, hlsl, wgsl, msl or cpp, found '" + std::string(language) + "'");
+                 "language: expected glsl, essl, hlsl, wgsl, msl, cpp or godot, found '" + std::string(language) + "'");
         const auto which = frameFromName(word(frame, "frame"));
         if (!which)
             fail(ErrorKind::usage, "frame: there is none named '" + std::string(frame) + "'");

@@ -56,6 +56,16 @@ std::string conventionWords()
     return words;
 }
 
+std::vector<std::string> conventionWordList()
+{
+    std::vector<std::string> words;
+    for (const ConventionPreset& p : conventionPresets())
+        words.emplace_back(p.name);
+    for (const Word& w : kWords)
+        words.emplace_back(w.name);
+    return words;
+}
+
 Result<Convention> conventionFromWords(std::string_view text)
 {
     if (text.empty())

@@ -61,7 +61,7 @@ struct Account {
     std::vector<Input> inputs;
     std::vector<Output> outputs;
     std::optional<Error> refusal;
-    std::function<void(const fs::path&)> watcher;
+    std::function<void(const fs::path&)> watcher, outputWatcher;
 
     Error refuse(std::string message)
     {
@@ -123,6 +123,8 @@ Status planOutput(const std::string& option, const fs::path& file)
 
 void watchInputs(std::function<void(const fs::path&)> watcher) { account().watcher = std::move(watcher); }
 
+void watchOutputs(std::function<void(const fs::path&)> watcher) { account().outputWatcher = std::move(watcher); }
+
 Status noteInput(const fs::path& file)
 {
     Account& all = account();
@@ -166,6 +168,8 @@ Status beginOutput(const fs::path& file)
 void endOutput(const fs::path& file)
 {
     Account& all = account();
+    if (all.outputWatcher)
+        all.outputWatcher(file);
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity)

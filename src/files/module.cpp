@@ -23,11 +23,14 @@ std::vector<fs::path> foldersOf(const ModulePlaces& places)
         folders.push_back(program.parent_path().parent_path() / places.subfolder);
     if (Dl_info us; ::dladdr(reinterpret_cast<const void*>(&loadModule), &us) != 0) {
         const fs::path beside = fs::path(us.dli_fname).parent_path();
-        folders.push_back(beside);
-        folders.push_back(beside / "cotan");
+        if (beside.is_absolute()) { // not what lies in the current folder: a program is called by any name
+            folders.push_back(beside);
+            folders.push_back(beside / "cotan");
+        }
     }
     folders.emplace_back(places.installed);
-    folders.emplace_back(places.built);
+    if (*places.built != '\0')
+        folders.emplace_back(places.built);
     return folders;
 }
 

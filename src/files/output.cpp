@@ -5,7 +5,9 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -27,21 +29,38 @@ constexpr std::string_view kPartStart = ".cotan-", kPartMark = ".part";
 
 fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-// Unique among the processes of this machine and the threads of this process. Short, so that it fits where the file's
-// own name does.
+// Eight digits for what numbers its processes by itself: a machine, or a container. Several may share a folder.
+const std::string& machine()
+{
+    static const std::string digits = [] {
+        char text[512] = "";
+        ::gethostname(text, 255);
+        const std::size_t length = std::string_view(text).size();
+        if (::readlink("/proc/self/ns/pid", text + length, sizeof text - length - 1) < 0) // other systems have none
+            text[length] = '\0';
+        std::uint32_t hash = 2166136261; // FNV-1a
+        for (const char c : std::string_view(text))
+            hash = (hash ^ static_cast<unsigned char>(c)) * 16777619;
+        return fmt::format("{:08x}", hash);
+    }();
+    return digits;
+}
+
+// Unique among the machines that share the folder, their processes and the threads of this one. Short, so that it fits
+// where the file's own name does.
 fs::path partBeside(const fs::path& file)
 {
     static std::atomic<unsigned> counter{0};
     const std::string extension = file.extension().string();
     return folderOf(file)
-        / fmt::format("{}{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), kPartMark,
+        / fmt::format("{}{}-{}-{}{}{}", kPartStart, ::getpid(), counter.fetch_add(1), machine(), kPartMark,
                       extension.size() <= 16 ? extension : "");
 }
 
-// The process that a part's name tells; 0 for other names.
+// The process of this machine that a part's name tells; 0 for other names.
 pid_t processOf(const std::string& name)
 {
-    if (!name.starts_with(kPartStart) || name.find(kPartMark) == std::string::npos)
+    if (!name.starts_with(kPartStart) || name.find("-" + machine() + std::string(kPartMark)) == std::string::npos)
         return 0;
     pid_t process = 0;
     const auto [end, error] = std::from_chars(name.data() + kPartStart.size(), name.data() + name.size(), process);
@@ -221,6 +240,14 @@ Status checkWritable(const fs::path& file, bool makesFolder)
         return outputError(
             fmt::format("{}: cannot write in the folder {}: {}", file.string(), folder.string(), reasonOf(errno)));
     return Done{};
+}
+
+void removeParts(const fs::path& folder, pid_t process)
+{
+    std::error_code error, ignored;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (processOf(at->path().filename().string()) == process)
+            fs::remove(at->path(), ignored);
 }
 
 std::vector<fs::path> leftParts(const fs::path& folder)

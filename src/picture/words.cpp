@@ -7,13 +7,15 @@
 
 namespace cotan {
 
-std::string frameNames()
+std::vector<std::string> frameWords()
 {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const FrameInfo& f : frames())
-        names.push_back(f.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+        names.emplace_back(f.name);
+    return names;
 }
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
 Result<Frame> parseFrame(const std::string& text)
 {
@@ -34,7 +36,9 @@ void addTangentsOption(Arguments& a, std::string& tangents, const std::string& h
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
 {
-    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name").in("DEVICE");
+    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
+        .in("DEVICE")
+        .offers({"auto", "reference"});
 }
 
 namespace {
@@ -44,7 +48,8 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.option("--exposure", o.exposure,
              "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
         .above0Or("auto")
-        .in("X|auto");
+        .in("X|auto")
+        .offers({"auto"});
     a.option("--tone-mapping", o.toneMapping,
              "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
@@ -55,7 +60,9 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
          "overcast, or "
          "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
-        .in("NAME|FILE");
+        .in("NAME|FILE")
+        .offers({"studio", "overcast", "evening", "none"})
+        .reads();
     a.option("--environment-rotation", o.environmentRotation,
              "turn the surroundings counter-clockwise, seen from above")
         .within(-360.0, 360.0)
@@ -85,11 +92,13 @@ void addLightOptions(Arguments& a, PictureOptions& o)
 void addOwnNormalMap(Arguments& a, OwnMaps& maps)
 {
     a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
-        .in("FILE");
+        .in("FILE")
+        .reads();
     a.option("--convention", maps.convention,
              "how that image is stored, or without one how the model's own normal maps are to be read: "
                  + conventionWords())
-        .in("WORDS");
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
         .in("N");
@@ -100,18 +109,23 @@ namespace {
 void addOwnMaps(Arguments& a, OwnMaps& maps)
 {
     addOwnNormalMap(a, maps);
-    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB").in("FILE");
+    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB")
+        .in("FILE")
+        .reads();
     a.option("--metallic-roughness", maps.metallicRoughness,
              "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
-        .in("FILE");
-    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's").in("FILE");
+        .in("FILE")
+        .reads();
+    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's")
+        .in("FILE")
+        .reads();
 }
 
 } // namespace
 
 void addFrameOption(Arguments& a, std::string& frame)
 {
-    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME");
+    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME").offers(frameWords());
 }
 
 void addShowOption(Arguments& a, std::string& show)
@@ -127,7 +141,8 @@ void addShowOption(Arguments& a, std::string& show)
 
 void addPictureOptions(Arguments& a, PictureOptions& o)
 {
-    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out");
+    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
+        .reads();
     a.option("--shape", o.shape, "without MODEL: a shape to look at maps on: plane, sphere, torus or teapot")
         .from({"plane", "sphere", "torus", "teapot"})
         .in("NAME");
@@ -148,7 +163,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
          "for "
          "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
          "own)")
-        .in("CAMERA");
+        .in("CAMERA")
+        .offers({"front", "fit"});
     addDeviceOption(a, o.device);
     a.option("--edges", o.edges,
              "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")

@@ -177,19 +177,24 @@ void forbidCalls()
 
 } // namespace
 
-void dieWith(std::int64_t parent)
+void dieWith(std::int64_t parent, int signal)
 {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::prctl(PR_SET_PDEATHSIG, signal);
     if (::getppid() != parent) // it was quicker
         ::_exit(1);
 }
 
-void confine()
+void leaveNoCore()
 {
     setLimit(RLIMIT_CORE, 0, 0);
+    ::prctl(PR_SET_DUMPABLE, 0); // cores that go to a program have no limit
+}
+
+void confine()
+{
+    leaveNoCore();
     setLimit(RLIMIT_FSIZE, 0, 0);
     setLimit(RLIMIT_STACK, 8 << 20, 8 << 20); // endless recursion ends soon
-    ::prctl(PR_SET_DUMPABLE, 0);              // cores that go to a program have no limit
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         return;
     forbidChanges();
@@ -197,12 +202,16 @@ void confine()
         forbidCalls();
 }
 
+void limitMemory(double megabytes, double most)
+{
+    if (!kSanitized)
+        setLimit(RLIMIT_DATA, rlim_t(megabytes) << 20, rlim_t(most) << 20);
+}
+
 void limitTo(const ReaderBudget& budget, const ReaderBudget& most)
 {
-    const auto bytes = [](const ReaderBudget& b) { return rlim_t(b.megabytes) << 20; };
     const auto seconds = [](const ReaderBudget& b) { return rlim_t(std::ceil(b.seconds * (kSanitized ? 20 : 1))); };
-    if (!kSanitized)
-        setLimit(RLIMIT_DATA, bytes(budget), bytes(most));
+    limitMemory(budget.megabytes, most.megabytes);
     setLimit(RLIMIT_CPU, seconds(budget), seconds(most) + 5); // at the lower one a signal says why
 }
 

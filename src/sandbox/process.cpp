@@ -9,13 +9,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "cotan/files/account.hpp"
 #include "cotan/files/extension.hpp"
+#include "cotan/sandbox/spawn.hpp"
 
 namespace cotan {
 
@@ -59,38 +59,6 @@ bool makeChannels(Descriptor (&socket)[2], Descriptor (&messages)[2])
         && ::fcntl(messages[0].get(), F_SETFL, O_NONBLOCK) == 0;
 }
 
-// The child has the socket as standard input, `messages` as standard output and error, and nothing else. It is in a
-// process group of its own: Ctrl-C is for us, and it goes when we go.
-int spawn(const Sandbox& reader, int socket, int messages, pid_t& process)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    ::posix_spawn_file_actions_init(&files);
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawn_file_actions_adddup2(&files, socket, 0);
-    ::posix_spawn_file_actions_adddup2(&files, messages, 1);
-    ::posix_spawn_file_actions_adddup2(&files, messages, 2);
-    ::posix_spawn_file_actions_addclosefrom_np(&files, 3);
-    sigset_t none, all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_setsigmask(&attributes, &none);
-    ::posix_spawnattr_setsigdefault(&attributes, &all);
-    ::posix_spawnattr_setpgroup(&attributes, 0);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    std::vector<std::string> texts = {reader.program.string()};
-    texts.insert(texts.end(), reader.arguments.begin(), reader.arguments.end());
-    texts.emplace_back(kReaderWord);
-    std::vector<char*> words;
-    for (std::string& text : texts)
-        words.push_back(text.data());
-    words.push_back(nullptr);
-    const int problem = ::posix_spawn(&process, texts[0].c_str(), &files, &attributes, words.data(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    ::posix_spawn_file_actions_destroy(&files);
-    return problem;
-}
-
 } // namespace
 
 void Descriptor::close()
@@ -130,7 +98,10 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     Descriptor socket[2], messages[2];
     if (!makeChannels(socket, messages))
         return failed(errno);
-    if (const int problem = spawn(request.limits.sandbox, socket[1].get(), messages[1].get(), started->process_))
+    std::vector<std::string> words = request.limits.sandbox.arguments;
+    words.emplace_back(kReaderWord);
+    const SpawnRequest child{request.limits.sandbox.program.string(), words, socket[1].get(), messages[1].get()};
+    if (const int problem = spawn(child, started->process_))
         return failed(problem);
     socket[1].close(); // while one of the child's ends is ours, it never hangs up
     messages[1].close();

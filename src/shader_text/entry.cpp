@@ -1,6 +1,7 @@
 #include "entry.hpp"
 
 #include "fill.hpp"
+#include "godot.hpp"
 
 namespace cotan::shader_text {
 
@@ -92,9 +93,23 @@ std::string fromDifferences(Frame frame, Form form)
                 head, functionWord(frame), normalFor(frame));
 }
 
-std::string ofTriangle(Stage stage)
+// The same where the language cannot unpack.
+const char* const kTriangleVectorsPixel =
+    "// The perturbed normal, unit.\n"
+    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
+    "// u, v: the vectors of the triangle, the same at every pixel of it, in normal's space.\n"
+    "// texel: the normal map as sampled.\n"
+    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_vec3 u, cotan_vec3 v, "
+    "cotan_vec3 texel)\n{\n"
+    "    return cotan_perturb_triangle(normal, u, v, cotan_decode(texel));\n}\n";
+
+std::string ofTriangle(const Choice& choice)
 {
-    switch (stage) {
+    if (choice.language == Language::godot) {
+        const bool pixelOnly = isGodotShader(choice) || choice.stage == Stage::fragment;
+        return kTriangleVectorsPixel + (pixelOnly ? "" : "\n" + fromDifferences(Frame::triangle, Form::fused));
+    }
+    switch (choice.stage) {
     case Stage::fragment: return kTrianglePixel;
     case Stage::vertex:
     case Stage::mesh: return kTriangleMaker;
@@ -151,6 +166,19 @@ std::string fromScreen(int sets)
         one ? ", cotan_ddx(uv), cotan_ddy(uv), texel" : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
 }
 
+// What Godot's ANISOTROPY asks for.
+const char* const kDirectionOfU =
+    "\n// The direction along increasing u on the surface, unit, perpendicular to n; zero for constant uv. For "
+    "ANISOTROPY.\n"
+    "// n: the perturbed normal. position, uv: as above.\n"
+    "COTAN_FUNCTION cotan_vec3 cotan_direction_of_u(cotan_vec3 n, cotan_vec3 position, cotan_vec2 uv)\n{\n"
+    "    cotan_vec2 duvdx = cotan_ddx(uv);\n"
+    "    cotan_vec2 duvdy = cotan_ddy(uv);\n"
+    "    cotan_vec3 u = cotan_ddx(position) * duvdy.y - cotan_ddy(position) * duvdx.y;\n"
+    "    cotan_vec3 along = u - n * dot(n, u);\n"
+    "    cotan_real scale = cotan_inversesqrt(max(dot(along, along), cotan_real(1e-36)));\n"
+    "    return along * cotan_copy_sign(scale, duvdx.x * duvdy.y - duvdx.y * duvdy.x);\n}\n";
+
 } // namespace
 
 std::string functionWord(Frame frame) { return std::string(info(frame).word); }
@@ -168,6 +196,8 @@ std::string entryOf(Frame frame)
 
 std::string entryOf(const Choice& choice)
 {
+    if (isGodotShader(choice) && choice.frame == Frame::triangle)
+        return "cotan_perturb_normal_on_triangle";
     switch (choice.stage) {
     case Stage::fragment: return "cotan_perturb_normal_on_triangle";
     case Stage::vertex:
@@ -189,10 +219,14 @@ std::string entryText(const Choice& choice, Form form)
     if (readsVertices(choice.frame))
         return fromVertices(choice.frame, form);
     if (choice.frame == Frame::triangle && form == Form::fused)
-        return ofTriangle(choice.stage);
+        return ofTriangle(choice);
     std::string text =
         choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, choice.uvSets);
-    return hasScreenEntry(choice) ? text + fromScreen(choice.uvSets) : text;
+    if (hasScreenEntry(choice))
+        text += fromScreen(choice.uvSets);
+    if (hasScreenEntry(choice) && choice.language == Language::godot)
+        text += kDirectionOfU;
+    return text;
 }
 
 } // namespace cotan::shader_text

@@ -2,6 +2,7 @@
 
 #include "entry.hpp"
 #include "fill.hpp"
+#include "godot.hpp"
 #include "print.hpp"
 
 namespace cotan::shader_text {
@@ -16,6 +17,7 @@ std::string_view title(Language language)
     case Language::hlsl: return "HLSL, shader model 5 and later";
     case Language::wgsl: return "WGSL";
     case Language::msl: return "Metal shading language";
+    case Language::godot: return "Godot 3.2 and later and Godot 4";
     case Language::cpp: break;
     }
     return "C++17";
@@ -47,7 +49,8 @@ std::string_view sample(Language language)
 {
     switch (language) {
     case Language::glsl:
-    case Language::essl: return "texture(normal_map, uv).xyz";
+    case Language::essl:
+    case Language::godot: return "texture(normal_map, uv).xyz";
     case Language::hlsl: return "normal_map.Sample(map_sampler, uv).xyz";
     case Language::wgsl: return "textureSample(normal_map, map_sampler, uv).xyz";
     case Language::msl: return "normal_map.sample(map_sampler, uv).xyz";
@@ -74,6 +77,8 @@ std::string call(const Choice& choice, Form form)
                             + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
                                                              : "(normal, tangent, handedness, ")
                             + std::string(sample(l)) + ")");
+    if (choice.frame == Frame::triangle && l == Language::godot && form == Form::fused)
+        return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + std::string(sample(l)) + ")");
     if (choice.frame == Frame::triangle && form == Form::fused && choice.stage != Stage::compute) {
         const std::string make = "words = " + scope + "cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);";
         const std::string pixel =
@@ -97,6 +102,8 @@ std::string call(const Choice& choice, Form form)
 
 std::string needs(const Choice& choice)
 {
+    if (choice.language == Language::godot)
+        return godotNeeds(choice);
     if (choice.stage == Stage::vertex)
         return std::string(
                    "// Needs from the caller:\n"
@@ -148,6 +155,9 @@ std::string_view languageNote(Language language)
         return "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
                "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
     case Language::cpp: return "//   Change cotan_real to double for double precision.\n";
+    case Language::godot:
+        return "//   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.\n"
+               "//   Whether guards against non-finite input hold is up to the driver.\n";
     default: break;
     }
     return "";

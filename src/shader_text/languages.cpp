@@ -90,6 +90,13 @@ const Names kMsl = {{{"cotan_real", "float"},
                     false,
                     false};
 
+// What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees to.
+const Names kGodot = [] {
+    Names names = kGlsl;
+    names.structs = false;
+    return names;
+}();
+
 const Names kCpp = {{}, "", "inline ", "", "", true, true, false};
 
 constexpr std::string_view kMslPrelude = R"(#include <metal_stdlib>
@@ -214,7 +221,7 @@ inline cotan_vec2 cotan_unpack_half(cotan_uint word)
 
 )";
 
-constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp"};
+constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp", "godot"};
 
 } // namespace
 
@@ -236,6 +243,7 @@ const Names& namesOf(Language language)
     case Language::hlsl: return kHlsl;
     case Language::wgsl: return kWgsl;
     case Language::msl: return kMsl;
+    case Language::godot: return kGodot;
     case Language::cpp: break;
     }
     return kCpp;
@@ -254,7 +262,7 @@ std::string_view halfs(Language language)
     case Language::cpp: return kCppHalfs;
     default: break;
     }
-    return {}; // GLSL and WGSL have them
+    return {}; // GLSL and WGSL have them; Godot's text packs nothing
 }
 
 std::string_view postlude(Language language)

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "flatten.hpp"
+
 namespace cotan::shader_text {
 
 namespace {
@@ -63,7 +65,7 @@ public:
             const bool copy = names_.wgsl && changed_.count(p.name) > 0;
             const std::string outer = copy ? own + "_in" : own;
             parameters += (parameters.empty() ? "" : ", ")
-                + (names_.wgsl ? outer + ": " + word(p.type) : word(p.type) + " " + outer);
+                + (names_.wgsl ? outer + ": " + word(p.type) : (p.out ? "out " : "") + word(p.type) + " " + outer);
             if (copy)
                 copies += "    var " + own + " = " + outer + ";\n";
         }
@@ -111,7 +113,9 @@ private:
         case Statement::Kind::declare: return wrapped(space + declaration(s) + ";", indent) + '\n';
         case Statement::Kind::assign:
             return wrapped(space + expression(s.target) + " = " + expression(s.value) + ";", indent) + '\n';
-        case Statement::Kind::giveBack: return wrapped(space + "return " + expression(s.value) + ";", indent) + '\n';
+        case Statement::Kind::giveBack:
+            return wrapped(space + (s.hasValue ? "return " + expression(s.value) : "return") + ";", indent) + '\n';
+        case Statement::Kind::run: return wrapped(space + expression(s.value) + ";", indent) + '\n';
         case Statement::Kind::branch: break;
         }
         return wrapped(space + "if (" + expression(s.value) + ") {", indent) + '\n' + body(s.body, indent + 4) + space
@@ -193,8 +197,9 @@ bool callsAny(const Module& module, const std::set<std::string>& names)
 
 } // namespace
 
-std::string print(const Module& module, Language language)
+std::string print(const Module& whole, Language language)
 {
+    const Module module = namesOf(language).structs ? whole : withoutStructs(whole);
     Printer printer(language);
     std::string text(prelude(language));
     if (callsAny(module, {"cotan_pack_half", "cotan_unpack_half"}))

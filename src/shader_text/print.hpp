@@ -17,6 +17,7 @@ struct Names {
     bool realCalls = false;                   // literals stay in cotan_real(...)
     bool braces = false;                      // vectors are made with {} instead of ()
     bool wgsl = false;                        // declarations the other way round, no ?:
+    bool structs = true;                      // else their parts are variables of their own
 };
 
 const Names& namesOf(Language language);

@@ -5,6 +5,7 @@
 
 #include "entry.hpp"
 #include "fill.hpp"
+#include "godot.hpp"
 #include "parse.hpp"
 #include "portable_parts.hpp"
 #include "print.hpp"
@@ -16,7 +17,12 @@ namespace {
 
 std::string_view branchOf(Language language)
 {
-    return language == Language::cpp ? "COTAN_LANG_CPP" : "COTAN_LANG_GLSL";
+    switch (language) {
+    case Language::cpp: return "COTAN_LANG_CPP";
+    case Language::godot: return "COTAN_LANG_GODOT";
+    default: break;
+    }
+    return "COTAN_LANG_GLSL";
 }
 
 // All of the portable text, and `extra` after it.
@@ -54,16 +60,29 @@ void bindConvention(Module& module, const Convention& c)
 std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
 {
     std::set<std::string_view> parts = {"entry"};
+    std::vector<std::string> roots;
     for (const Set set : choice.sets) {
+        if (set == Set::light && isGodotShader(choice)) {
+            roots = functionsOfLight();
+            continue;
+        }
         parts.insert(name(set));
         if (set == Set::light)
             parts.insert("sheen");
     }
-    std::vector<std::string> roots;
     for (const Function& f : module.functions)
         if (parts.contains(f.part))
             roots.push_back(f.name);
     return roots;
+}
+
+// What the language cannot do.
+Status checkLanguage(const Choice& choice, Form form)
+{
+    for (const Set set : choice.sets)
+        if (!hasSet(choice.language, set))
+            return usageError(fill("the set {}: Godot does this itself; expected gradient, blend or light", name(set)));
+    return choice.language == Language::godot ? checkGodot(choice, form) : Status(Done{});
 }
 
 Result<Form> formOf(const Choice& choice)
@@ -82,6 +101,8 @@ Result<Form> formOf(const Choice& choice)
     const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
     if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
         return usageError("a stage: expected the frame triangle in its fused form; found another");
+    if (Status possible = checkLanguage(choice, form); !possible)
+        return possible.error();
     return form;
 }
 
@@ -91,6 +112,11 @@ std::string_view name(Set set)
 {
     constexpr std::string_view kSetNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
     return kSetNames[int(set)];
+}
+
+bool hasSet(Language language, Set set)
+{
+    return language != Language::godot || set == Set::gradient || set == Set::blend || set == Set::light;
 }
 
 bool hasFusedForm(Frame frame) { return info(frame).fused; }
@@ -121,7 +147,8 @@ Result<ShaderText> makeShaderText(const Choice& choice)
     result.entry = entryOf(choice);
     for (const Function& f : needed.functions)
         result.functions.push_back(f.name);
-    result.text = introduction(choice, *form) + print(needed, choice.language);
+    const std::string functions = print(needed, choice.language);
+    result.text = introduction(choice, *form) + (isGodotShader(choice) ? godotShader(choice, functions) : functions);
     return result;
 }
 

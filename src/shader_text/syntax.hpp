@@ -28,7 +28,8 @@ struct Statement {
         declare,  // type name = value, or without a value
         assign,   // target = value
         branch,   // if (value) body
-        giveBack, // return value
+        giveBack, // return value, or only return
+        run,      // value, a call that gives nothing back
     };
     Kind kind = Kind::declare;
     std::vector<std::string> comments; // the lines above it, with their slashes
@@ -41,6 +42,7 @@ struct Statement {
 struct Variable {
     std::string type, name;
     std::string comment; // of a field, on its line
+    bool out = false;    // a parameter that takes what the function gives back
 };
 
 struct Struct {

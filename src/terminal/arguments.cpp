@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -28,12 +29,43 @@ std::string number(const std::string& text)
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? "expected a number; found '" + text + "'" : "";
 }
 
+std::vector<const CLI::App*> commandsOf(const CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 CommandNames namesOf(const CLI::App& app)
 {
     CommandNames all{app.get_name(), {}};
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command : commandsOf(app))
         all.commands.push_back(namesOf(*command));
     return all;
+}
+
+OptionHelp helpOf(const CLI::Option& option, const std::vector<std::string>& words)
+{
+    OptionHelp help;
+    help.help = option.get_description();
+    help.words = words;
+    help.positional = option.get_positional();
+    if (help.positional)
+        help.names = {option.get_name(true)};
+    for (const std::string& name : option.get_snames())
+        help.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        help.names.push_back("--" + name);
+    // CLI11 has "N:INT in [1 - 5]" for a value of the word N with a range.
+    const std::string type = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
+    help.value = help.positional ? help.names[0] : type.substr(0, type.find(':'));
+    help.kind = help.positional ? ValueKind::file : valueKind(help.value);
+    if (const std::size_t range = type.find(" in ["), to = type.find(" - "); range != std::string::npos) {
+        help.least = type.substr(range + 5, to - range - 5);
+        help.most = type.substr(to + 3, type.find(']', to) - to - 3);
+    }
+    help.usual = option.get_default_str();
+    help.required = option.get_required();
+    help.repeated = option.get_items_expected_max() > 1;
+    return help;
 }
 
 } // namespace
@@ -44,21 +76,25 @@ Argument& Argument::in(const std::string& unit)
     return *this;
 }
 
-Argument& Argument::from(std::initializer_list<std::string> words)
-{
-    option_->check(CLI::IsMember(words));
-    return *this;
-}
+Argument& Argument::from(std::initializer_list<std::string> words) { return from(std::vector(words)); }
 
 Argument& Argument::from(const std::vector<std::string>& words)
 {
     option_->check(CLI::IsMember(words));
-    return *this;
+    return offers(words);
 }
 
 Argument& Argument::from(std::initializer_list<int> numbers)
 {
     option_->check(CLI::IsMember(numbers));
+    for (const int number : numbers)
+        facts_->words.push_back(std::to_string(number));
+    return *this;
+}
+
+Argument& Argument::offers(std::vector<std::string> words)
+{
+    facts_->words = std::move(words);
     return *this;
 }
 
@@ -87,6 +123,18 @@ Argument& Argument::above0Or(const std::string& word)
         const std::string wrong = text == word ? "" : positiveNumber(text);
         return wrong.empty() ? "" : "expected " + word + " or " + wrong.substr(wrong.find(' ') + 1);
     });
+    return *this;
+}
+
+Argument& Argument::reads()
+{
+    facts_->use = FileUse::reads;
+    return *this;
+}
+
+Argument& Argument::writes()
+{
+    facts_->use = FileUse::writes;
     return *this;
 }
 
@@ -128,6 +176,27 @@ int Argument::count() const { return int(option_->count()); }
 struct Arguments::Tool {
     CLI::App app;
     std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
+    std::map<const CLI::Option*, Argument::Facts> facts;
+    struct Ending {
+        std::vector<std::string> examples;
+        std::string closing;
+    };
+    std::map<const CLI::App*, Ending> endings;
+
+    CommandHelp describe(const CLI::App& command)
+    {
+        CommandHelp help;
+        help.name = command.get_name();
+        help.summary = command.get_description();
+        for (const CLI::Option* option : command.get_options())
+            if (!option->get_group().empty())
+                help.options.push_back(helpOf(*option, facts[option].words));
+        for (const CLI::App* inner : commandsOf(command))
+            help.commands.push_back(describe(*inner));
+        help.examples = endings[&command].examples;
+        help.closing = endings[&command].closing;
+        return help;
+    }
 };
 
 Arguments::Arguments(const std::string& name, const std::string& summary, const std::string& version)
@@ -153,7 +222,7 @@ template<class Value> Argument Arguments::option(const std::string& names, Value
         empty = value.empty();
     if (!empty)
         option->capture_default_str();
-    return Argument(*option);
+    return Argument(*option, tool_->facts[option]);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -168,17 +237,31 @@ void Arguments::flag(const std::string& name, bool& value, const std::string& he
     app_->add_flag(name, value, help);
 }
 
-Argument Arguments::find(const std::string& name) { return Argument(*app_->get_option(name)); }
+Argument Arguments::find(const std::string& name)
+{
+    CLI::Option* option = app_->get_option(name);
+    return Argument(*option, tool_->facts[option]);
+}
 
 void Arguments::takesAnything() { app_->allow_extras(); }
 
-void Arguments::footer(const std::string& text) { app_->footer(text); }
+void Arguments::examples(std::vector<std::string> lines, const std::string& closing)
+{
+    std::string text = "Examples:\n";
+    for (const std::string& line : lines)
+        text += "  " + line + "\n";
+    app_->footer(text + "\n" + closing);
+    tool_->endings[app_] = {std::move(lines), closing};
+}
 
 void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(app_, std::move(work)); }
 
 std::string Arguments::name() const { return app_->get_name(); }
 
-Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
+
+// help: the text of --help or --version, where that is asked for.
+Status Arguments::read(std::vector<std::string> words, std::string& help) const
 {
     if (Status known = checkCommandWords(namesOf(*app_), words); !known)
         return known;
@@ -186,20 +269,54 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
         std::ranges::reverse(words); // CLI11 takes them from the back
         app_->parse(std::move(words));
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) { // help or version
+        if (e.get_exit_code() == 0) {
             std::ostringstream text;
             app_->exit(e, text, text);
-            print(text.str());
+            help = text.str();
             return Done{};
         }
         std::string message = e.what();
         std::ranges::replace(message, '\n', ' ');
         return usageError(message + " (see --help)");
     }
+    return Done{};
+}
+
+Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known;
+    if (!help.empty()) {
+        print(help);
+        return Done{};
+    }
     for (const auto& [app, work] : tool_->works)
         if (app->parsed())
             return work();
     return usageError("expected a command; found none");
+}
+
+Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
+{
+    std::string help;
+    if (Status known = read(std::move(words), help); !known)
+        return known.error();
+    if (!help.empty())
+        return usageError("expected a command that does something; found --help or --version");
+    GivenCommand given;
+    const CLI::App* app = app_;
+    while (!app->get_subcommands().empty()) { // those that were given
+        app = app->get_subcommands().front();
+        given.name += (given.name.empty() ? "" : " ") + app->get_name();
+        for (const CLI::Option* option : app->get_options())
+            if (option->count() > 0)
+                given.options.push_back(
+                    {option->get_single_name(), option->results(), tool_->facts[option].use});
+    }
+    if (given.name.empty())
+        return usageError("expected a command; found none");
+    return given;
 }
 
 } // namespace cotan

@@ -119,6 +119,7 @@ const cases = {
     const same = cotan.blend(map, flat).data;
     map.data.forEach((value, i) => assert.ok(Math.abs(value - same[i]) <= 1));
     assert.match(cotan.shader({ language: 'wgsl' }), /fn /);
+    assert.match(cotan.shader({ language: 'godot', convention: 'godot' }), /\nshader_type spatial;/);
     const places = { normals: [0, 0, 1], dpdx: [2, 0, 0], dpdy: [0, 2, 0], duvdx: [-1, 0], duvdy: [0, 1] };
     const out = cotan.apply('cotangent', places, [0.6, 0.48, 0.64]); // u along -x
     [-0.6, 0.48, 0.64].forEach((value, i) => assert.ok(Math.abs(out[i] - value) < 1e-5));

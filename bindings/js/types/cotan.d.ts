@@ -83,9 +83,9 @@ export function apply(frame: string, places: Places | VertexPlaces, texels: Arra
 export function encode(frame: string, places: Places | VertexPlaces, normals: ArrayLike<number>): Float32Array;
 export function frames(): string[];
 
-/** The function that perturbs the normal with that frame, self-contained. */
+/** The function that perturbs the normal with that frame, self-contained; for Godot a whole spatial shader. */
 export function shader(options?: {
-  language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp';
+  language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
   frame?: string;
   convention?: Convention;
 }): string;

@@ -1,7 +1,7 @@
 /** Await it before the first call; it rejects where WebAssembly is missing. */
 export const ready: Promise<void>;
 
-/** The version of the library, "0.1.0". */
+/** The version of the library, "0.2.0". */
 export function version(): string;
 
 /** What every function throws on bad input; nothing is lost then. */

@@ -98,7 +98,7 @@ def library_path() -> str:
 
 
 def library_version() -> str:
-    """The version of libcotan: "0.1.0". Raises UnavailableError where it is missing or too old."""
+    """The version of libcotan: "0.2.0". Raises UnavailableError where it is missing or too old."""
     return library().cotan_version().decode()
 
 

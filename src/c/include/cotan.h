@@ -41,7 +41,7 @@ typedef enum cotan_status {
     COTAN_STOPPED = 6 /* by the caller's progress function */
 } cotan_status;
 
-/* "0.1.0", and the version of this header that the library was built with: it grows where functions are added. */
+/* "0.2.0", and the version of this header that the library was built with: it grows where functions are added. */
 const char* cotan_version(void);
 int cotan_api_version(void);
 
@@ -219,8 +219,8 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
 /* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: "glsl",
- * "essl", "hlsl", "wgsl", "msl" or "cpp". text_size: of the buffer; afterwards what the text takes. A buffer that is
- * too small, or null, is left alone and is no error. */
+ * "essl", "hlsl", "wgsl", "msl", "cpp" or "godot", which is a whole spatial shader. text_size: of the buffer;
+ * afterwards what the text takes. A buffer that is too small, or null, is left alone and is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
 

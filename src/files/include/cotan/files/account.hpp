@@ -33,6 +33,9 @@ Status noteInput(const std::filesystem::path& file);
 // that one. Set it while there is one thread.
 void watchInputs(std::function<void(const std::filesystem::path&)> watcher);
 
+// The same for every output that is in its place.
+void watchOutputs(std::function<void(const std::filesystem::path&)> watcher);
+
 // Called when writing begins and when the file is in its place; OutputFile does it. Errors of the first: as planOutput,
 // for a file that was not planned; ErrorKind::usage where it was written before.
 Status beginOutput(const std::filesystem::path& file);

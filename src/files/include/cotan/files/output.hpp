@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 #include "cotan/files/interrupt.hpp"
 #include "cotan/result.hpp"
 
@@ -60,6 +62,9 @@ Status checkWritable(const std::filesystem::path& file, bool makesFolder = false
 
 // Parts in a folder whose processes are no more: what SIGKILL or a crash left.
 std::vector<std::filesystem::path> leftParts(const std::filesystem::path& folder);
+
+// Removes the parts of one process of this machine, which has ended.
+void removeParts(const std::filesystem::path& folder, pid_t process);
 
 // "no space left on the device", "permission denied": the system's reason for an errno.
 std::string reasonOf(int number);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cotan/frame.hpp"
 #include "cotan/picture/options.hpp"
@@ -10,7 +11,8 @@
 
 namespace cotan {
 
-// All frame names, separated by commas.
+// All frame names; the same, separated by commas.
+std::vector<std::string> frameWords();
 std::string frameNames();
 
 // A frame's name; the error lists all of them.

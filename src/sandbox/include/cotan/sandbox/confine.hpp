@@ -1,6 +1,7 @@
 // The child's side of a sandboxed reader: what it may take and do. Linux.
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 
 #include "cotan/sandbox/request.hpp"
@@ -20,8 +21,15 @@ namespace cotan {
 #endif
 inline constexpr bool kSanitized = COTAN_SANITIZED;
 
-// Ends this process when `parent`, or the thread of it that started us, ends.
-void dieWith(std::int64_t parent);
+// Ends this process by `signal` when `parent`, or the thread of it that started us, ends.
+void dieWith(std::int64_t parent, int signal = SIGKILL);
+
+// No core file, whoever would write it; other processes cannot look into this one.
+void leaveNoCore();
+
+// Sets the limit on memory of this process and of those that it starts, in MiB; it can be raised up to `most`. None
+// with sanitizers.
+void limitMemory(double megabytes, double most);
 
 // Stack, core files, files written: fixed for good. Where the kernel can, also: no change to any file, no new process,
 // no program, no signal to others, no socket.

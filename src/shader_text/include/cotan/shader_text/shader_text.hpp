@@ -12,9 +12,17 @@
 
 namespace cotan::shader_text {
 
-enum class Language { glsl, essl, hlsl, wgsl, msl, cpp };
-inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl,
-                                          Language::wgsl, Language::msl,  Language::cpp};
+enum class Language {
+    glsl,
+    essl,
+    hlsl,
+    wgsl,
+    msl,
+    cpp,
+    godot, // a whole spatial shader, for 3.2 and later and for 4
+};
+inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl, Language::wgsl,
+                                          Language::msl,  Language::cpp,  Language::godot};
 std::string_view name(Language language);
 std::optional<Language> languageFromName(std::string_view name);
 
@@ -44,6 +52,8 @@ enum class Set {
 };
 inline constexpr Set kSets[] = {Set::gradient, Set::blend, Set::light, Set::environment, Set::tone, Set::shadow};
 std::string_view name(Set set);
+// Whether the language has the set. Godot does its surroundings, tone and shadows itself.
+bool hasSet(Language language, Set set);
 
 struct Choice {
     Language language = Language::glsl;
@@ -53,6 +63,8 @@ struct Choice {
     int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
     Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
+    bool functionsOnly = false;     // Godot: without shader_type, the map, vertex(), fragment() and light()
+    bool twoSided = false;          // Godot: back faces are seen too, those of a thin sheet
     std::vector<Set> sets;          // in any order
 };
 
@@ -68,7 +80,7 @@ bool hasFusedForm(Frame frame);
 std::string fusedFrameNames(std::string_view beforeLast = ", ");
 
 // Errors (usage): a form that the frame does not have, uvSets out of range or for a frame from
-// vertices. The same choice gives the same bytes.
+// vertices; what the language does not have. The same choice gives the same bytes.
 Result<ShaderText> makeShaderText(const Choice& choice);
 
 // For tests: functions of `extra`, portable text appended after all parts, and what they call,

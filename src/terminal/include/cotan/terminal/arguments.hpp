@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cotan/result.hpp"
+#include "cotan/terminal/command_help.hpp"
 
 namespace CLI {
 class App;
@@ -18,20 +19,44 @@ class Option;
 
 namespace cotan {
 
+// What a command does with the files that an option names.
+enum class FileUse { none, reads, writes };
+
+// An option of a command line that was read, and its values.
+struct GivenOption {
+    std::string name; // "output", "MODEL"
+    std::vector<std::string> values;
+    FileUse use = FileUse::none;
+};
+
+struct GivenCommand {
+    std::string name; // "map convert"
+    std::vector<GivenOption> options;
+};
+
 // One option, flag or positional argument. Its default is what its variable holds when it is declared; the help shows
 // it unless it is an empty text.
 class Argument {
 public:
-    explicit Argument(CLI::Option& option) : option_(&option) {}
+    // What CLI11 does not keep of it.
+    struct Facts {
+        FileUse use = FileUse::none;
+        std::vector<std::string> words; // that it offers
+    };
+    Argument(CLI::Option& option, Facts& facts) : option_(&option), facts_(&facts) {}
 
-    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"
+    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"; see valueKind
     Argument& from(std::initializer_list<std::string> words);
     Argument& from(const std::vector<std::string>& words);
     Argument& from(std::initializer_list<int> numbers);
+    // Words that a shell offers for it; what else it takes is the command's affair.
+    Argument& offers(std::vector<std::string> words);
     Argument& within(int least, int most);
     Argument& within(double least, double most);
     Argument& above0(); // and at most 1e6
     Argument& above0Or(const std::string& word);
+    Argument& reads();  // names files that are read, or words that stand for one
+    Argument& writes(); // names files or folders that are written
     Argument& required();
     Argument& separatedByCommas();
     Argument& withoutDefault(); // what the variable holds means that nothing was given
@@ -42,6 +67,7 @@ public:
 
 private:
     CLI::Option* option_;
+    Facts* facts_;
 };
 
 // A command, or the tool as a whole.
@@ -62,19 +88,25 @@ public:
     // Words that nobody declared are no error.
     void takesAnything();
 
-    // Ends the help.
-    void footer(const std::string& text);
+    // Ends the help with command lines that work, and a sentence.
+    void examples(std::vector<std::string> lines, const std::string& closing);
     // What the command does; called by run.
     void does(std::function<Status()> work);
 
     std::string name() const;
+    // All that the help says, of this command and those that it has.
+    CommandHelp describe() const;
 
     // Reads the words (without the program's name) and does what they ask for: runs a command, or hands the text of
     // --help and --version to `print`. Errors: ErrorKind::usage, those of the command.
     Status run(std::vector<std::string> words, const std::function<void(const std::string&)>& print);
 
+    // Reads the words and runs nothing. Errors: ErrorKind::usage, for --help and --version, too.
+    Result<GivenCommand> parse(std::vector<std::string> words) const;
+
 private:
     struct Tool;
+    Status read(std::vector<std::string> words, std::string& help) const;
     Arguments(std::shared_ptr<Tool> tool, CLI::App& app) : tool_(std::move(tool)), app_(&app) {}
 
     std::shared_ptr<Tool> tool_;

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "cotan/batch/report.hpp"
+#include "cotan/batch/run.hpp"
+#include "cotan/files/account.hpp"
+#include "cotan/files/output.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+struct BatchOptions : CommonOptions {
+    std::string jobs, shard, thumbnails = "pictures";
+    std::vector<std::string> stores;
+    int processes = 0, rows = 50000, memory = -1; // memory: below 0, the machine's share
+    double seconds = 3600;
+    bool merge = false, again = false;
+};
+
+// The table of all commands says what a job's words name.
+Status fillIn(const Arguments& tool, Job& job)
+{
+    const auto given = tool.parse(job.words);
+    if (!given)
+        return given.error();
+    for (const char* name : {"batch", "view"})
+        if (given->name == name)
+            return usageError(fmt::format("{} is no work for a batch", name));
+    for (const GivenOption& option : given->options) {
+        if (option.name == "threads")
+            job.threads = true;
+        if (option.name == "json")
+            job.json = option.values.back();
+        if (option.use == FileUse::reads)
+            job.inputs.insert(job.inputs.end(), option.values.begin(), option.values.end());
+        if (option.use == FileUse::writes)
+            job.outputs.insert(job.outputs.end(), option.values.begin(), option.values.end());
+    }
+    if (job.json == "-")
+        return usageError("--json -: expected a file, or nothing: batch reads the report; found standard output");
+    return Done{};
+}
+
+std::size_t megabytesHere()
+{
+    const double pages = double(::sysconf(_SC_PHYS_PAGES)), bytes = double(::sysconf(_SC_PAGESIZE));
+    return std::size_t(std::max(0.0, pages * bytes / (1 << 20)));
+}
+
+RunOptions runOptions(const BatchOptions& o)
+{
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    RunOptions run;
+    run.processes = o.processes > 0 ? std::size_t(o.processes) : cores;
+    run.threads = int(std::max<std::size_t>(1, (o.threads > 0 ? std::size_t(o.threads) : cores) / run.processes));
+    run.seconds = o.seconds;
+    run.megabytes = o.memory >= 0 ? std::size_t(o.memory) : megabytesHere() / run.processes;
+    run.again = o.again;
+    run.thumbnails = o.thumbnails == "none" ? Thumbnails::none
+        : o.thumbnails == "models"          ? Thumbnails::models
+                                            : Thumbnails::pictures;
+    return run;
+}
+
+std::filesystem::path storeOf(const BatchOptions& o)
+{
+    if (!o.stores.empty())
+        return o.stores.front();
+    std::filesystem::path folder = o.output;
+    return folder.replace_extension(".store");
+}
+
+Status checkUsage(const BatchOptions& o)
+{
+    if (o.output.empty() && o.stores.empty())
+        return usageError("expected -o REPORT.html, or --store FOLDER and no report; found neither");
+    if (o.merge && (!o.shard.empty() || o.again))
+        return usageError(
+            fmt::format("--merge runs nothing: expected it without {}; found both", o.again ? "--again" : "--shard"));
+    if (o.merge && o.output.empty() && o.json.empty())
+        return usageError("--merge: expected -o REPORT.html or --json FILE; found neither");
+    if (!o.merge && o.stores.size() > 1)
+        return usageError("--store: expected one folder (several with --merge); found several");
+    return Done{};
+}
+
+Result<std::vector<JobResult>> results(const BatchOptions& o, const JobList& list, const Plan& plan, const Shard& shard)
+{
+    if (o.merge) {
+        std::vector<Store> stores;
+        for (const std::string& folder : o.stores.empty() ? std::vector{storeOf(o).string()} : o.stores) {
+            auto store = Store::openToRead(folder, COTAN_VERSION);
+            if (!store)
+                return store.error();
+            stores.push_back(std::move(*store));
+        }
+        return collect(list, plan, stores);
+    }
+    auto store = Store::open(storeOf(o), COTAN_VERSION);
+    if (!store)
+        return store.error();
+    const std::vector<std::size_t> chosen = jobsOf(plan, shard);
+    return withProgress(o, 1, "jobs of " + o.jobs, [&](const Progress& progress) {
+        return runJobs(list, plan, chosen, *store, runOptions(o), progress);
+    });
+}
+
+// What the exit code tells: the worst result.
+Status verdict(const JobList& list, const std::vector<JobResult>& all)
+{
+    if (all.empty())
+        return Done{};
+    const JobResult& worst = all[worstFirst(all).front()];
+    const StateCounts counts = countsOf(all);
+    const std::size_t good = counts[std::size_t(JobState::done)] + counts[std::size_t(JobState::limit)];
+    const std::string first = fmt::format("the worst is '{}': {}", list.jobs[worst.job].name, worst.record.reason);
+    if (good < all.size())
+        return inputError(fmt::format("{} of {} jobs are not done; {}", all.size() - good, all.size(), first));
+    if (worst.record.state == JobState::limit)
+        return Error{
+            ErrorKind::limit,
+            fmt::format("{} of {} jobs are over a limit; {}", counts[std::size_t(JobState::limit)], all.size(), first)};
+    return Done{};
+}
+
+Status run(const Arguments& tool, const BatchOptions& o)
+{
+    if (Status usage = checkUsage(o); !usage)
+        return usage;
+    Shard shard;
+    if (!o.shard.empty()) {
+        const auto parsed = parseShard(o.shard);
+        if (!parsed)
+            return parsed.error();
+        shard = *parsed;
+    }
+    if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
+        return planned;
+    Stopwatch watch;
+    const auto list = readJobs(o.jobs, [&](Job& job) { return fillIn(tool, job); });
+    if (!list)
+        return list.error();
+    const auto plan = planJobs(*list);
+    if (!plan)
+        return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
+    // From here on the account would only grow: each job has one of its own, and the store replaces its own files.
+    guardInputs(/*overwrite*/ true);
+    const auto all = results(o, *list, *plan, shard);
+    if (!all)
+        return all.error();
+    const double seconds = watch.lap();
+    const std::string summary = summaryOf(*all) + fmt::format("; {:.1f} s", seconds);
+    if (!o.output.empty()) {
+        const std::string title = fmt::format("{}{}", o.jobs, o.shard.empty() ? "" : ", shard " + o.shard);
+        const auto folder = std::filesystem::absolute(o.output).lexically_normal().parent_path();
+        const std::string page = batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder, std::size_t(o.rows));
+        if (Status written = writeFileWhole(o.output, page); !written)
+            return written;
+    }
+    say(o, "{}{}", summary, o.output.empty() ? "" : "; report: " + o.output.string());
+    Json j = batchJson(*list, *all);
+    j["jobs_file"] = o.jobs;
+    j["shard"] = o.shard;
+    j["seconds"] = seconds;
+    if (Status written = writeReport(o, j); !written)
+        return written;
+    return verdict(*list, *all);
+}
+
+void declare(Arguments& a, BatchOptions& o)
+{
+    a.option("JOBS", o.jobs,
+             "file with a job in each line: {\"name\": \"rock\", \"command\": [\"lint\", \"rock.glb\"]}")
+        .required()
+        .reads();
+    a.option("--jobs", o.processes, "jobs to run at a time; 0: one for each core, which share --threads")
+        .within(0, 4096);
+    a.option("--store", o.stores, "folder that keeps results; default: beside the report. Several with --merge")
+        .in("FOLDER")
+        .writes();
+    a.option("--shard", o.shard, "run part K of N, for farms; jobs that use each other's files stay together")
+        .in("K/N");
+    a.flag("--merge", o.merge, "run nothing; report what the stores hold");
+    a.flag("--again", o.again, "run all jobs, also those whose results are kept");
+    a.option("--limit-seconds", o.seconds, "time that a job may take").above0().in("S");
+    a.option("--limit-memory", o.memory,
+             "memory that a process of a job may take, in MiB; 0: no limit; default: the machine's, divided by --jobs")
+        .within(0, 1 << 24)
+        .in("MIB")
+        .withoutDefault();
+    a.option("--rows", o.rows, "most jobs that the page shows, the worst ones; --json has all")
+        .within(1, 250000)
+        .in("N");
+    a.option("--thumbnails", o.thumbnails,
+             "pictures: of the first picture that a job writes; models: else of the model that it reads, drawn for it; "
+             "none")
+        .from({"none", "pictures", "models"})
+        .in("NAME");
+}
+
+} // namespace
+
+void addBatchCommand(Arguments& tool)
+{
+    Arguments command = tool.command("batch", "run many commands, keep their results, and show the worst first");
+    const auto options = std::make_shared<BatchOptions>();
+    addCommonOptions(command, *options, "the report: a page with all jobs, worst first");
+    declare(command, *options);
+    addExamples(command,
+                {"cotan batch jobs.jsonl --jobs 2 -o report.html",
+                 "cotan batch jobs.jsonl --shard 3/8 --store results --limit-seconds 600",
+                 "cotan batch jobs.jsonl --merge --store results -o report.html"});
+    command.does([options, &tool] { return run(tool, *options); });
+}
+
+} // namespace cotan::app

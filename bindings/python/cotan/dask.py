@@ -1,0 +1,115 @@
+"""A file of jobs on a Dask cluster.
+
+    import cotan.dask, distributed
+    client = distributed.Client("scheduler:8786")
+    report = cotan.dask.run("/farm/jobs.jsonl", "/farm/report.html", client=client)
+    print(report["counts"], report["jobs"][0]["name"])         # the worst job comes first
+
+Each task of the cluster is `cotan batch --shard K/N`. The results are in one store, a folder that every worker sees by
+the same path, as it sees the jobs and their files. A worker that dies loses the job that it ran and no other: Dask gives
+its task to another one, which finds in the store what was done. docs/farm.md has the rest.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import subprocess
+from typing import Any, Callable, Optional, Sequence, Union
+
+from .errors import OutputError, StoppedError, UnavailableError, UsageError, error_of
+
+__all__ = ["run"]
+
+Path = Union[str, "os.PathLike[str]"]
+
+_SHARDS_PER_THREAD = 4  # so that a slow one does not keep all others waiting
+_NOT_DONE = (2, 5)  # exit codes: some jobs failed, or are over a limit
+
+
+def run(
+    jobs: Path,
+    report: Optional[Path] = None,
+    *,
+    store: Optional[Path] = None,
+    client: Any = None,
+    tool: str = "cotan",
+    shards: int = 0,
+    options: Sequence[str] = (),
+    progress: Optional[Callable[[float], bool]] = None,
+) -> dict:
+    """Runs the jobs of a file on the workers of a Dask cluster, and returns the report of all of them.
+
+    jobs: the file, a job in each line. report: the page to write; None: none. store: the folder that keeps results;
+    None: beside the report. client: a distributed.Client; None: the present one. tool: the program cotan, on the
+    workers, too. shards: parts that the jobs are dealt to; 0: four for each thread of the cluster, at most one for each
+    job. options: more words for `cotan batch`, such as ["--limit-seconds", "600"]. progress: called with the share that
+    is done, from 0 to 1, after each shard; False stops.
+
+    Returns what `cotan batch --json` writes: "counts" by state, "jobs" with the worst first. A job that fails is a row
+    and no exception.
+
+    Raises InputError for a file that is no file of jobs, OutputError where the store takes nothing, UnavailableError
+    where the tool cannot be started here or on a worker, StoppedError where progress said so; what Dask raises where
+    tasks were lost with four workers (distributed.KilledWorker).
+    """
+    import distributed
+
+    if client is None:
+        client = distributed.get_client()
+    if report is None and store is None:
+        raise UsageError("report, store: expected one of them; found none")
+    jobs = str(pathlib.Path(jobs).absolute())
+    folder = pathlib.Path(store if store is not None else pathlib.Path(report).with_suffix(".store")).absolute()
+    try:
+        (folder / "results").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot make this folder: {error.strerror}") from error
+    before = _merge(tool, jobs, folder, None)
+    threads = sum(client.nthreads().values()) or 1
+    count = shards or max(1, min(len(before["jobs"]), _SHARDS_PER_THREAD * threads))
+    words = [tool, "batch", jobs, "--store", str(folder), "--quiet", *options]
+    if "--jobs" not in options:
+        words += ["--jobs", "1"]
+    tasks = [
+        client.submit(_shard, [*words, "--shard", f"{number}/{count}"], pure=False, key=f"cotan-{os.urandom(6).hex()}-{number}")
+        for number in range(1, count + 1)
+    ]
+    try:
+        for done, task in enumerate(distributed.as_completed(tasks), 1):
+            task.result()
+            if progress is not None and progress(done / count) is False:
+                raise StoppedError("stopped by the caller")
+    finally:
+        client.cancel(tasks)
+    return _merge(tool, jobs, folder, report)
+
+
+def _start(words: Sequence[str]) -> "subprocess.CompletedProcess[str]":
+    try:
+        return subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
+    except OSError as error:
+        raise UnavailableError(f"{words[0]}: cannot be started: {error.strerror}") from error
+
+
+def _error(done: "subprocess.CompletedProcess[str]", jobs: str) -> Exception:
+    lines = done.stderr.strip().splitlines() or [f"cotan ended with {done.returncode}"]
+    status = done.returncode if done.returncode in range(1, 6) else UnavailableError.status  # else a signal
+    return error_of(status, lines[-1].removeprefix("cotan: error: "), [jobs])
+
+
+def _shard(words: Sequence[str]) -> int:
+    """On a worker. Jobs that are not done are rows of the report; only what ends the whole shard is an error."""
+    done = _start(words)
+    if done.returncode != 0 and done.returncode not in _NOT_DONE:
+        raise _error(done, words[2])
+    return done.returncode
+
+
+def _merge(tool: str, jobs: str, store: pathlib.Path, report: Optional[Path]) -> dict:
+    words = [tool, "batch", jobs, "--merge", "--store", str(store), "--json", "-"]
+    done = _start(words + (["-o", str(report)] if report is not None else []))
+    if not done.stdout:
+        raise _error(done, jobs)
+    return json.loads(done.stdout)

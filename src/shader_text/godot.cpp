@@ -1,0 +1,188 @@
+#include "godot.hpp"
+
+#include <algorithm>
+
+#include "entry.hpp"
+#include "fill.hpp"
+
+namespace cotan::shader_text {
+
+namespace {
+
+bool hasLight(const Choice& choice) { return std::ranges::find(choice.sets, Set::light) != choice.sets.end(); }
+
+// Whether two vectors come with the mesh: U and V of its triangles, or cotangents.
+bool hasVectors(const Choice& choice) { return choice.frame == Frame::triangle || readsCotangents(choice.frame); }
+
+// What fragment() calls.
+std::string perturbed(const Choice& choice, const std::string& normal)
+{
+    const std::string texel = "texture(normal_map, UV).xyz";
+    if (choice.frame == Frame::triangle)
+        return fill("cotan_perturb_normal_on_triangle({}, cotan_u, cotan_v, {})", normal, texel);
+    if (readsCotangents(choice.frame))
+        return fill("{}({}, cotan_u, cotan_v, {})", kVertexEntry, normal, texel);
+    if (readsVertices(choice.frame))
+        return fill("{}({}, TANGENT, handedness, {})", kVertexEntry, normal, texel);
+    if (choice.uvSets == 1)
+        return fill("{}({}, VERTEX, UV, {})", kScreenEntry, normal, texel);
+    return fill("{}({}, VERTEX, UV, {}, UV2,\n        texture(normal_map2, UV2).xyz)", kScreenEntry, normal, texel);
+}
+
+// Whether fragment() takes derivatives, which OpenGL ES 2 lacks.
+bool hasDerivatives(const Choice& choice) { return info(choice.frame).source == FrameSource::differences; }
+
+bool readsNormal(const Choice& choice) { return hasLight(choice) || choice.twoSided; }
+// Whether it must be known that the transform mirrors.
+bool readsSide(const Choice& choice)
+{
+    return choice.frame == Frame::triangle || (choice.twoSided && !hasDerivatives(choice));
+}
+
+std::string head(const Choice& choice)
+{
+    std::string text = "shader_type spatial;\n";
+    if (choice.twoSided)
+        text += "render_mode cull_disabled;\n";
+    text += "\nuniform sampler2D normal_map : hint_normal;\n";
+    if (choice.uvSets > 1)
+        text += "uniform sampler2D normal_map2 : hint_normal;\n";
+    if (hasLight(choice))
+        text += "uniform float metallic : hint_range(0.0, 1.0) = 0.0;\n"
+                "uniform float coat : hint_range(0.0, 1.0) = 1.0;\n"
+                "uniform float coat_roughness : hint_range(0.0, 1.0) = 0.05;\n";
+    if (readsNormal(choice))
+        text += "varying vec3 cotan_normal;\n";
+    if (choice.twoSided && !hasDerivatives(choice))
+        text += "varying float cotan_side;\n";
+    if (hasVectors(choice))
+        text += "varying vec3 cotan_u;\nvarying vec3 cotan_v;\n";
+    return text + '\n';
+}
+
+std::string vertex(const Choice& choice)
+{
+    std::string text;
+    if (readsNormal(choice) || readsSide(choice))
+        text += "    vec3 x = MODELVIEW_MATRIX[0].xyz;\n"
+                "    vec3 y = MODELVIEW_MATRIX[1].xyz;\n"
+                "    vec3 z = MODELVIEW_MATRIX[2].xyz;\n"
+                "    float side = dot(cross(x, y), z) < 0.0 ? -1.0 : 1.0; // -1: it mirrors\n";
+    if (readsNormal(choice)) // inverse() is wrong in the GLES2 of Godot 3.2
+        text += "    vec3 n = cross(y, z) * NORMAL.x + cross(z, x) * NORMAL.y + cross(x, y) * NORMAL.z;\n"
+                "    cotan_normal = normalize(n * side);\n";
+    if (choice.twoSided && !hasDerivatives(choice))
+        text += "    cotan_side = side;\n";
+    if (hasVectors(choice)) {
+        const std::string_view factor = choice.frame == Frame::triangle ? " * side" : "";
+        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms that scale evenly.\n"
+                     "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz{0};\n"
+                     "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz{0};\n",
+                     factor);
+    }
+    return text.empty() ? text : "\nvoid vertex()\n{\n" + text + "}\n";
+}
+
+std::string fragment(const Choice& choice)
+{
+    const std::string normal = choice.twoSided ? "cotan_normal" : "NORMAL";
+    std::string text = "\nvoid fragment()\n{\n";
+    if (hasLight(choice))
+        text += "    METALLIC = metallic; // Godot 3 does not hand it on to light()\n";
+    if (choice.twoSided && hasDerivatives(choice))
+        text += "    // Seen from behind? FRONT_FACING says the opposite in Godot 3 where the transform mirrors.\n"
+                "    vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));\n"
+                "    vec3 away = mix(VERTEX, vec3(0.0, 0.0, -1.0), PROJECTION_MATRIX[3][3]); // from the eye\n"
+                "    float side = dot(cotan_normal, seen) * dot(seen, away) > 0.0 ? -1.0 : 1.0;\n";
+    else if (choice.twoSided)
+        text += "    // FRONT_FACING says the opposite where the transform mirrors.\n"
+                "    float side = FRONT_FACING ? cotan_side : -cotan_side;\n";
+    if (readsTangents(choice.frame))
+        text += fill("    // BINORMAL points up the image, +v down.\n"
+                     "    float handedness = dot(cross({}, TANGENT), BINORMAL) < 0.0 ? 1.0 : -1.0;\n",
+                     normal);
+    return fill("{}    NORMAL = {}{};\n}}\n", text, perturbed(choice, normal), choice.twoSided ? " * side" : "");
+}
+
+// A coat with the normal of the surface without the map. All of the light goes to SPECULAR_LIGHT, which Godot 3 and 4
+// both add as it is; LIGHT_COLOR is pi times the light's in both.
+constexpr std::string_view kLight = R"(
+void light()
+{
+    vec3 coat_n = normalize(cotan_normal);
+    coat_n = dot(coat_n, VIEW) < 0.0 ? -coat_n : coat_n;
+    vec3 beneath = cotan_reflect_pbr(ALBEDO, metallic, ROUGHNESS, 1.0, vec3(0.0), NORMAL, VIEW, LIGHT);
+    float share = cotan_coat_share(coat, coat_roughness, coat_n, VIEW);
+    float above = cotan_reflect_coat(coat, coat_roughness, coat_n, VIEW, LIGHT);
+    SPECULAR_LIGHT += (beneath * (1.0 - share) + vec3(above)) * LIGHT_COLOR * ATTENUATION;
+}
+)";
+
+} // namespace
+
+bool isGodotShader(const Choice& choice)
+{
+    return choice.language == Language::godot && !choice.functionsOnly && !choice.callerDifferences;
+}
+
+Status checkGodot(const Choice& choice, Form form)
+{
+    if (choice.stage != Stage::all && choice.stage != Stage::fragment)
+        return usageError("a stage: Godot's vertices do not see each other; expected fragment, the vectors come with "
+                          "the mesh");
+    if (!isGodotShader(choice))
+        return Done{};
+    if (info(choice.frame).source == FrameSource::triangle && (choice.frame != Frame::triangle || form != Form::fused))
+        return usageError(fill("the frame {}: Godot's shaders do not see a triangle's edges; expected triangle in its "
+                               "fused form, or the functions alone",
+                               name(choice.frame)));
+    if (choice.uvSets > 2)
+        return usageError(
+            fill("uv sets: Godot has 2; found {}; expected fewer, or the functions alone", choice.uvSets));
+    return Done{};
+}
+
+std::vector<std::string> functionsOfLight() { return {"cotan_reflect_pbr", "cotan_coat_share", "cotan_reflect_coat"}; }
+
+std::string godotNeeds(const Choice& choice)
+{
+    const bool whole = isGodotShader(choice);
+    std::string text = whole
+        ? "// A whole shader of a material; in one of yours, take what is between shader_type and\n"
+          "// fragment() and the lines of fragment(). In Godot 4 take the functions alone (option\n"
+          "// --functions) as a .gdshaderinc.\n//\n"
+        : "// To paste above fragment() of any spatial shader, or in Godot 4 to #include as a\n"
+          "// .gdshaderinc. All vectors are in view space.\n//\n";
+    text += "// Needs:\n"
+            "//   normal_map an image as it is in the file: imported without sRGB. Green up, as Godot has it\n";
+    if (hasVectors(choice))
+        return text
+            + (choice.frame == Frame::triangle
+                   ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all "
+                     "three\n"
+                     "//              of its vertices, which it shares with none\n"
+                   : "//   u, v       cotangents at the vertices (deriveVertexFrames of cotan/core)\n")
+            + "//              as six floats with the mesh, not compressed: in Godot 3 the arrays of tangents and of\n"
+              "//              colours, in Godot 4 those of CUSTOM0 and CUSTOM1. No stored tangents otherwise\n";
+    if (readsVertices(choice.frame))
+        return text
+            + "//   tangents   in the mesh; TANGENT is unit, so that it is not MikkTSpace's to the last digit\n";
+    if (info(choice.frame).source == FrameSource::triangle)
+        return text
+            + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader does not see\n";
+    return text
+        + "//   VERTEX     the position in view space, as it is in fragment(); not normalised\n"
+          "//   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none\n"
+          "//   No tangents: switch them off where the mesh is imported. Do not write NORMALMAP (NORMAL_MAP in\n"
+          "//   Godot 4), which is the way through stored tangents.\n"
+          "//   For ANISOTROPY, behind NORMAL = ...:  TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n"
+          "//                                         BINORMAL = cross(NORMAL, TANGENT);\n";
+}
+
+std::string godotShader(const Choice& choice, const std::string& functions)
+{
+    return head(choice) + functions + vertex(choice) + fragment(choice)
+        + (hasLight(choice) ? std::string(kLight) : std::string());
+}
+
+} // namespace cotan::shader_text

@@ -1,0 +1,84 @@
+// A job's process that does what its first word says: how tests see jobs crash, hang and eat memory.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include "cotan/batch/child.hpp"
+#include "cotan/files/account.hpp"
+#include "cotan/files/interrupt.hpp"
+#include "cotan/files/output.hpp"
+
+namespace {
+
+[[noreturn]] void sleepForever()
+{
+    for (;;)
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+int perform(const std::vector<std::string>& words)
+{
+    const std::string& what = words.at(0);
+    if (what == "crash")
+        std::raise(SIGSEGV);
+    if (what == "abort")
+        std::abort();
+    if (what == "killed")
+        std::raise(SIGKILL);
+    if (what == "hang")
+        sleepForever();
+    if (what == "stubborn") { // does not end when it is asked to
+        std::signal(SIGTERM, SIG_IGN);
+        sleepForever();
+    }
+    if (what == "eat") {
+        std::vector<std::vector<char>> all;
+        for (;;)
+            all.emplace_back(8 << 20, 'x');
+    }
+    if (what == "loud") {
+        std::puts("the beginning");
+        for (int i = 0; i < 200000; ++i)
+            std::puts("and so on, and so on");
+        std::puts("the end");
+    }
+    if (what == "leave" && ::fork() == 0) // what it started goes on, with its standard output
+        sleepForever();
+    if (what == "fail") {
+        std::fputs(("cotan: error: " + words.at(2) + "\n").c_str(), stderr);
+        return std::atoi(words.at(1).c_str());
+    }
+    if (what == "half") { // dies while it writes
+        const auto part = cotan::OutputFile::begin(words.at(1));
+        if (part && cotan::writeBytes(part->path(), {}))
+            std::raise(SIGKILL);
+    }
+    if (what == "copy") { // copy FROM TO [LOG]: with a line in LOG for each time that it runs
+        if (words.size() > 3)
+            std::ofstream(words.at(3), std::ios::app) << words.at(2) + "\n";
+        (void)cotan::noteInput(words.at(1));
+        std::ifstream from(words.at(1));
+        const std::string text{std::istreambuf_iterator<char>(from), {}};
+        if (text.empty()) {
+            std::fputs(("cotan: error: " + words.at(1) + ": no such file\n").c_str(), stderr);
+            return 2;
+        }
+        return cotan::writeFileWhole(words.at(2), text) ? 0 : 4;
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    cotan::removePartsOnInterrupt();
+    return cotan::isJobProcess(argc, argv) ? cotan::runJobProcess(argc, argv, perform) : 70;
+}

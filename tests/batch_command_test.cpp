@@ -1,0 +1,308 @@
+// `cotan batch` as a user runs it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include "cotan/sandbox/confine.hpp"
+#include "quad_model.hpp"
+#include "run_tool.hpp"
+
+namespace cotan {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class BatchCommand : public ::testing::Test {
+protected:
+    void SetUp() override
+    {
+        ASSERT_TRUE(writeImage(folder / "a.png", makeReliefMap(Relief::domes, 32)));
+        ASSERT_TRUE(writeImage(folder / "b.png", makeReliefMap(Relief::domes, 48)));
+    }
+
+    void jobs(const std::vector<json>& all, const std::string& file = "jobs.jsonl")
+    {
+        std::ofstream stream(folder / file);
+        for (const json& job : all)
+            stream << job.dump() << "\n";
+    }
+
+    ToolRun batch(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), "batch");
+        return runTool(words, folder.path(), 120);
+    }
+
+    json read(const std::string& file) { return json::parse(readWhole(folder / file)); }
+
+    // By name: "done", "failed", with "kept" where it is.
+    std::map<std::string, std::string> states(const std::string& file = "r.json")
+    {
+        std::map<std::string, std::string> all;
+        const json report = read(file);
+        for (const json& job : report["jobs"]) {
+            const std::string name = job["name"];
+            EXPECT_FALSE(all.contains(name)) << name << " is there twice";
+            all[name] = job["state"].get<std::string>() + (job["kept"].get<bool>() ? " kept" : "");
+        }
+        return all;
+    }
+
+    TemporaryFolder folder;
+};
+
+json flip(const std::string& from, const std::string& to)
+{
+    return {{"name", to}, {"command", {"map", "convert", from, "--from", "opengl", "--to", "directx", "-o", to}}};
+}
+
+using States = std::map<std::string, std::string>;
+
+TEST_F(BatchCommand, runsInTheOrderOfFilesKeepsResultsAndDoesOnlyWhatChanged)
+{
+    jobs({flip("out/ü <i>'\"&.png", "twice.png"),
+          flip("a.png", "out/ü <i>'\"&.png"),
+          flip("b.png", "c.png"),
+          {{"name", "gone"}, {"command", {"map", "info", "gone.png"}}}});
+    const std::vector<std::string> words = {"jobs.jsonl", "-o", "report.html", "--json", "r.json"};
+    const ToolRun first = batch(words);
+    EXPECT_EQ(first.code, 2);
+    EXPECT_EQ(lines(first.err), 1) << first.err;
+    EXPECT_NE(first.err.find("1 of 4 jobs are not done; the worst is 'gone': gone.png: no such file"),
+              std::string::npos)
+        << first.err;
+    EXPECT_NE(first.out.find("4 jobs: 3 done, 1 failed"), std::string::npos) << first.out;
+    const std::string odd = "out/ü <i>'\"&.png";
+    EXPECT_EQ(states(), (States{{"twice.png", "done"}, {odd, "done"}, {"c.png", "done"}, {"gone", "failed"}}));
+    EXPECT_EQ(read("r.json")["jobs"][0]["name"], "gone") << "the worst is first";
+    EXPECT_TRUE(fs::exists(folder / "report.store"));
+
+    batch(words);
+    EXPECT_EQ(
+        states(),
+        (States{{"twice.png", "done kept"}, {odd, "done kept"}, {"c.png", "done kept"}, {"gone", "failed kept"}}));
+    ASSERT_TRUE(writeImage(folder / "a.png", makeReliefMap(Relief::domes, 40)));
+    ASSERT_TRUE(writeImage(folder / "gone.png", makeReliefMap(Relief::domes, 8)));
+    const ToolRun third = batch(words);
+    EXPECT_EQ(third.code, 0) << third.err;
+    EXPECT_EQ(states(), (States{{"twice.png", "done"}, {odd, "done"}, {"c.png", "done kept"}, {"gone", "done"}}));
+    fs::remove(folder / "c.png");
+    batch(words);
+    EXPECT_EQ(states()["c.png"], "done");
+    batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--again"});
+    EXPECT_EQ(states()["c.png"], "done");
+    EXPECT_NE(readWhole(folder / "report.html").find("data:image/jpeg"), std::string::npos);
+}
+
+TEST_F(BatchCommand, filesThatOnlyTheModelNamesCountAsInputs)
+{
+    write(quad(2), folder.path());
+    jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf"}}}});
+    const std::vector<std::string> words = {"jobs.jsonl", "-o", "report.html", "--json", "r.json"};
+    ASSERT_EQ(batch(words).code, 0);
+    std::string other;
+    const json report = read("r.json");
+    for (const json& input : report["jobs"][0]["inputs"])
+        if (input != "quad.gltf")
+            other = input;
+    ASSERT_FALSE(other.empty());
+    batch(words);
+    EXPECT_EQ(states()["lint"], "done kept");
+    std::ofstream(folder / other, std::ios::app) << "x";
+    batch(words);
+    EXPECT_EQ(states()["lint"].find("kept"), std::string::npos) << other;
+}
+
+TEST_F(BatchCommand, shardsTogetherAreTheWholeAndAMergeHasEveryJobOnce)
+{
+    std::vector<json> all;
+    for (int i = 0; i < 7; ++i)
+        all.push_back(flip(i % 2 ? "a.png" : "b.png", fmt::format("{}.png", i)));
+    all.push_back(flip("3.png", "three again.png"));
+    all.push_back({{"name", "gone"}, {"command", {"map", "info", "gone.png"}}});
+    jobs(all);
+    // Two with a store that they share, one with its own.
+    EXPECT_EQ(batch({"jobs.jsonl", "--shard", "1/3", "--store", "s"}).code, 0);
+    batch({"jobs.jsonl", "--merge", "--store", "s", "-o", "m.html", "--json", "r.json"});
+    const auto first = states();
+    EXPECT_EQ(first.size(), all.size());
+    std::size_t notRun = 0;
+    for (const auto& [name, state] : first)
+        notRun += state == "not run";
+    EXPECT_EQ(notRun, 5u);
+    batch({"jobs.jsonl", "--shard", "2/3", "--store", "s", "--json", "two.json"});
+    batch({"jobs.jsonl", "--shard", "3/3", "--store", "own", "--json", "three.json"});
+    EXPECT_EQ(read("two.json")["jobs"].size() + read("three.json")["jobs"].size(), 5u);
+    const ToolRun merged =
+        batch({"jobs.jsonl", "--merge", "--store", "s", "--store", "own", "-o", "m.html", "--json", "r.json"});
+    EXPECT_EQ(merged.code, 2);
+    const auto whole = states();
+    EXPECT_EQ(whole.size(), all.size());
+    for (const auto& [name, state] : whole)
+        EXPECT_EQ(state, name == "gone" ? "failed" : "done") << name;
+}
+
+TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
+{
+    jobs({flip("a.png", "x.png")});
+    jobs({flip("a.png", "x.png"), {{"command", {"map", "convert", "a.png"}}}}, "words.jsonl");
+    jobs({{{"command", {"batch", "jobs.jsonl", "-o", "x.html"}}}}, "batch.jsonl");
+    jobs({{{"command", {"view", "model.glb"}}}}, "view.jsonl");
+    jobs({{{"command", {"map", "info", "a.png", "--json", "-"}}}}, "stdout.jsonl");
+    jobs({{{"command", {"lint", "--help"}}}}, "help.jsonl");
+    jobs({flip("a.png", "x.png"), flip("b.png", "./x.png")}, "one.jsonl");
+    jobs({flip("y.png", "x.png"), flip("x.png", "y.png")}, "circle.jsonl");
+    const std::tuple<std::vector<std::string>, int, std::string> cases[] = {
+        {{"jobs.jsonl"}, 1, "expected -o REPORT.html, or --store FOLDER"},
+        {{"nothere.jsonl", "-o", "r.html"}, 2, "no such file"},
+        {{"jobs.jsonl", "-o", "jobs.jsonl"}, 1, "would replace"},
+        {{"jobs.jsonl", "-o", "no/such/r.html"}, 4, "does not exist"},
+        {{"jobs.jsonl", "-o", "r.html", "--shard", "3/2"}, 1, "--shard: expected K/N"},
+        {{"jobs.jsonl", "-o", "r.html", "--merge", "--again"}, 1, "--merge runs nothing"},
+        {{"jobs.jsonl", "-o", "r.html", "--merge", "--store", "none"}, 2, "expected a store"},
+        {{"jobs.jsonl", "-o", "r.html", "--store", "s", "--store", "t"}, 1, "--store: expected one folder"},
+        {{"jobs.jsonl", "-o", "r.html", "--limit-seconds", "0"}, 1, "--limit-seconds"},
+        {{"jobs.jsonl", "-o", "r.html", "--store", "a.png"}, 4, "cannot make this folder"},
+        {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: --from is required"},
+        {{"batch.jsonl", "-o", "r.html"}, 2, "batch.jsonl:1: batch is no work for a batch"},
+        {{"view.jsonl", "-o", "r.html"}, 2, "view is no work for a batch"},
+        {{"stdout.jsonl", "-o", "r.html"}, 2, "--json -: expected a file"},
+        {{"help.jsonl", "-o", "r.html"}, 2, "found --help"},
+        {{"one.jsonl", "-o", "r.html"}, 2, "line 2: writes ./x.png, which line 1 writes"},
+        {{"circle.jsonl", "-o", "r.html"}, 2, "waits for"},
+    };
+    for (const auto& [words, code, message] : cases) {
+        const ToolRun run = batch(words);
+        EXPECT_EQ(run.code, code) << ::testing::PrintToString(words) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+        EXPECT_FALSE(fs::exists(folder / "x.png"));
+        EXPECT_FALSE(fs::exists(folder / "r.html"));
+    }
+}
+
+TEST_F(BatchCommand, aStoreThatTakesNothingIsOneLineAndCode4)
+{
+    jobs({flip("a.png", "x.png")});
+    fs::create_directory(folder / "s");
+    if (::geteuid() == 0) { // root writes anywhere but into a file
+        std::ofstream(folder / "s/results") << "in the way";
+    } else {
+        ::chmod((folder / "s").c_str(), 0500);
+    }
+    const ToolRun run = batch({"jobs.jsonl", "--store", "s", "-o", "r.html"});
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "r.html"));
+}
+
+TEST_F(BatchCommand, limitsEndAJobAndTheOthersGoOn)
+{
+    jobs({{{"name", "slow"}, {"command", {"accuracy", "--tables", "curved", "--device", "reference"}}},
+          {{"name", "large"}, {"command", {"render", "--device", "reference", "--size", "8000x8000", "-o", "l.png"}}},
+          flip("a.png", "fine.png")});
+    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json", "--jobs", "3", "--limit-seconds", "2",
+                               "--limit-memory", "200"});
+    EXPECT_EQ(run.code, 2) << run.err;
+    const auto all = states();
+    EXPECT_EQ(all.at("fine.png"), "done");
+    EXPECT_EQ(all.at("slow"), "too slow");
+    if (!kSanitized) {
+        EXPECT_EQ(all.at("large"), "out of memory");
+    }
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
+{
+    std::vector<json> all;
+    for (int i = 0; i < 6; ++i)
+        all.push_back({{"name", std::to_string(i)},
+                       {"command",
+                        {"render", "--device", "reference", "--size", fmt::format("{}x160", 160 + i), "-o",
+                         fmt::format("{}.png", i)}}});
+    jobs(all);
+    for (const int signal : {SIGINT, SIGKILL}) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            const bool there = ::chdir(folder.path().c_str()) == 0;
+            ::execl(COTAN_TOOL, COTAN_TOOL, "batch", "jobs.jsonl", "-o", "r.html", "--quiet", nullptr);
+            ::_exit(there ? 127 : 126);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        ::kill(child, signal);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    }
+    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(states().size(), 6u);
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+}
+
+// A job's words name its files: every option that takes a file, by its help, says whether it is read or written.
+TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
+{
+    TemporaryFolder folder;
+    const std::regex option(R"((?:^|\n)  (?:-o,)?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
+    std::size_t checked = 0;
+    for (const std::string name :
+         {"render", "compare", "figures", "accuracy", "bake", "tangents", "lint", "convert", "shader", "map convert",
+          "map blend", "map diff", "map info", "map detect", "map mips", "map from-height", "map to-height"}) {
+        std::istringstream words(name);
+        std::vector<std::string> help{std::istream_iterator<std::string>(words), {}};
+        const std::vector<std::string> command = help;
+        help.push_back("--help");
+        const std::string text = runTool(help, folder.path()).out;
+        for (auto it = std::sregex_iterator(text.begin(), text.end(), option); it != std::sregex_iterator(); ++it) {
+            // Another job writes the file, and waits for this one: refused, if the file is known to be either.
+            std::vector<std::string> job = command;
+            job.insert(job.end(), {(*it)[1], "NAMED"});
+            const std::map<std::string, std::vector<std::string>> needed = {
+                {"bake", {"--high", "h.obj", "--low", "l.obj"}},
+                {"shader", {"--lang", "glsl"}},
+                {"map convert", {"f.png", "--from", "opengl", "--to", "directx"}},
+                {"map blend", {"b.png", "d.png"}},
+                {"map diff", {"a.png", "b.png"}},
+                {"map info", {"f.png"}},
+                {"map detect", {"f.png"}},
+                {"map mips", {"f.png"}},
+                {"map from-height", {"f.png"}},
+                {"map to-height", {"f.png"}},
+                {"tangents", {"m.glb"}},
+                {"lint", {"m.glb"}},
+                {"convert", {"m.glb", "--to-frame", "smooth", "--from-frame", "mikktspace"}}};
+            if (const auto more = needed.find(name); more != needed.end())
+                for (std::size_t i = 0; i < more->second.size(); ++i)
+                    if (more->second[i] != (*it)[1] || name != "bake")
+                        job.push_back(more->second[i]);
+            std::ofstream(folder / "jobs.jsonl")
+                << json{{"command", job}, {"outputs", {"TOKEN"}}}.dump() << "\n"
+                << json{{"command", {"map", "info", "x"}}, {"inputs", {"TOKEN"}}, {"outputs", {"NAMED"}}}.dump()
+                << "\n";
+            const ToolRun run = runTool({"batch", "jobs.jsonl", "-o", "r.html"}, folder.path());
+            const bool found = run.err.find("waits for") != std::string::npos
+                || run.err.find("writes NAMED, which line 1 writes") != std::string::npos;
+            EXPECT_TRUE(found) << name << " " << (*it)[1] << ": " << run.err;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 40u);
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,13 @@
+# What `cotan shader --lang godot` prints, and examples/godot, in Godot 3 on a display of its own, with both of its drivers.
+if(TARGET shader_test)
+  add_executable(godot_test godot_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
+  target_link_libraries(godot_test PRIVATE cotan_shader_text cotan_scene cotan_truth cotan_image
+    nlohmann_json::nlohmann_json fmt::fmt GTest::gtest cotan_warnings)
+  set_target_properties(godot_test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  target_compile_definitions(godot_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_GLSLANG_PATH="${COTAN_GLSLANG}"
+    COTAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_dependencies(godot_test cotan)
+  foreach(driver GLES3 GLES2)
+    cotan_door(Godot.${driver} COMMAND godot_test --gtest_filter=*/${driver})
+  endforeach()
+endif()

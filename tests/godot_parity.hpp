@@ -1,0 +1,10 @@
+#pragma once
+
+#include "shader_cases.hpp"
+
+namespace cotan::test {
+
+// The cases' values in Godot 3. driver: GLES3 or GLES2.
+Results runGodotCases(const std::vector<Case>& cases, const std::vector<Sample>& samples, const std::string& driver);
+
+} // namespace cotan::test

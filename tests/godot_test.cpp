@@ -1,0 +1,307 @@
+// Godot 3 draws what `cotan shader --lang godot` prints. A door: without godot3 and xvfb-run it is skipped.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "cotan/image/file.hpp"
+#include "cotan/truth/quad.hpp"
+#include "godot_draw.hpp"
+#include "godot_parity.hpp"
+#include "godot_sheet.hpp"
+
+namespace cotan::test {
+namespace {
+
+using shader_text::Choice;
+using shader_text::Form;
+using shader_text::Language;
+
+class Godot : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Driver, Godot, testing::Values("GLES3", "GLES2"), [](const auto& p) { return p.param; });
+
+TEST_P(Godot, functionsGiveTheNormalsOfTheOtherLanguages)
+{
+    std::vector<Case> some;
+    for (Case& c : godotCases())
+        if (!c.light)
+            some.push_back(std::move(c));
+    std::vector<Sample> finite;
+    for (const Sample& s : samples())
+        if (s.kind == Kind::sound || s.kind == Kind::degenerate)
+            finite.push_back(s);
+    const Results r = runGodotCases(some, finite, GetParam());
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        double most = 0;
+        for (std::size_t s = 0; s < finite.size(); ++s)
+            if (finite[s].kind <= some[k].last) {
+                const glm::dvec3 expected = some[k].expected(finite[s].v);
+                const double off = cotan::degreesBetween(r.values[k][s], expected);
+                most = off <= most ? most : off; // a NaN stays
+            }
+        fmt::print("| {:24} | {} | {:.1e} |\n", some[k].name, r.language, most);
+        EXPECT_LT(most, 1.2e-3) << some[k].name;
+    }
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// The printed shader, its normal written as a colour.
+std::string normalShader(const Choice& choice)
+{
+    const auto made = makeShaderText(choice);
+    EXPECT_TRUE(made) << made.error().message;
+    const std::string start =
+        "shader_type spatial;\n" + std::string(choice.twoSided ? "render_mode cull_disabled;\n" : "");
+    const std::string text = replaced(made->text, start,
+                                      "shader_type spatial;\nrender_mode unshaded, "
+                                          + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
+                                          + ";\nuniform float part;\n" + kGodotNumbers);
+    // fragment() is the last function.
+    return text.substr(0, text.rfind('}'))
+        + "    ALBEDO = cotan_test_unit(part < 0.5 ? NORMAL.x : (part < 1.5 ? NORMAL.y : NORMAL.z));\n}\n";
+}
+
+constexpr int kWidth = 480, kHeight = 240;
+
+Vec rayAt(int row, int column)
+{
+    return {((2 * (column + 0.5) / kWidth) - 1) * 2 / 2.2, (1 - 2 * (row + 0.5) / kHeight) / 2.2, -1};
+}
+
+// Of a picture in three parts.
+Vec vectorAt(const std::string& picture, int pixel)
+{
+    Vec n{};
+    for (int part = 0; part < 3; ++part)
+        n[static_cast<std::size_t>(part)] = unitOfBytes(picture.data() + 3 * (part * kWidth * kHeight + pixel));
+    return n;
+}
+
+struct SheetError {
+    double most = 0, mean = 0;
+    int count = 0;
+};
+
+// On the left sheet, which is seen from the front, or the right one, from behind. normalAt(pixel): from the top.
+template<class NormalAt>
+SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), NormalAt normalAt)
+{
+    SheetError e;
+    for (int row = 0; row < kHeight; ++row)
+        for (int column = right ? kWidth / 2 : 0; column < (right ? kWidth : kWidth / 2); ++column) {
+            const Vec ray = rayAt(row, column);
+            const Vec expected = right ? truth(ray, 1.2, M_PI - 0.4, frame, map) : truth(ray, -1.2, 0.4, frame, map);
+            if (dot(expected, expected) == 0)
+                continue;
+            const double off = degreesBetween(normalAt(row * kWidth + column), expected);
+            e.most = off <= e.most ? e.most : off;
+            e.mean += off;
+            ++e.count;
+        }
+    e.mean /= e.count;
+    return e;
+}
+
+TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
+{
+    struct Row {
+        Frame frame;
+        SheetFrame truth;
+        std::optional<Form> form = {};
+    };
+    const Row frames[] = {{Frame::cotangent, SheetFrame::cotangent},
+                          {Frame::cotangent, SheetFrame::cotangent, Form::total},
+                          {Frame::gradient, SheetFrame::gradient},
+                          {Frame::orthonormal, SheetFrame::orthonormal},
+                          {Frame::triangle, SheetFrame::cotangent},
+                          {Frame::smooth, SheetFrame::cotangent},
+                          {Frame::smooth, SheetFrame::cotangent, Form::fused},
+                          {Frame::mikktspace, SheetFrame::orthonormal},
+                          {Frame::vertex, SheetFrame::orthonormal}};
+    struct Way : Row {
+        bool twoSided, mirrored; // the latter by the transform
+    };
+    std::vector<Way> rows;
+    for (const Row& row : frames)
+        if (GetParam() == "GLES3" || info(row.frame).source != FrameSource::differences) // GLES2 has no derivatives
+            for (const bool twoSided : {false, true})
+                for (const bool mirrored : {false, true})
+                    rows.push_back({row, twoSided, mirrored});
+    GodotJobs jobs;
+    const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
+    for (const Way& row : rows) {
+        Choice choice;
+        choice.twoSided = row.twoSided;
+        choice.language = Language::godot;
+        choice.frame = row.frame;
+        choice.form = row.form;
+        choice.convention.channels = Channels::orthographic;
+        jobs.add(normalShader(choice), kWidth, kHeight, 3,
+                 {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(row.frame)}, {"mirrored", row.mirrored}});
+    }
+    const std::vector<std::string> pictures = jobs.draw(GetParam());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto normalAt = [&](int pixel) { return vectorAt(pictures[k], pixel); };
+        for (const bool right : {false, true}) {
+            if (right && !rows[k].twoSided)
+                continue;
+            const SheetError e = sheetError(right, rows[k].truth, domeTexel, normalAt);
+            const std::string label = fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(),
+                                                  rows[k].twoSided ? ", two-sided" : "", right ? "back" : "front",
+                                                  rows[k].mirrored ? ", mirrored" : "");
+            fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.most);
+            EXPECT_GT(e.count, 8000);
+            EXPECT_LT(e.most, 0.02) << label;
+        }
+    }
+}
+
+// What is written to ALBEDO instead of the normal, and what the picture then holds.
+TEST_P(Godot, theDirectionOfUIsTheSheets)
+{
+    if (GetParam() == "GLES2")
+        GTEST_SKIP() << "GLES2 of Godot 3.2 has no derivatives";
+    Choice choice;
+    choice.language = Language::godot;
+    choice.convention.channels = Channels::orthographic;
+    GodotJobs jobs;
+    const nlohmann::json map = jobs.texture(std::string("\x80\x80\xff\xff", 4), 1, 1); // flat
+    jobs.add(replaced(normalShader(choice),
+                      "    ALBEDO =", "    NORMAL = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    ALBEDO ="),
+             kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
+    const std::string picture = jobs.draw(GetParam())[0];
+    int count = 0;
+    for (int row = 0; row < kHeight; ++row)
+        for (int column = 0; column < kWidth / 2; ++column) {
+            const Vec ray = rayAt(row, column);
+            // As truth() has it: the sheet's x, and where it is positive u runs along it, else against it.
+            const double x = onSheet(ray, -1.2, 0.4)[0];
+            if (dot(truth(ray, -1.2, 0.4), truth(ray, -1.2, 0.4)) == 0)
+                continue;
+            const double sign = x < 0 ? -1 : 1;
+            ASSERT_LT(degreesBetween(vectorAt(picture, row * kWidth + column),
+                                     {sign * std::cos(0.4), 0, -sign * std::sin(0.4)}),
+                      0.02)
+                << column << ", " << row;
+            ++count;
+        }
+    EXPECT_GT(count, 8000);
+}
+
+// light(): metallic-roughness under a coat whose normal is the sheet's own, by one red light, against the portable text
+// in double. A colour's step is 1/255; rounding is half of it. The normal is 0.0012 degrees off, times the slope of a
+// highlight of roughness 0.3, under 20 a radian: 4e-4.
+TEST_P(Godot, lightIsThatOfThePortableText)
+{
+    const bool derivatives = GetParam() == "GLES3";
+    Choice choice;
+    choice.language = Language::godot;
+    choice.frame = derivatives ? Frame::cotangent : Frame::triangle;
+    choice.convention.channels = Channels::orthographic;
+    choice.sets = {shader_text::Set::light};
+    choice.twoSided = true;
+    std::string text = makeShaderText(choice)->text;
+    text = replaced(text, "void fragment()\n{\n",
+                    "void fragment()\n{\n    ALBEDO = vec3(0.25, 0.5, 0.5);\n    ROUGHNESS = 0.4;\n");
+    text = replaced(text, "metallic : hint_range(0.0, 1.0) = 0.0", "metallic : hint_range(0.0, 1.0) = 0.25");
+    text = replaced(text, "render_mode cull_disabled",
+                    "render_mode cull_disabled, shadows_disabled, ambient_light_disabled");
+    text =
+        replaced(text, "coat_roughness : hint_range(0.0, 1.0) = 0.05", "coat_roughness : hint_range(0.0, 1.0) = 0.3");
+    GodotJobs jobs;
+    const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
+    const glm::dvec3 to = glm::normalize(glm::dvec3(-0.3, 0.4, 1.0));
+    jobs.add(text, kWidth, kHeight, 1,
+             {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(choice.frame)}, {"light", {{to.x, to.y, to.z}}}});
+    const std::string picture = jobs.draw(GetParam())[0];
+    double most = 0, brightest = 0;
+    for (const bool right : {false, true}) {
+        int count = 0;
+        for (int row = 0; row < kHeight; ++row)
+            for (int column = right ? kWidth / 2 : 0; column < (right ? kWidth : kWidth / 2); ++column) {
+                const Vec ray = rayAt(row, column);
+                const double middle = right ? 1.2 : -1.2, angle = right ? M_PI - 0.4 : 0.4;
+                const Vec n = truth(ray, middle, angle, SheetFrame::cotangent, domeTexel);
+                if (dot(n, n) == 0)
+                    continue;
+                const double side = right ? -1 : 1;
+                const glm::dvec3 v = -glm::normalize(glm::dvec3(ray[0], ray[1], ray[2]));
+                const f64::cotan_surface s{glm::dvec3(0.25, 0.5, 0.5),
+                                           0.25,
+                                           0.4,
+                                           1,
+                                           glm::dvec3(0),
+                                           glm::normalize(glm::dvec3(n[0], n[1], n[2])),
+                                           v};
+                const f64::cotan_coat c{1, 0.3, {side * std::sin(angle), 0, side * std::cos(angle)}};
+                const double expected = M_PI
+                    * (f64::cotan_reflect_pbr(s, to).x * (1 - f64::cotan_coat_share(c, v))
+                       + f64::cotan_reflect_coat(c, v, to));
+                const char* at = picture.data() + 3 * (row * kWidth + column);
+                const double got = static_cast<unsigned char>(at[0]) / 255.0;
+                brightest = std::max(brightest, got);
+                most = std::max(most, std::abs(got - std::min(expected, 1.0)));
+                EXPECT_LT(static_cast<unsigned char>(at[1]), 2) << "the light is red";
+                ++count;
+            }
+        EXPECT_GT(count, 8000);
+    }
+    fmt::print("light {}: {:.4f} off at most, {:.2f} at the brightest\n", GetParam(), most, brightest);
+    EXPECT_LT(most, 0.5 / 255 + 4e-4);
+    EXPECT_GT(brightest, 0.3);
+}
+
+// The domes where a map of 128 x 128 that is filtered, with mips, is theirs: not within two texels of a rim.
+Vec domesAwayFromRims(double u, double v)
+{
+    const double x = std::fmod(u * 4, 2) - 1, y = std::fmod(v * 4, 2) - 1;
+    return std::abs(std::sqrt(x * x + y * y) - 0.8) < 0.15 ? Vec{0, 0, 0} : domes(u, v);
+}
+
+TEST_P(Godot, theExampleDrawsTheAnalyticSheet)
+{
+    TemporaryFolder folder;
+    for (const std::string mirrored : {"", " --mirrored"}) {
+        const std::string file = folder / ("normals" + mirrored + ".png");
+        runGodot(COTAN_SOURCE_DIR "/examples/godot", GetParam(),
+                 "--resolution 480x240 --normals" + mirrored + " '--picture=" + file + "'");
+        const auto picture = readImage(file);
+        ASSERT_TRUE(picture) << picture.error().message;
+        ASSERT_EQ(picture->width, kWidth);
+        ASSERT_EQ(picture->height, kHeight);
+        const auto normalAt = [&](int pixel) {
+            Vec n{};
+            for (int k = 0; k < 3; ++k)
+                n[static_cast<std::size_t>(k)] = picture->bytes8()[4 * pixel + k] / 127.5 - 1;
+            return n;
+        };
+        for (const bool right : {false, true}) {
+            const SheetError e = sheetError(right, SheetFrame::cotangent, domesAwayFromRims, normalAt);
+            fmt::print("example {}{}, {}: {:.2f} degrees in the mean, {:.2f} at most\n", GetParam(), mirrored,
+                       right ? "back" : "front", e.mean, e.most);
+            EXPECT_GT(e.count, 5000);
+            // A step of the picture's 8 bits is 0.45 degrees along an axis: rounding, 0.13 in the mean along each of
+            // two. The map's 8 bits add as much, and its filter.
+            EXPECT_LT(e.mean, 0.3);
+            EXPECT_LT(e.most, 1.0);
+        }
+    }
+}
+
+} // namespace
+} // namespace cotan::test
+
+int main(int count, char** words)
+{
+    if (std::system("command -v godot3 > /dev/null && command -v xvfb-run > /dev/null") != 0) {
+        std::puts("skipped: no godot3 or no xvfb-run");
+        return 77;
+    }
+    testing::InitGoogleTest(&count, words);
+    return RUN_ALL_TESTS();
+}

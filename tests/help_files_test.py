@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+"""The manual's pages and the completion of shells against --help and the tool itself, each shell asked for real.
+help_files_test.py TOOL SHARE man|bash|zsh|fish|words; exit code 77 and a reason where the program asked is missing."""
+import os
+import pathlib
+import pty
+import re
+import select
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+tool, share, part = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
+FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-transpose paper-orthogonal unit orthonormal " \
+    "gradient exact smooth vertex mikktspace triangle".split()
+# Options that take a name which nobody can list.
+FREE_NAMES = {("cost", "--device"), ("accuracy", "--scene")}
+
+
+class Option:
+    def __init__(self, line):
+        names, rest = re.match(r"  (\S+)(.*)", line).groups()
+        self.names = names.split(",")
+        # The help comes after two spaces, or in the next line.
+        self.value = re.sub(r"\s.*|[:=].*", "", rest[1:]) if rest[:1] == " " and rest[1:2].strip() else ""
+        among = re.match(r" \S*:\{(.*)\}", rest)
+        self.words = among.group(1).split(",") if among else []
+
+
+def help_of(command):
+    return subprocess.run([tool, *command.split(), "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def lines_of(text, heading):
+    block = re.search(rf"^{heading}:\n((?:  .*\n)+)", text, re.M)
+    return [l for l in block.group(1).splitlines() if l[2] != " "] if block else []
+
+
+# Every command, by its words, with what its help says.
+commands, options, operands, examples, helps = {}, {}, {}, {}, {}
+
+
+def read(command):
+    text = helps[command] = help_of(command)
+    commands[command] = [line.split()[0] for line in lines_of(text, "Subcommands")]
+    options[command] = [Option(line) for line in lines_of(text, "Options")]
+    operands[command] = [line.split()[0] for line in lines_of(text, "Positionals")]
+    examples[command] = [line.strip() for line in lines_of(text, "Examples")]
+    for inner in commands[command]:
+        read((command + " " + inner).strip())
+
+
+read("")
+assert len(commands) > 20
+
+
+def need(program):
+    if not shutil.which(program):
+        print(f"skipped: {program} is missing (scripts/setup test)")
+        sys.exit(77)
+
+
+# ---- the manual ------------------------------------------------------------------------------------------------------
+
+
+def plain(roff):
+    return re.sub(r"\\f[BIR]|\\&", "", roff).replace("\\-", "-").replace("\\(aq", "'").replace("\\e", "\\")
+
+
+def man():
+    need("man")
+    pages = {"-".join(["cotan", *command.split()]) + ".1": command for command in commands}
+    assert set(pages) == {page.name for page in (share / "man/man1").iterdir()}, "a page for each command and no other"
+    for page, command in pages.items():
+        file = share / "man/man1" / page
+        entries = re.findall(r"^\.TP\n(.*)\n", file.read_text(), re.M)
+        named = [plain(line).split(" ")[0] if "--" not in plain(line) else plain(line) for line in entries]
+        wanted = [name for option in options[command] for name in option.names]
+        said = [name for line in named for name in re.findall(r"(?<!\w)--?[\w-]+", line)]
+        assert said == wanted, f"{page}: {set(said) ^ set(wanted)}"
+        assert [line for line in named if line in operands[command]] == operands[command], page
+        for example in examples[command]:
+            assert example in plain(file.read_text()), f"{page}: {example}"
+        for inner in commands[command]:
+            assert f"{page[:-2]}-{inner}(1)" in named, page
+        wrong = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", file], capture_output=True, text=True,
+                               env={**os.environ, "MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
+        assert wrong.returncode == 0 and not wrong.stderr, f"{page}: {wrong.stderr}"
+        # What apropos and whatis read.
+        name = subprocess.run(["lexgrog", file], capture_output=True, text=True)
+        assert name.returncode == 0 and page[:-2] + " - " in name.stdout, name.stdout
+
+
+# ---- shells: each function answers a list of beginnings of command lines with what is offered at their ends -----------
+
+
+def bash(lines, folder):
+    script = f"set -u; . {share}/bash-completion/completions/cotan\n" + r"""
+while IFS= read -r line; do
+    # As readline does: words apart at blanks and at '='.
+    read -ra COMP_WORDS <<< "${line//=/ = }"
+    [[ $line != *[\ ] ]] || COMP_WORDS+=("")
+    COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); COMPREPLY=()
+    _cotan 2>/dev/null
+    (( ${#COMPREPLY[@]} == 0 )) || printf '%s\n' "${COMPREPLY[@]}"
+    echo ==
+done
+"""
+    run = subprocess.run(["bash", "-c", script], input="\n".join(lines) + "\n", capture_output=True, text=True, cwd=folder)
+    assert not run.stderr, run.stderr
+    return [block.splitlines() for block in run.stdout.split("==\n")[:-1]]
+
+
+def fish(lines, folder):
+    need("fish")
+    script = f"source {share}/fish/vendor_completions.d/cotan.fish\n"
+    script += "".join(f"complete -C '{line}'\necho ==\n" for line in lines)
+    home = tempfile.mkdtemp()
+    run = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, cwd=folder,
+                         env={**os.environ, "HOME": home, "XDG_DATA_HOME": home, "LC_ALL": "C.UTF-8"})
+    shutil.rmtree(home)
+    assert not run.stderr, run.stderr
+    offered = [[line.split("\t")[0] for line in block.splitlines()] for block in run.stdout.split("==\n")[:-1]]
+    # fish completes the whole word `--frame=x`.
+    return [[re.sub(r"^--[\w-]+=", "", word) for word in words] for words in offered]
+
+
+def zsh(lines, folder):
+    need("zsh")
+    place = pathlib.Path(tempfile.mkdtemp())
+    (place / "setup").write_text(f"""
+PS1= ; unsetopt beep list_beep
+fpath=({share}/zsh/vendor-completions $fpath)
+autoload -U compinit && compinit -D -u
+zstyle ':completion:*' insert-tab false
+compadd() {{
+    if [[ ${{@[1,(i)(-|--)]}} == *-(O|A|D)* ]]; then builtin compadd "$@"; return; fi
+    local -a hits
+    builtin compadd -A hits "$@"
+    (( $#hits )) && print -rl -- $hits >> {place}/now
+    builtin compadd "$@"
+}}
+cotan_begin() {{ : > {place}/now }}
+cotan_end() {{ mv {place}/now {place}/done }}
+again() {{ compprefuncs=(cotan_begin) comppostfuncs=(cotan_end) }}
+again
+: > {place}/ready
+""")
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(folder)
+        os.environ.update(TERM="dumb", HOME=str(place))
+        os.execvp("zsh", ["zsh", "-f", "-i"])
+
+    def wait(name):
+        late = time.time() + 60
+        while not (place / name).exists():
+            assert time.time() < late, "zsh does not answer"
+            if select.select([terminal], [], [], 0.002)[0]:
+                os.read(terminal, 65536)
+
+    os.write(terminal, f". {place}/setup\n".encode())
+    wait("ready")
+    offered = []
+    for line in lines:
+        os.write(terminal, line.encode() + b"\t")
+        wait("done")
+        # A file may be offered by two tags; names come quoted.
+        offered.append([word.replace("\\ ", " ") for word in dict.fromkeys((place / "done").read_text().splitlines())])
+        (place / "done").unlink()
+        os.write(terminal, b"\x15again\n")
+    os.write(terminal, b"\x15exit\n")
+    os.close(terminal)
+    os.waitpid(process, 0)
+    shutil.rmtree(place)
+    return offered
+
+
+def offers(shell):
+    with tempfile.TemporaryDirectory() as folder:
+        for file in ("a model.glb", "rocks.png"):
+            (pathlib.Path(folder) / file).touch()
+        (pathlib.Path(folder) / "pictures").mkdir()
+        everything = {"a model.glb", "rocks.png", "pictures"}
+        wanted = []  # (line, what is offered there)
+        for command, inner in commands.items():
+            start = f"cotan {command} " if command else "cotan "
+            wanted.append((start, set(inner) if inner else everything if operands[command] else None))
+            # zsh offers the two dashes by themselves only to those who typed one.
+            wanted.append((start + "--", {name for option in options[command] for name in option.names if name[:2] == "--"}))
+            for option in options[command]:
+                line = f"{start}{option.names[-1]} "
+                if option.words:
+                    wanted.append((line, set(option.words)))
+                    wanted.append((f"{start}{option.names[-1]}={option.words[-1][:-1]}",
+                                   {word for word in option.words if word.startswith(option.words[-1][:-1])}))
+                elif option.value in ("PATH", "FILE"):
+                    wanted.append((line, everything))
+                elif option.value in ("FOLDER", "DIR"):
+                    wanted.append((line, {"pictures"}))
+        wanted += [
+            ("cotan render --frame ", set(FRAMES)),
+            ("cotan render --frame orth", {"orthonormal"}),
+            ("cotan render model.glb --frame=mik", {"mikktspace"}),
+            ("cotan render -o ", everything),
+            ("cotan render -o ro", {"rocks.png"}),
+            ("cotan render --quiet --view normal-map-", {"normal-map-red", "normal-map-green", "normal-map-blue"}),
+            ("cotan render --environment ", {"studio", "overcast", "evening", "none"} | everything),
+            ("cotan map convert --from ", None),
+            ("cotan shader --set tone,sha", {"shadow"}),
+            ("cotan compare --frames cotangent,mikk", {"mikktspace"}),
+            ("cotan map conv", {"convert"}),
+            ("cotan frobnicate ", None),
+            ("cotan render --size ", set()),
+        ]
+        found = shell([line for line, _ in wanted], folder)
+        assert len(found) == len(wanted)
+        for (line, words), said in zip(wanted, found):
+            # The last of words with commas; folders may have a slash.
+            said = {re.sub(r".*,", "", word).removesuffix("/") for word in said}
+            if words is None:
+                continue
+            # Between words, fish also lists nothing but `-` options it was asked for; zsh a folder's options, too.
+            assert said == words, f"{line!r}: missing {words - said}, too many {said - words}"
+        return len(wanted)
+
+
+# ---- words: each that is offered is one that the tool takes, by what it says of one that it does not ------------------
+
+
+def words():
+    checked = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for command in commands:
+            if commands[command]:
+                continue
+            lines = [f"cotan {command} {option.names[-1]} " for option in options[command]]
+            for option, offered in zip(options[command], bash(lines, folder)):
+                if option.value in ("NAME", "WORDS", "NAMES", "A,B") and (command, option.names[-1]) not in FREE_NAMES:
+                    assert offered, f"{command} {option.names[-1]} takes a name and offers none"
+                listed = [word for word in offered if option.value in ("NAME", "WORDS", "NAMES", "A,B", "FRAME", "WAY", "WHO", "TEXT")]
+                if not listed or option.words or (command, option.names[-1]) == ("cost", "--family"):
+                    continue
+                run = subprocess.run([tool, *example_without(command, option), option.names[-1], "zzz"], capture_output=True,
+                                     text=True, cwd=folder)
+                said = set(re.split(r"[^\w.-]+", run.stderr))
+                # Some look at a file first, or at how the words go together.
+                if "expected" in run.stderr and "'zzz'" in run.stderr and said & set(listed):
+                    assert run.returncode == 1 and set(listed) <= said, f"{command}: {set(listed) - said}: {run.stderr}"
+                    checked += 1
+    assert checked > 30, checked
+    return checked
+
+
+def example_without(command, option):
+    given = examples[command][0].split()[1:]
+    for name in option.names:
+        if name in given:
+            at = given.index(name)
+            del given[at:at + 2]
+    return given
+
+
+if part == "man":
+    man()
+elif part == "words":
+    words()
+else:
+    print(offers({"bash": bash, "fish": fish, "zsh": zsh}[part]), "beginnings of command lines")

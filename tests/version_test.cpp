@@ -1,0 +1,51 @@
+// The version stands in CMakeLists.txt; where people and other tools read it, too, it is the same.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+struct Copy {
+    const char* file;
+    const char* pattern; // the version is its first group
+};
+
+TEST(Version, isTheSameWhereverItIsWrittenAgain)
+{
+    const std::string number = R"((\d+\.\d+\.\d+))";
+    for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
+                                              {"bindings/python/cotan/_version.py", "__version__ = \""},
+                                              {"bindings/js/README.md", "cotan-"},
+                                              {"bindings/js/types/tangents.d.ts", "version of the library, \""},
+                                              {"src/c/include/cotan.h", "/\\* \""}}) {
+        const std::string text = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / copy.file);
+        const std::regex pattern(copy.pattern + number);
+        auto found = std::sregex_iterator(text.begin(), text.end(), pattern);
+        EXPECT_NE(found, std::sregex_iterator()) << copy.file << " no longer says the version";
+        for (; found != std::sregex_iterator(); ++found)
+            EXPECT_EQ((*found)[1], COTAN_VERSION) << copy.file;
+    }
+}
+
+TEST(Version, isThatOfTheNewestSectionOfTheChangelog)
+{
+    const std::string text = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "CHANGELOG.md");
+    const std::size_t begin = text.find("\n## ", text.find("## Unreleased") + 1);
+    ASSERT_NE(begin, std::string::npos);
+    EXPECT_EQ(text.substr(begin + 4, text.find_first_of(" \n", begin + 4) - begin - 4), COTAN_VERSION);
+}
+
+TEST(Version, isWhatTheToolSays)
+{
+    TemporaryFolder folder;
+    EXPECT_EQ(runTool({"--version"}, folder.path()).out, "cotan " COTAN_VERSION "\n");
+}
+
+} // namespace
+} // namespace cotan::test
