@@ -146,6 +146,7 @@ def test_integers_are_never_cut(field, value):
 def test_floats_are_finite_numbers():
     for value in (float("nan"), float("inf"), "x", None, [1]):
         refused(cotan.UsageError, "max_distance", lambda: cotan.bake(square(), slope(0), size=8, max_distance=value))
+        refused(cotan.UsageError, "cage_reach", lambda: cotan.bake(square(), slope(0), size=8, cage_reach=value))
         refused(cotan.UsageError, "distance", lambda: cotan.lint(cotan.Model(square()), distance=value))
         refused(cotan.UsageError, "scale_x", lambda: cotan.map_from_height(np.zeros((4, 4)), value))
 

@@ -139,6 +139,7 @@ def bake(
     material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
     padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
     max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
+    cage_reach = arrays.number(cage_reach, "cage_reach")
     for mesh in _several(low):
         if isinstance(mesh, Mesh) and mesh.texcoords is None:
             raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
