@@ -19,19 +19,40 @@ using shader_text::Language;
 class Godot : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Driver, Godot, testing::Values("GLES3", "GLES2"), [](const auto& p) { return p.param; });
 
-TEST_P(Godot, functionsGiveTheNormalsOfTheOtherLanguages)
+// Of what one rounding of the result and of each input change at most (Case::allowance).
+double mostRoundings(const Case& c, const std::vector<Sample>& samples, const std::vector<glm::dvec3>& values)
+{
+    double most = 0;
+    for (std::size_t s = 0; s < samples.size(); ++s)
+        if (samples[s].kind == Kind::light) {
+            const glm::dvec3 off = glm::abs(values[s] - c.expected(samples[s].v)), allowed = c.allowance(samples[s].v);
+            for (int k = 0; k < 3; ++k)
+                if (off[k] != 0)
+                    most = off[k] / allowed[k] <= most ? most : off[k] / allowed[k]; // a NaN stays
+        }
+    return most;
+}
+
+TEST_P(Godot, functionsGiveWhatTheOtherLanguagesGive)
 {
     std::vector<Case> some;
     for (Case& c : godotCases())
-        if (!c.light)
-            some.push_back(std::move(c));
+        some.push_back(std::move(c));
     std::vector<Sample> finite;
     for (const Sample& s : samples())
-        if (s.kind == Kind::sound || s.kind == Kind::degenerate)
+        if (s.kind != Kind::nonFinite)
             finite.push_back(s);
     const Results r = runGodotCases(some, finite, GetParam());
     for (std::size_t k = 0; k < some.size(); ++k) {
         double most = 0;
+        if (some[k].light) {
+            const double roundings = mostRoundings(some[k], finite, r.values[k]);
+            fmt::print("| {:24} | {} | {:.1f} roundings |\n", some[k].name, r.language, roundings);
+            // 64 as in the other languages (shader_test.cpp); reading back by exp2 and log2 is 16; and Godot 3 keeps
+            // six digits of a number in the text, 8 roundings, of which functions here have six at most.
+            EXPECT_LT(roundings, 128) << some[k].name;
+            continue;
+        }
         for (std::size_t s = 0; s < finite.size(); ++s)
             if (finite[s].kind <= some[k].last) {
                 const glm::dvec3 expected = some[k].expected(finite[s].v);
@@ -161,7 +182,27 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
     }
 }
 
-// What is written to ALBEDO instead of the normal, and what the picture then holds.
+// With all that can be asked for together.
+TEST_P(Godot, everyWholeShaderCompiles)
+{
+    GodotJobs jobs;
+    for (const FrameInfo& f : frames()) {
+        const bool derivatives = f.source == FrameSource::differences; // which GLES2 has not
+        if (f.frame == Frame::exact || (derivatives && GetParam() == "GLES2"))
+            continue;
+        Choice choice;
+        choice.language = Language::godot;
+        choice.frame = f.frame;
+        choice.twoSided = true;
+        choice.uvSets = derivatives ? 2 : 1;
+        choice.sets = {shader_text::Set::gradient, shader_text::Set::blend, shader_text::Set::light};
+        const auto made = makeShaderText(choice);
+        ASSERT_TRUE(made) << made.error().message;
+        jobs.add(made->text, 8, 8, 1, {{"light", {{0, 0, 1}}}});
+    }
+    EXPECT_NO_THROW(jobs.draw(GetParam()));
+}
+
 TEST_P(Godot, theDirectionOfUIsTheSheets)
 {
     if (GetParam() == "GLES2")
@@ -171,9 +212,11 @@ TEST_P(Godot, theDirectionOfUIsTheSheets)
     choice.convention.channels = Channels::orthographic;
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(std::string("\x80\x80\xff\xff", 4), 1, 1); // flat
-    jobs.add(replaced(normalShader(choice),
-                      "    ALBEDO =", "    NORMAL = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    ALBEDO ="),
-             kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
+    jobs.add(
+        replaced(normalShader(choice), "    ALBEDO =",
+                 "    TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    BINORMAL = cross(NORMAL, TANGENT);\n"
+                 "    ANISOTROPY = 0.8;\n    NORMAL = TANGENT;\n    ALBEDO ="),
+        kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
     const std::string picture = jobs.draw(GetParam())[0];
     int count = 0;
     for (int row = 0; row < kHeight; ++row)

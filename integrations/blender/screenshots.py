@@ -118,7 +118,6 @@ def steps():
         bpy.ops.image.view_all(fit_view=True)
     yield 4
     shoot("blender-bake.png")
-    settings.degrees = 12
     with within("PROPERTIES"):
         bpy.ops.object.cotan_check()
     yield 1

@@ -105,7 +105,7 @@ class Run {
 public:
     Run(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen, Store& store,
         const RunOptions& options, const Progress& progress)
-        : list_(list), plan_(plan), chosen_(chosen), store_(store), options_(options), states_(list.folder),
+        : list_(list), chosen_(chosen), store_(store), options_(options), states_(list.folder),
           results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()),
           steps_(progress, chosen.size())
     {
@@ -319,7 +319,6 @@ private:
     }
 
     const JobList& list_;
-    const Plan& plan_;
     const std::span<const std::size_t> chosen_;
     Store& store_;
     const RunOptions& options_;

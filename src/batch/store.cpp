@@ -1,6 +1,7 @@
 #include "cotan/batch/store.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -39,14 +40,17 @@ std::string keyOf(const std::vector<std::string>& words, const std::string& vers
 
 bool lockWhole(const Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
 
-// Work folders whose processes are no more: nobody holds their locks.
+// Work folders whose processes are no more: nobody holds their locks, or they had no time to make one.
 void removeLeft(const fs::path& work)
 {
+    constexpr auto kTimeForALock = std::chrono::minutes(1);
     std::error_code ignored;
     for (fs::directory_iterator at(work, ignored), end; !ignored && at != end; at.increment(ignored)) {
         const Descriptor lock(::open((at->path() / kLock).c_str(), O_RDWR | O_CLOEXEC));
         std::error_code none;
-        if (lock.get() >= 0 && lockWhole(lock))
+        const auto made = fs::last_write_time(at->path(), none);
+        const bool old = !none && made + kTimeForALock < fs::file_time_type::clock::now();
+        if (lock.get() >= 0 ? lockWhole(lock) : old)
             fs::remove_all(at->path(), none);
     }
 }
@@ -74,6 +78,7 @@ Result<Store> Store::open(const fs::path& folder, std::string version)
         if (Status writable = checkWritable(store.folder_ / name / kLock); !writable)
             return writable.error();
     }
+    removeLeft(store.folder_ / kWork);
     return store;
 }
 
@@ -130,7 +135,6 @@ Result<fs::path> Store::workFolder()
 {
     if (!work_.empty())
         return work_;
-    removeLeft(folder_ / kWork);
     std::string pattern = (folder_ / kWork / "XXXXXX").string();
     if (!::mkdtemp(pattern.data()))
         return outputError(

@@ -26,14 +26,6 @@ BakeKind kindOf(std::string_view wanted)
          "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
 }
 
-Frame frameOr(const char* given, Frame otherwise, const char* name)
-{
-    const auto frame = given ? frameFromName(given) : otherwise;
-    if (!frame)
-        fail(ErrorKind::usage, std::string(name) + ": there is none named '" + given + "'");
-    return *frame;
-}
-
 // How normals of the detailed side are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
 {

@@ -24,14 +24,6 @@ struct cotan_conversion {
 
 namespace {
 
-Frame frameOr(const char* given, Frame otherwise, const char* name)
-{
-    const auto frame = given ? frameFromName(given) : otherwise;
-    if (!frame)
-        fail(ErrorKind::usage, std::string(name) + ": there is no frame named '" + given + "'");
-    return *frame;
-}
-
 Json convertJson(const ConvertModelReport& report)
 {
     Json json = {{"maps", Json::array()}, {"tangents", tangentsJson(report)}, {"notes", report.notes}};

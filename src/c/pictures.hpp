@@ -1,10 +1,11 @@
-// Pictures and conventions of cotan.h as the library has them.
+// Pictures, frames and conventions of cotan.h as the library has them.
 #pragma once
 
 #include <cstdint>
 
 #include "call.hpp"
 #include "cotan/convention_words.hpp"
+#include "cotan/frame.hpp"
 #include "cotan/scene/image.hpp"
 
 struct cotan_image {
@@ -65,6 +66,17 @@ inline const cotan_picture& output(const cotan_picture* given, const char* name,
 inline void put(const Image& image, const cotan_picture& p)
 {
     std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
+}
+
+// A frame by its name; where no name is given, the other.
+inline Frame frameOr(const char* given, Frame otherwise, const char* name)
+{
+    if (const auto frame = given ? frameFromName(given) : otherwise)
+        return *frame;
+    std::string known;
+    for (const FrameInfo& frame : frames())
+        known += (known.empty() ? "" : ", ") + std::string(frame.name);
+    fail(ErrorKind::usage, std::string(name) + ": expected one of " + known + "; found '" + given + "'");
 }
 
 inline Convention conventionOf(const char* words, const char* name)

@@ -10,7 +10,7 @@ import cotan
 import facts
 import numpy as np
 from cotan_blender import gltf
-from facts import baked, ball, degrees, moved, select, settings, square, thing
+from facts import baked, ball, degrees, moved, select, square, thing
 from mathutils import Matrix
 
 

@@ -1,7 +1,6 @@
 """Facts inside Blender: each is a function that asserts, on an empty scene."""
 
 import inspect
-import math
 import os
 import subprocess
 import sys
@@ -9,7 +8,6 @@ import tempfile
 import traceback
 
 import bpy
-import cotan
 import cotan_blender
 import numpy as np
 from mathutils import Matrix
@@ -161,3 +159,20 @@ def exported(name, *things):
 
 def moved(x=0.0, y=0.0, z=0.0):
     return Matrix.Translation((x, y, z))
+
+
+# A sphere of 128 cells leaves normals between vertices some 0.01 degrees off, and 16 bits 0.002.
+NEAR = 0.03
+
+
+def of_sphere(x, y, radius=1.0):
+    """Unit normals of a sphere in the middle, seen from above, and where it is well inside of its rim."""
+    inside = x * x + y * y < (0.9 * radius) ** 2
+    z = np.sqrt(np.maximum(radius * radius - x * x - y * y, 0))
+    return np.stack([x, y, z], -1) / radius, inside
+
+
+def expect_sphere(found, x, y, radius=1.0, least=1000):
+    truth, inside = of_sphere(x, y, radius)
+    assert inside.sum() > least, inside.sum()
+    assert degrees(found[inside], truth[inside]).max() < NEAR, degrees(found[inside], truth[inside]).max()

@@ -125,7 +125,8 @@ def test_what_the_library_refuses_has_the_same_parts():
     assert (error.expected, error.found) == ("less than 4", "4")
     refused(cotan.UsageError, "mesh.index_count", lambda: cotan.tangents(cotan.Mesh(P, [0, 1], N, UV)))
     refused(cotan.UsageError, "mesh", lambda: cotan.tangents(cotan.Mesh(P, I, N)))
-    refused(cotan.UsageError, "frame", lambda: cotan.bake(square(), slope(0), size=8, frame="nonsense"))
+    error = refused(cotan.UsageError, "frame", lambda: cotan.bake(square(), slope(0), size=8, frame="nonsense"))
+    assert "smooth" in error.expected and error.found == "'nonsense'"
     refused(cotan.UsageError, "kind", lambda: cotan.bake(square(), slope(0), size=8, kind="nonsense"))
     refused(cotan.UsageError, "samples", lambda: cotan.bake(square(), slope(0), size=8, samples=3))
     refused(cotan.UsageError, "max_distance", lambda: cotan.bake(square(), slope(0), size=8, max_distance=-1))

@@ -119,6 +119,21 @@ def test_the_detailed_meshes_own_map_is_baked_with_them(command, tmp_path):
     assert caught.value.field == "high_normals"
 
 
+def test_a_material_is_baked_by_its_number(command, tmp_path):
+    low = write_obj(tmp_path / "low.obj", square())
+    lines = low.read_text().splitlines()
+    (tmp_path / "low.mtl").write_text("newmtl a\nnewmtl b\n")
+    low.write_text("\n".join(["mtllib low.mtl", *lines[:-2], "usemtl a", lines[-2], "usemtl b", lines[-1]]) + "\n")
+    covered = []
+    for material in (-1, 0, 1):
+        command("bake", "--low", low, "--high", low, "--material", material, "--size", "16x16", "--padding", -1,
+                "-o", tmp_path / "out.png")  # fmt: skip
+        baked = cotan.bake(low, low, material=material, size=16, padding=-1)
+        assert (baked.map == cotan.read_picture(tmp_path / "out.png")).all()
+        covered.append(baked.covered)
+    assert covered[0] == 256 and covered[1] + covered[2] == 256 and min(covered) > 100
+
+
 def test_normals_that_are_left_out_are_smooth_ones():
     bare = bumps(40)
     bare.normals = None

@@ -157,14 +157,19 @@ def test_missing_files_and_folders_are_named(tmp_path):
 
 def test_only_files_in_the_models_folder_are_read(model, tmp_path):
     (tmp_path / "inside").mkdir()
+    (tmp_path / "outside.bin").write_bytes((tmp_path / "plane.bin").read_bytes())
+    for name in ("plane.bin", "the map.png"):
+        (tmp_path / name).rename(tmp_path / "inside" / name)
+    (tmp_path / "inside/link.bin").symlink_to(tmp_path / "outside.bin")
     document = json.loads(model.read_text())
-    for uri in ("../plane.bin", str(tmp_path / "plane.bin"), "link.bin"):
-        if not (tmp_path / "inside/link.bin").is_symlink():
-            (tmp_path / "inside/link.bin").symlink_to(tmp_path / "plane.bin")
+    for uri in ("plane.bin", "../outside.bin", str(tmp_path / "outside.bin"), "link.bin"):
         document["buffers"][0]["uri"] = uri
         (tmp_path / "inside/plane.gltf").write_text(json.dumps(document))
         for call in (cotan.lint, cotan.convert):
-            with pytest.raises(cotan.InputError):
+            if uri == "plane.bin":
+                call(tmp_path / "inside/plane.gltf")
+                continue
+            with pytest.raises(cotan.InputError, match="outside.bin|link.bin"):
                 call(tmp_path / "inside/plane.gltf")
 
 

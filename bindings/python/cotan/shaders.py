@@ -10,7 +10,7 @@ def shader(lang: str, frame: str = "cotangent", convention: str = "gltf") -> str
     """The function that perturbs the normal with that frame, as self-contained text to paste into a shader.
 
     Args:
-        lang: "glsl", "essl", "hlsl", "wgsl", "msl" or "cpp".
+        lang: "glsl", "essl", "hlsl", "wgsl", "msl", "cpp" or "godot" (a whole spatial shader).
         frame: see `frames`.
         convention: how the map is stored.
     """

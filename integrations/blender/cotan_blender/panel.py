@@ -23,15 +23,18 @@ class _Part:
     bl_context = "object"
     bl_parent_id = "OBJECT_PT_cotan"
 
+    def begun(self):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout
+
 
 class CotanBakePanel(_Part, bpy.types.Panel):
     bl_idname = "OBJECT_PT_cotan_bake"
     bl_label = "Bake"
 
     def draw(self, context):
-        layout, s = self.layout, context.scene.cotan
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout, s = self.begun(), context.scene.cotan
         layout.prop(s, "frame")
         if s.frame != "mikktspace":
             layout.label(text="Blender's own Normal Map node reads MikkTSpace", icon="INFO")
@@ -89,9 +92,7 @@ class CotanCheckPanel(_Part, bpy.types.Panel):
     bl_label = "Check"
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.begun()
         layout.prop(context.scene.cotan, "degrees")
         layout.operator("object.cotan_check", icon="VIEWZOOM").kind = "ALL"
         letters = max(20, int(context.region.width / (7.5 * context.preferences.system.ui_scale)))
@@ -108,9 +109,7 @@ class CotanExportPanel(_Part, bpy.types.Panel):
     bl_label = "Export"
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.begun()
         layout.prop(context.scene.cotan, "to_frame")
         layout.operator("export_scene.cotan_gltf", text="Export glTF", icon="EXPORT")
 

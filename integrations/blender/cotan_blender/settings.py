@@ -82,7 +82,7 @@ class CotanSettings(bpy.types.PropertyGroup):
         description="Of the same name that no image of this file stands for",
     )
     degrees: FloatProperty(
-        name="Degrees", default=5, min=0.1, max=90,
+        name="Degrees", default=15, min=0.1, max=90,
         description="Faces on which MikkTSpace and cotangent differ by more are in question",
     )
     to_frame: EnumProperty(

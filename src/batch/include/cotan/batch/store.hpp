@@ -24,7 +24,8 @@ private:
 
 class Store {
 public:
-    // Opens a folder, or makes it. Errors: ErrorKind::output where nothing can be written there.
+    // Opens a folder, or makes it; what killed processes left in it goes. Errors: ErrorKind::output where nothing can
+    // be written there.
     static Result<Store> open(const std::filesystem::path& folder, std::string version);
 
     // One that is only read. Errors: ErrorKind::input where there is none.
@@ -39,7 +40,7 @@ public:
     // Nothing while another process has it. On file systems without locks everybody gets it.
     std::optional<Claim> claim(const std::vector<std::string>& words) const;
 
-    // A folder for this process alone, made on the first call. What killed processes left there goes then.
+    // A folder for this process alone, made on the first call.
     Result<std::filesystem::path> workFolder();
 
     const std::filesystem::path& folder() const { return folder_; }

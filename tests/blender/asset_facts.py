@@ -1,0 +1,109 @@
+"""What becomes of a baked map: pairs by name, the nodes that read it, the .blend and the files that keep it."""
+
+import os
+
+import bpy
+import cotan
+import facts
+import numpy as np
+from facts import baked, ball, directions, expect_sphere, moved, places, select, settings, square, torus
+
+
+def pairsAreFoundByName():
+    x, y = places()
+    names = (("door_low", "door_high"), ("bolt.lo", "Bolt.HI.001"), ("Wall_low", "wall_high_a"))
+    for number, (low, high) in enumerate(names):
+        square(low, matrix=moved(4 * number))
+        ball(high, matrix=moved(4 * number), centre=(0.1 * number, 0, 0))
+    ball("wall_high_b", centre=(-0.8, 0.8, 0), radius=0.15, matrix=moved(8))
+    torus("unrelated")
+    settings(distance=2)
+    select()
+    assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
+    for number, low in enumerate(("door_low", "bolt.lo", "Wall_low")):
+        found = directions(bpy.data.images[f"{low}_normal"])
+        expect_sphere(found, x - 0.1 * number, y)
+    expect_sphere(found, x + 0.8, y - 0.8, 0.15, least=50)
+    # Only those that are selected, and one without its counterpart does not stop the others.
+    for image in list(bpy.data.images):
+        bpy.data.images.remove(image)
+    square("alone_low")
+    select(bpy.data.objects["door_low"], bpy.data.objects["alone_low"])
+    assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
+    assert [i.name for i in bpy.data.images] == ["door_low_normal"]
+    select(bpy.data.objects["alone_low"])
+    found = facts.said(bpy.ops.object.cotan_bake, which="NAMES")
+    assert found.startswith("There is no visible object named like 'alone_low'"), found
+
+
+def theNormalNodeReadsTheMap():
+    low, high = square(), ball()
+    material = bpy.data.materials.new("worn")
+    material.use_nodes = True
+    low.data.materials.append(material)
+    baked(low, high, distance=2)
+    nodes = material.node_tree.nodes
+
+    def chain():
+        reader = nodes["Principled BSDF"].inputs["Normal"].links[0].from_node
+        return reader, reader.inputs["Color"].links[0].from_node
+
+    reader, texture = chain()
+    assert (reader.type, texture.type, texture.image.name) == ("NORMAL_MAP", "TEX_IMAGE", "low_normal")
+    assert texture.image.colorspace_settings.name == "Non-Color" and texture.image.packed_file
+    assert (texture.image.is_float, tuple(texture.image.size)) == (True, (64, 64))
+    count = len(nodes)
+    baked(low, high, distance=2, bits="8")  # again: the same nodes, the new picture, and no other one
+    assert len(nodes) == count and chain()[1].image.is_float is False and len(bpy.data.images) == 1
+    # With a Bump node between, the map goes before it.
+    bump = nodes.new("ShaderNodeBump")
+    for link in list(nodes["Principled BSDF"].inputs["Normal"].links):
+        material.node_tree.links.remove(link)
+    material.node_tree.links.new(bump.outputs["Normal"], nodes["Principled BSDF"].inputs["Normal"])
+    baked(low, high, distance=2)
+    assert nodes["Principled BSDF"].inputs["Normal"].links[0].from_node == bump
+    assert bump.inputs["Normal"].links[0].from_node.type == "NORMAL_MAP"
+    settings(assign=False)
+    bpy.data.objects.remove(low)
+    other = square("other")
+    baked(other, high, distance=2, assign=False)
+    assert not other.data.materials and bpy.data.images["other_normal"]
+
+
+def mapsAreSavedAsFiles():
+    low, high = square(), ball()
+    folder = os.path.join(facts.FOLDER, "maps")
+    os.mkdir(folder)
+    for bits, depth in (("8", 24), ("16", 96)):
+        found = baked(low, high, distance=2, bits=bits, store="FILE", folder=folder)
+        path = os.path.join(folder, "low_normal.png")
+        image = bpy.data.images["low_normal"]
+        assert os.path.isfile(path) and image.packed_file is None and bpy.path.abspath(image.filepath) == path
+        again = cotan.read_picture(path)
+        assert again.dtype == (np.uint8 if bits == "8" else np.uint16) and image.depth == depth, image.depth
+        stored = (again[..., :3].astype(float) - 2 ** (int(bits) - 1)) / (2 ** (int(bits) - 1) - 1)
+        assert np.abs(stored - found).max() < 1e-4
+    # A file that no image stands for is not replaced unasked.
+    bpy.data.images.remove(bpy.data.images["low_normal"])
+    assert "is there already" in facts.said(bpy.ops.object.cotan_bake)
+    bpy.context.scene.cotan.overwrite = True
+    assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+
+
+def mapsAreThereAfterSavingAndOpening():
+    folder = os.path.join(facts.FOLDER, "project")
+    os.mkdir(folder)
+    blend, elsewhere = os.path.join(folder, "scene.blend"), os.path.join(facts.FOLDER, "moved")
+    bpy.ops.wm.save_as_mainfile(filepath=blend)
+    packed = baked(square("packed"), ball(), distance=2, frame="smooth")
+    filed = baked(square("filed"), bpy.data.objects["high"], distance=2, store="FILE", folder="//")
+    bpy.ops.wm.save_mainfile()
+    os.rename(folder, elsewhere)
+    bpy.ops.wm.open_mainfile(filepath=os.path.join(elsewhere, "scene.blend"))
+    for name, expected, frame in (("packed", packed, "smooth"), ("filed", filed, "smooth")):
+        image = bpy.data.images[f"{name}_normal"]
+        assert (directions(image) == expected).all() and image["cotan_frame"] == frame
+        assert image.colorspace_settings.name == "Non-Color"
+
+
+facts.hold_all(__name__)
