@@ -54,12 +54,11 @@ cotan_package(libcotan-dev libdevel "normal mapping without precomputed tangents
 These are the headers of C and C++, the parts of the C++ library as static
 libraries, what CMake and pkg-config ask, and the portable text for shaders.
 A part needs the development files of what it is made with; those are
-recommended.")
+suggested.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
-set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_RECOMMENDS "libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
+set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config, libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
 libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev, \
 zlib1g-dev")
-set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config")
 cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
 "${about}
 This is the package for Python: bake, lint, convert and render with arrays
