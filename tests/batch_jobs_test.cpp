@@ -51,8 +51,9 @@ JobList listOf(const std::vector<std::vector<std::string>>& jobs)
 
 TEST(BatchJobs, aLineIsAJobWithItsFilesAndANameOfItsOwnOrItsCommandLine)
 {
-    const auto list = read("\xef\xbb\xbf{\"command\": [\"copy\", \"a b\", \">\", \"c\"]}\r\n\n  \n"
-                           "{\"name\": \"ü <b>\", \"command\": [\"copy\"], \"inputs\": [\"x\"], \"outputs\": [\"y\", \"y\"]}");
+    const auto list =
+        read("\xef\xbb\xbf{\"command\": [\"copy\", \"a b\", \">\", \"c\"]}\r\n\n  \n"
+             "{\"name\": \"ü <b>\", \"command\": [\"copy\"], \"inputs\": [\"x\"], \"outputs\": [\"y\", \"y\"]}");
     ASSERT_TRUE(list) << list.error().message;
     ASSERT_EQ(list->jobs.size(), 2u);
     EXPECT_EQ(list->jobs[0].name, "copy 'a b' '>' c");
@@ -177,9 +178,10 @@ TEST(BatchPlan, everyJobIsInOneShardAndWhatHangsTogetherIsInTheSame)
     std::mt19937 random(3);
     std::vector<std::vector<std::string>> jobs;
     for (int i = 0; i < 200; ++i)
-        jobs.push_back(i > 0 && random() % 3 == 0
-                           ? std::vector<std::string>{"c", fmt::format("f{}", random() % unsigned(i)), ">", fmt::format("f{}", i)}
-                           : std::vector<std::string>{"c", ">", fmt::format("f{}", i)});
+        jobs.push_back(
+            i > 0 && random() % 3 == 0
+                ? std::vector<std::string>{"c", fmt::format("f{}", random() % unsigned(i)), ">", fmt::format("f{}", i)}
+                : std::vector<std::string>{"c", ">", fmt::format("f{}", i)});
     const auto plan = planJobs(listOf(jobs));
     ASSERT_TRUE(plan);
     for (std::size_t of : {1u, 2u, 3u, 7u, 300u}) {

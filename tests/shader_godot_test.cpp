@@ -18,7 +18,8 @@ TEST(ShaderGodot, wholeShadersCompile)
     constexpr char kGodot[] = R"(#version 300 es
 precision highp float;
 precision highp int;
-in vec3 VERTEX; in vec2 UV, UV2; in vec4 COLOR; in vec3 NORMAL_in, TANGENT, BINORMAL, VIEW, LIGHT, LIGHT_COLOR, ATTENUATION;
+in vec3 VERTEX; in vec2 UV, UV2; in vec4 COLOR;
+in vec3 NORMAL_in, TANGENT, BINORMAL, VIEW, LIGHT, LIGHT_COLOR, ATTENUATION;
 uniform mat4 MODELVIEW_MATRIX, PROJECTION_MATRIX; uniform bool FRONT_FACING;
 vec3 NORMAL, ALBEDO, SPECULAR_LIGHT; float METALLIC, ROUGHNESS;
 out vec4 colour;

@@ -159,7 +159,8 @@ Status run(const Arguments& tool, const BatchOptions& o)
     if (!o.output.empty()) {
         const std::string title = fmt::format("{}{}", o.jobs, o.shard.empty() ? "" : ", shard " + o.shard);
         const auto folder = std::filesystem::absolute(o.output).lexically_normal().parent_path();
-        const std::string page = batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder, std::size_t(o.rows));
+        const std::string page =
+            batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder, std::size_t(o.rows));
         if (Status written = writeFileWhole(o.output, page); !written)
             return written;
     }

@@ -27,12 +27,15 @@ header { padding: .8rem 1rem .5rem; }
 h1 { font-size: 1.2rem; margin: 0 0 .5rem; overflow-wrap: anywhere; }
 .tools { display: flex; flex-wrap: wrap; gap: .4rem; align-items: center; }
 button, input { font: inherit; color: inherit; }
-.tools button { border: 1px solid var(--line); border-radius: 1em; background: none; padding: .15em .8em; cursor: pointer; }
+.tools button { border: 1px solid var(--line); border-radius: 1em; background: none; padding: .15em .8em;
+  cursor: pointer; }
 .tools button[aria-pressed=true] { background: #8884; }
-.tools input { flex: 1 1 14rem; padding: .25em .6em; border: 1px solid var(--line); border-radius: 4px; background: none; }
-.row { display: grid; grid-template-columns: 72px minmax(10rem, 1fr) 8rem 9rem 5rem 5rem; gap: .8rem; align-items: center;
-  height: 64px; padding: 0 1rem; border-bottom: 1px solid var(--line); }
-.head { height: auto; padding: .3rem 1rem; border-top: 1px solid var(--line); font-size: .85em; scrollbar-gutter: stable; overflow: hidden auto; }
+.tools input { flex: 1 1 14rem; padding: .25em .6em; border: 1px solid var(--line); border-radius: 4px;
+  background: none; }
+.row { display: grid; grid-template-columns: 72px minmax(10rem, 1fr) 8rem 9rem 5rem 5rem; gap: .8rem;
+  align-items: center; height: 64px; padding: 0 1rem; border-bottom: 1px solid var(--line); }
+.head { height: auto; padding: .3rem 1rem; border-top: 1px solid var(--line); font-size: .85em;
+  scrollbar-gutter: stable; overflow: hidden auto; }
 .head button { border: 0; background: none; padding: 0; cursor: pointer; text-align: inherit; font-weight: 600; }
 .number { text-align: right; font-variant-numeric: tabular-nums; }
 #list { flex: 1; overflow-y: auto; scrollbar-gutter: stable; position: relative; }
@@ -42,13 +45,15 @@ button, input { font: inherit; color: inherit; }
 .name, .why { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 .why { font-size: .85em; opacity: .8; }
 .of { display: block; font-size: .7em; opacity: .75; line-height: 1.1; }
-.bad { color: var(--bad); font-weight: 600; } .warn { color: var(--warn); font-weight: 600; } .good { color: var(--good); }
+.bad { color: var(--bad); font-weight: 600; } .warn { color: var(--warn); font-weight: 600; }
+.good { color: var(--good); }
 .row.bad { color: inherit; font-weight: inherit; box-shadow: inset 4px 0 var(--bad); }
 .row.good { color: inherit; }
 .row.warn { color: inherit; font-weight: inherit; box-shadow: inset 4px 0 var(--warn); }
 dialog { width: min(60rem, 94vw); max-height: 90vh; border: 1px solid var(--line); border-radius: 6px; }
 pre { background: var(--soft); padding: .6em; white-space: pre-wrap; overflow-wrap: anywhere; }
-dialog h2 { font-size: 1.1rem; margin: 0 0 .4rem; overflow-wrap: anywhere; } dialog ul { padding-left: 1.2em; overflow-wrap: anywhere; }
+dialog h2 { font-size: 1.1rem; margin: 0 0 .4rem; overflow-wrap: anywhere; }
+dialog ul { padding-left: 1.2em; overflow-wrap: anywhere; }
 footer { padding: .3rem 1rem; font-size: .8em; opacity: .75; }
 @media (max-width: 46rem) { .row { grid-template-columns: 68px minmax(6rem, 1fr) 7rem 6rem; } .wide { display: none; } }
 )";
@@ -56,9 +61,9 @@ footer { padding: .3rem 1rem; font-size: .8em; opacity: .75; }
 // Rows are numbers and texts in the order of kColumns; whatever they hold is shown as text and never as HTML.
 constexpr std::string_view kScript = R"(
 const { states, bad, warn, rows } = JSON.parse(document.getElementById('data').textContent);
-const NAME = 0, STATE = 1, DEGREES = 2, OF = 3, SECONDS = 4, MEGABYTES = 5, COMMAND = 6, REASON = 7, SAID = 8, OUTPUTS = 9,
-  INPUTS = 10, PICTURE = 11, KEPT = 12;
-const list = document.getElementById('list'), space = document.getElementById('space'), find = document.getElementById('find');
+const NAME = 0, STATE = 1, DEGREES = 2, OF = 3, SECONDS = 4, MEGABYTES = 5, COMMAND = 6, REASON = 7, SAID = 8,
+  OUTPUTS = 9, INPUTS = 10, PICTURE = 11, KEPT = 12;
+const [list, space, find] = ['list', 'space', 'find'].map(id => document.getElementById(id));
 const height = 64;
 let shown = rows.map((_, i) => i), state = -1, column = -1, down = true;
 const texts = rows.map(r => (r[NAME] + '\n' + r[COMMAND] + '\n' + r[REASON]).toLowerCase());
@@ -89,13 +94,15 @@ function rowOf(i, place) {
   }
   const name = make('div', 'what');
   name.style.minWidth = 0;
-  name.append(make('div', 'name', r[NAME]), make('div', 'why', r[REASON] || (r[COMMAND] === r[NAME] ? '' : r[COMMAND])));
+  const why = r[REASON] || (r[COMMAND] === r[NAME] ? '' : r[COMMAND]);
+  name.append(make('div', 'name', r[NAME]), make('div', 'why', why));
   const angle = make('div', 'number', degrees(r[DEGREES]));
   if (r[DEGREES] !== null) angle.append(make('span', 'of', r[OF]));
   const how = make('div', levelOf(r), states[r[STATE]]);
   if (r[KEPT]) how.append(make('span', 'of', 'kept from before'));
   const cells = [picture, name, how, angle,
-    make('div', 'number wide', seconds(r[SECONDS])), make('div', 'number wide', Math.round(r[MEGABYTES]).toLocaleString('en'))];
+    make('div', 'number wide', seconds(r[SECONDS])),
+    make('div', 'number wide', Math.round(r[MEGABYTES]).toLocaleString('en'))];
   for (const cell of cells) cell.setAttribute('role', 'cell');
   e.append(...cells);
   return e;
@@ -106,7 +113,7 @@ function draw(force) {
     to = Math.min(shown.length, Math.ceil((list.scrollTop + list.clientHeight) / height) + 5);
   if (!force && from === first && to === last) return;
   [first, last] = [from, to];
-  const focused = document.activeElement && document.activeElement.dataset ? document.activeElement.dataset.row : undefined;
+  const focused = document.activeElement?.dataset?.row;
   space.replaceChildren(...shown.slice(from, to).map((row, i) => rowOf(row, from + i)));
   if (focused !== undefined) space.querySelector(`[data-row="${focused}"]`)?.focus({ preventScroll: true });
 }
@@ -126,7 +133,8 @@ function choose() {
   space.style.height = shown.length * height + 'px';
   list.setAttribute('aria-rowcount', shown.length + 1);
   document.getElementById('count').textContent = shown.length.toLocaleString('en') + ' shown';
-  for (const b of document.querySelectorAll('[data-state]')) b.setAttribute('aria-pressed', Number(b.dataset.state) === state);
+  for (const b of document.querySelectorAll('[data-state]'))
+    b.setAttribute('aria-pressed', Number(b.dataset.state) === state);
   for (const b of document.querySelectorAll('[data-column]')) {
     const by = Number(b.dataset.column) === column;
     b.parentElement.setAttribute('aria-sort', !by ? 'none' : down ? 'descending' : 'ascending');
@@ -151,7 +159,8 @@ function files(title, names, links) {
 function open(i) {
   const r = rows[i], close = make('button', '', 'Close');
   close.onclick = () => dialog.close();
-  dialog.replaceChildren(make('h2', '', r[NAME]), make('p', levelOf(r), states[r[STATE]] + (r[REASON] ? ': ' + r[REASON] : '')),
+  const how = states[r[STATE]] + (r[REASON] ? ': ' + r[REASON] : '');
+  dialog.replaceChildren(make('h2', '', r[NAME]), make('p', levelOf(r), how),
     make('pre', '', 'cotan ' + r[COMMAND]));
   if (r[SAID]) dialog.append(make('h3', '', 'What it printed'), make('pre', '', r[SAID]));
   dialog.append(files('Outputs', r[OUTPUTS], true), files('Inputs', r[INPUTS].map(n => [n]), false), close);
@@ -175,7 +184,9 @@ document.querySelector('.head').addEventListener('click', e => {
   const b = e.target.closest('[data-column]');
   if (!b) return;
   const c = Number(b.dataset.column);
-  if (c !== column) { column = c; down = c !== NAME; } else if (down === (c !== NAME)) down = !down; else { column = -1; down = true; }
+  if (c !== column) { column = c; down = c !== NAME; }
+  else if (down === (c !== NAME)) down = !down;
+  else { column = -1; down = true; }
   choose();
 });
 new ResizeObserver(() => draw(true)).observe(list);

@@ -311,8 +311,7 @@ Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
         given.name += (given.name.empty() ? "" : " ") + app->get_name();
         for (const CLI::Option* option : app->get_options())
             if (option->count() > 0)
-                given.options.push_back(
-                    {option->get_single_name(), option->results(), tool_->facts[option].use});
+                given.options.push_back({option->get_single_name(), option->results(), tool_->facts[option].use});
     }
     if (given.name.empty())
         return usageError("expected a command; found none");
