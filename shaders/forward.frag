@@ -42,11 +42,16 @@ layout(location = 0) out vec4 outColor;
 #include "environment.glsl"
 #include "lights.glsl"
 
-// The spread of normals by the surface's own turn.
-float turnOf(vec3 smoothNormal)
+// The turn of the surface's own normals to the next pixels.
+struct Turn {
+    vec3 x;
+    vec3 y;
+};
+
+Turn turnOf(vec3 smoothNormal)
 {
-    return COARSE_DERIVATIVES ? cotan_spread_of_turn(dFdxCoarse(smoothNormal), dFdyCoarse(smoothNormal))
-                              : cotan_spread_of_turn(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
+    return COARSE_DERIVATIVES ? Turn(dFdxCoarse(smoothNormal), dFdyCoarse(smoothNormal))
+                              : Turn(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
 }
 
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }
@@ -88,25 +93,45 @@ vec3 perturbed(cotan_frame frame, vec3 n, inout float spread)
     return normalOfTexel(texel, frame, n);
 }
 
-// Normals at even places in the pixel, each with what its part of the map says of lost length. s: of the whole pixel,
-// as rough as the material. turn: of the smooth normals.
-void fillTaps(cotan_frame frame, vec3 smoothNormal, float side, float turn, vec2 uv, Differences d, cotan_surface s)
+// What atTap reads of the pixel.
+struct TapSource {
+    cotan_frame frame;
+    vec3 n; // interpolated, outwards on the front side
+    float side; // 1 seen from the front, -1 from behind
+    Turn turn; // of the interpolated normals, over the pixel
+    vec2 uv; // of the pixel's middle
+    vec2 dx, dy; // of uv, over the part of a tap
+    float spread; // of the interpolated normals in that part
+    float roughness; // the material's own
+};
+TapSource tapSource;
+
+// As many places as the roughness asks for. s: of the whole pixel, as rough as the material.
+void setTaps(cotan_frame frame, vec3 smoothNormal, float side, Turn turn, vec2 uv, Differences d, cotan_surface s)
 {
-    taps[0] = Tap(s.n, cotan_roughness_of_spread(s.roughness, turn));
-    tapCount = 1;
     if (!mapped())
         return;
-    const float step = 1.0 / float(COTAN_TAPS_A_SIDE);
-    vec2 dx = finiteUv(d.duvdx * step);
-    vec2 dy = finiteUv(d.duvdy * step);
-    tapCount = COTAN_TAPS_A_SIDE * COTAN_TAPS_A_SIDE;
-    for (int i = 0; i < tapCount; ++i) {
-        vec2 place =
-            vec2(float(i % COTAN_TAPS_A_SIDE), float(i / COTAN_TAPS_A_SIDE)) - 0.5 * float(COTAN_TAPS_A_SIDE - 1);
-        vec4 texel = textureGrad(normalMap, finiteUv(uv + dx * place.x + dy * place.y), dx, dy);
-        taps[i] = Tap(normalOfTexel(texel, frame, smoothNormal) * side,
-            cotan_roughness_of_spread(s.roughness, turn + cotan_spread_of_length(texel.w)));
-    }
+    float aSide = floor(cotan_places_of_roughness(s.roughness));
+    tapCount = int(aSide * aSide);
+    tapSource = TapSource(frame, smoothNormal, side, turn, uv, finiteUv(d.duvdx / aSide), finiteUv(d.duvdy / aSide),
+        cotan_spread_of_turn(turn.x, turn.y) / (aSide * aSide), s.roughness);
+}
+
+// Its normal, from its part of the map and turned as the surface is there, and as rough as lost length says.
+cotan_surface atTap(cotan_surface s, int tap)
+{
+    if (tapCount == 1)
+        return s;
+    int aSide = int(sqrt(float(tapCount)) + 0.5);
+    vec2 place = vec2(float(tap % aSide), float(tap / aSide)) - 0.5 * float(aSide - 1);
+    vec2 uv = finiteUv(tapSource.uv + tapSource.dx * place.x + tapSource.dy * place.y);
+    vec4 texel = textureGrad(normalMap, uv, tapSource.dx, tapSource.dy);
+    vec3 n = normalOfTexel(texel, tapSource.frame, tapSource.n);
+    place /= float(aSide);
+    s.n = cotan_normalize_or(n + tapSource.turn.x * place.x + tapSource.turn.y * place.y, n) * tapSource.side;
+    s.roughness =
+        cotan_roughness_of_spread(tapSource.roughness, tapSource.spread + cotan_spread_of_length(texel.w));
+    return s;
 }
 
 cotan_surface surfaceOf(vec3 base, vec3 n)
@@ -196,8 +221,11 @@ void main()
     cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
     vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
     cotan_frame frame = frameOf(smoothNormal, d, material.normalMapUse, true);
-    float turn = SPECULAR_ANTIALIASING ? turnOf(smoothNormal) : 0.0;
-    float spread = turn;
+    Turn turn = Turn(vec3(0.0), vec3(0.0));
+    if (SPECULAR_ANTIALIASING)
+        turn = turnOf(smoothNormal);
+    float turned = cotan_spread_of_turn(turn.x, turn.y);
+    float spread = turned;
     vec3 n = perturbed(frame, smoothNormal, spread);
     // Seen from behind, the sheet shows the other side of the same bumps.
     float side = gl_FrontFacing ? 1.0 : -1.0;
@@ -211,13 +239,13 @@ void main()
         if (material.normalMap.w == 0) {
             cotan_surface s = surfaceOf(base.rgb, n);
             if (SPECULAR_ANTIALIASING) {
-                fillTaps(frame, smoothNormal, side, turn, uv, d, s);
+                setTaps(frame, smoothNormal, side, turn, uv, d, s);
                 s.roughness = cotan_roughness_of_spread(s.roughness, spread);
             }
             Layers over;
             over.glossy = over.sheened = over.coated = false;
 #ifdef COTAN_EXTENDED
-            addLayers(over, frame, smoothNormal, n, side, turn);
+            addLayers(over, frame, smoothNormal, n, side, turned);
 #endif
             color = lit(s, over, inPosition, smoothNormal * side);
             if (over.glossy && (MAPS & COTAN_LAYER_TRANSMISSION) != 0u)

@@ -79,22 +79,11 @@ struct Reflected {
     vec3 coat;
 };
 
-// Normals of places in the pixel, lit one by one where highlights are antialiased: one without a normal map. For main
-// to fill.
-#define COTAN_TAPS_A_SIDE 4
-struct Tap {
-    vec3 n;
-    float roughness;
-};
-Tap taps[COTAN_TAPS_A_SIDE * COTAN_TAPS_A_SIDE];
-int tapCount = 0;
-
-cotan_surface atTap(cotan_surface s, int tap)
-{
-    s.n = taps[tap].n;
-    s.roughness = taps[tap].roughness;
-    return s;
-}
+// Even places in the pixel whose normals are lit one by one where highlights are antialiased: how many, one without a
+// normal map. For main to set.
+int tapCount = 1;
+// The surface there. Read for each light again: 256 normals are too many to keep.
+cotan_surface atTap(cotan_surface s, int tap);
 
 vec3 reflectedOf(cotan_surface s, Layers over, vec3 l)
 {

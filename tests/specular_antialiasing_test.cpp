@@ -10,6 +10,7 @@
 #include "cotan/draw/painter.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/reference/render.hpp"
+#include "cotan/scene/picture_text.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/truth/grain.hpp"
 
@@ -99,9 +100,11 @@ struct Errors {
 Errors errorsOf(const Scene& scene, bool surroundings = true)
 {
     View fine = sunlit(kSide * kFiner), view = sunlit(kSide);
-    fine.pointSampled = true; // smaller levels have lost the spread that is looked for
     fine.environment = view.environment = surroundings;
-    const Image truth = averaged(drawn(scene, fine));
+    Scene finest = scene; // smaller levels of the map have lost the spread that is looked for
+    for (Material& material : finest.materials)
+        material.normalMap.sampler.mip = MipFilter::none;
+    const Image truth = averaged(drawn(finest, fine));
     Errors e;
     e.without = error(drawn(scene, view), truth);
     view.specularAntialiasing = true;
@@ -121,6 +124,27 @@ TEST(SpecularAntialiasing, halvesTheErrorOfGrainAndDomesInSurroundings)
         scene.images[0] = makeReliefMap(Relief::domes, 256);
         const Errors domes = errorsOf(scene);
         EXPECT_LT(domes.with, 0.5 * domes.without) << repeat;
+    }
+}
+
+TEST(SpecularAntialiasing, lightsTheMorePlacesTheSharperAndFourASideAtLeastAndSixteenAtMost)
+{
+    EXPECT_EQ(f32::cotan_places_of_roughness(1), 4);
+    EXPECT_EQ(f32::cotan_places_of_roughness(0), 16);
+    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.35f)), 4);
+    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.2f)), 8);
+    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.125f)), 12);
+}
+
+// What lies between few places: a highlight of half a degree. The ring turns by several degrees in a pixel, too.
+TEST(SpecularAntialiasing, takesTwoThirdsOfTheErrorOfSharpHighlightsWhereSomeTexelsAreInAPixel)
+{
+    for (const bool domes : {false, true}) {
+        Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 4, 1), 0.1f, true);
+        scene.images[0] = domes ? makeReliefMap(Relief::domes, 256) : makeGrain(0.135);
+        const Errors e = errorsOf(scene);
+        EXPECT_LT(e.with, 0.33 * e.without) << domes;
+        EXPECT_GT(e.without, 0.05) << "there is nothing to see";
     }
 }
 

@@ -61,6 +61,14 @@ COTAN_FUNCTION cotan_real cotan_spread_of_length(cotan_real length_of_mean)
     return cotan_real(2.0) * (cotan_real(1.0) - r * r) / (r * (cotan_real(3.0) - r * r));
 }
 
+// How many places along each side of a pixel are lit one by one, 4 to 16, to be rounded down, so that a highlight does
+// not lie between them: the sharper it is, the more. roughness: the surface's own, [0,1].
+COTAN_FUNCTION cotan_real cotan_places_of_roughness(cotan_real roughness)
+{
+    cotan_real places = cotan_real(1.5) / max(roughness, cotan_real(0.01)) + cotan_real(0.5);
+    return min(max(places, cotan_real(4.0)), cotan_real(16.0));
+}
+
 // A half vector that is zero when l = -v.
 COTAN_FUNCTION cotan_vec3 cotan_half_vector(cotan_vec3 l, cotan_vec3 v)
 {

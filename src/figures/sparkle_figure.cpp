@@ -86,11 +86,12 @@ double error(const Image& a, const Image& b)
 void addRow(Studio& studio, Figure& figure, const std::string& name, Image map)
 {
     const Scene scene = sparkling(std::move(map));
-    studio.show(scene);
+    Scene finest = scene; // smaller levels of the map would have lost what is looked for
+    finest.materials[0].normalMap.sampler.mip = MipFilter::none;
+    studio.show(finest);
     const int side = std::clamp(studio.height() / kEnlarged, 8, kMostDrawn);
-    View fine = sparklingView(side * kFiner);
-    fine.pointSampled = true; // smaller levels would have lost what is looked for
-    const Image truth = averaged(studio.drawReference(fine));
+    const Image truth = averaged(studio.drawReference(sparklingView(side * kFiner)));
+    studio.show(scene);
     View view = sparklingView(side);
     const Image without = studio.drawReference(view);
     view.specularAntialiasing = true;
@@ -113,8 +114,9 @@ Figure makeSparkleFigure(Studio& studio)
     figure.title = "Highlights smaller than a pixel";
     figure.text = {"A metal ring with a normal map of grain, and one with domes, many texels in a pixel; each pixel "
                    "enlarged. Averaged normals have too few highlights and these too bright. With specular "
-                   "antialiasing sixteen places in the pixel are lit, each as rough as the lost length of its normal "
-                   "says. Errors are root mean squares of what is shown. All by the reference renderer."};
+                   "antialiasing 16 to 256 places in the pixel are lit, the more the sharper the highlight, each as "
+                   "rough as the lost length of its normal says. Errors are root mean squares of what is shown. All by "
+                   "the reference renderer."};
     addRow(studio, figure, "grain", makeGrain(0.135));
     addRow(studio, figure, "domes", makeReliefMap(Relief::domes, 256));
     figure.sliders = {{0, 1}, {3, 4}};

@@ -193,7 +193,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
-           "light sixteen normals of a pixel, each rougher by what is smaller than its part of it");
+           "light 16 to 256 normals of a pixel, the more the sharper, each rougher by what is smaller than its part of "
+           "it");
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 

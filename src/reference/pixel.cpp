@@ -133,12 +133,11 @@ Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseC
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
     LitPoint point{
         quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated, {}};
-    std::array<LitTap, kTaps> taps;
+    std::vector<LitTap> taps;
     if (all.view.specularAntialiasing) {
-        for (std::size_t i = 0; i < taps.size(); ++i)
-            taps[i] = {normal.taps[i].n, f32::cotan_roughness_of_spread(surface.roughness, normal.taps[i].spread)};
         if (normal.mapped)
-            point.taps = taps;
+            taps = tapsOf(in, quad, lane, normal, surface.roughness);
+        point.taps = taps;
         surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
     }
     const auto tangent =

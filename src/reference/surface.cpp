@@ -194,14 +194,16 @@ Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const
     return smooth;
 }
 
-// The spread of the surface's own normals in the pixel; 0 where the view does not ask for it.
-float turnOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+// The turn of the surface's own normals in the pixel; none where the view does not ask for it.
+void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {
     if (!in.view->specularAntialiasing)
-        return 0;
+        return;
     const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
     const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
-    return f32::cotan_spread_of_turn(normal(x.to) - normal(x.from), normal(y.to) - normal(y.from));
+    result.turnX = normal(x.to) - normal(x.from);
+    result.turnY = normal(y.to) - normal(y.from);
+    result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
 }
 
 // What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
@@ -228,12 +230,17 @@ bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) &&
 
 namespace {
 
-// The part of a pixel around a tap.
-UvDifferences tapOf(const UvDifferences& pixel, int tap)
+// A place in a pixel, of so many a side, from its middle in pixels.
+glm::vec2 placeOf(int place, int side)
 {
-    const float step = 1.0f / kTapsASide;
-    const float x = (float(tap % kTapsASide) + 0.5f) * step - 0.5f, y = (float(tap / kTapsASide) + 0.5f) * step - 0.5f;
-    return {pixel.uv + pixel.dx * x + pixel.dy * y, pixel.dx * step, pixel.dy * step};
+    return (glm::vec2(float(place % side), float(place / side)) + 0.5f) / float(side) - 0.5f;
+}
+
+// What turns a texel of the material's normal map into numbers.
+f32::cotan_normal_format formatOf(const SurfaceInputs& in)
+{
+    return toFormat<f32::cotan_normal_format>(in.material->normalFormat, in.maps->normal->image->type,
+                                              double(in.material->normalScale));
 }
 
 } // namespace
@@ -253,32 +260,44 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
-    result.turn = result.spread = turnOf(in, quad, lane);
+    addTurn(result, in, quad, lane);
     result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
         glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
-        const auto format = toFormat<f32::cotan_normal_format>(material.normalFormat, in.maps->normal->image->type,
-                                                               double(material.normalScale));
-        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
         result.spread += spreadOf(view, texel);
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
-        for (int i = 0; view.specularAntialiasing && i < kTaps; ++i) {
-            const glm::vec4 tap = sample(*in.maps->normal, material.normalMap.sampler, tapOf(uv, i), view.pointSampled);
-            const glm::vec3 turned = f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(tap), format));
-            result.taps[std::size_t(i)] = {f32::cotan_normalize_or(turned, n), result.turn + spreadOf(view, tap)};
-        }
     }
     // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
     // is a dent, so it is the finished normal that turns. t and b stay.
     if (!in.triangle->front) {
         result.finished = -result.finished;
         result.texel = -result.texel;
-        for (SurfaceNormal::Tap& tap : result.taps)
-            tap.n = -tap.n;
     }
     return result;
+}
+
+std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& normal,
+                           float roughness)
+{
+    const Texture& map = in.material->normalMap;
+    const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+    const int side = int(f32::cotan_places_of_roughness(roughness));
+    std::vector<LitTap> taps(std::size_t(side * side));
+    const float share = 1 / float(side), turn = normal.turn * share * share;
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec2 at = placeOf(i, side);
+        const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
+        const glm::vec4 texel = sample(*in.maps->normal, map.sampler, part, in.view->pointSampled);
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
+        glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
+        n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
+        taps[std::size_t(i)] = {in.triangle->front ? n : -n,
+                                f32::cotan_roughness_of_spread(roughness, turn + spreadOf(*in.view, texel))};
+    }
+    return taps;
 }
 
 CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)

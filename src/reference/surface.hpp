@@ -14,6 +14,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/scene/view.hpp"
 #include "geometry.hpp"
+#include "light.hpp"
 #include "raster.hpp"
 #include "texture.hpp"
 
@@ -49,29 +50,27 @@ glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 // cutoff. alphas: of the quad's lanes.
 unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern);
 
-// Places in a pixel whose normals are lit one by one for specular antialiasing: this many a side, even over it.
-constexpr int kTapsASide = 4, kTaps = kTapsASide * kTapsASide;
-
 struct SurfaceNormal {
     glm::vec3 interpolated{0}; // unit, as the mesh has it
     glm::vec3 finished{0};     // unit, perturbed, turned towards the camera's side
     glm::vec3 t{0};
     glm::vec3 b{0};
-    glm::vec2 uv{0};          // of the normal map
-    f32::cotan_frame frame{}; // that `finished` was made with
-    float turn = 0;           // spread of `interpolated` in the pixel, where the view asks for it
-    float spread = 0;         // the same of `finished`
-    struct Tap {
-        glm::vec3 n{0}; // as `finished`
-        float spread = 0;
-    };
-    std::array<Tap, kTaps> taps{}; // where there is a map and the view asks for specular antialiasing
-    bool mapped = false;           // there is a normal map, and what follows is set
-    glm::vec3 texel{0, 0, 1};      // decoded, unit, in the frame; turned towards the camera's side
+    glm::vec2 uv{0};              // of the normal map
+    f32::cotan_frame frame{};     // that `finished` was made with
+    glm::vec3 turnX{0}, turnY{0}; // differences of `interpolated` to the next pixels, where the view asks for them
+    float turn = 0;               // the spread that they are
+    float spread = 0;             // the same of `finished`
+    bool mapped = false;          // there is a normal map, and what follows is set
+    glm::vec3 texel{0, 0, 1};     // decoded, unit, in the frame; turned towards the camera's side
 };
 
 // As the material's normal map has it.
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+
+// The normals of even places in the pixel, to be lit one by one for specular antialiasing: as many as the surface's
+// roughness asks for, each rougher by what is smaller than its part of the pixel. normal: mapped, of the same lane.
+std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& normal,
+                           float roughness);
 
 struct CoatNormal {
     glm::vec3 n{0}; // unit, turned towards the camera's side

@@ -87,7 +87,7 @@ struct View {
     ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;
     int samples = 4; // shaded only: 1 or 4 a pixel
-    // Shaded: lights sixteen normals of a pixel, each rougher by what is smaller: turn, and lost length of the map's.
+    // Shaded: lights 16 to 256 normals of a pixel, each rougher by what is smaller: turn, and lost length of the map's.
     bool specularAntialiasing = false;
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers
     Derivatives derivatives = Derivatives::fine;
