@@ -7,11 +7,11 @@ target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
   $<$<BOOL:${COTAN_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# Several files of a target compiled as one: what they include is read, and what they instantiate is made, once. A
-# release is built whole, and so three times as many at once; where files are changed, one is compiled again with fewer.
+# Several files of a target compiled as one: what they include is read, and what they instantiate is made, once. What
+# is built whole has three times as many at once; where files are changed, one is compiled again with fewer.
 function(cotan_unity target batch)
   if(COTAN_UNITY)
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    if(COTAN_WHOLE)
       math(EXPR batch "3 * ${batch}")
     endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})

@@ -1,4 +1,4 @@
-cotan_test(tangents_test
+cotan_test(tangents_test BATCH 4
   SOURCES tangents_test.cpp tangents_groups_test.cpp cotangents_test.cpp tangents_oracle_test.cpp
           tangents_fans_test.cpp parallel_test.cpp triangle_test.cpp adjacency_test.cpp
           meshlets_test.cpp
