@@ -271,7 +271,7 @@ TEST(Figures, facetsLoseNoLightOfAFurnaceAndTurnedNormalsATenth)
 
 TEST(Figures, antialiasedHighlightsHaveHalfOfTheErrorOfSparkles)
 {
-    const nlohmann::json numbers = report("sparkle", "200x150")["figures"][0]["numbers"];
+    const nlohmann::json numbers = report("sparkle", "400x300")["figures"][0]["numbers"];
     for (const std::string map : {"grain", "domes"}) {
         EXPECT_LT(numbers[map + ", error with"].get<double>(), 0.5 * numbers[map + ", error without"].get<double>());
         EXPECT_GT(numbers[map + ", error without"].get<double>(), 0.03) << "there is nothing to see";
