@@ -206,6 +206,7 @@ struct HighSurface::State {
             interpolateNormals(probes.count, hits);
         // Longer than this, the interpolated normal counts.
         const float least = normals == HighNormals::face ? std::numeric_limits<float>::infinity() : 1e-6f;
+        // All lanes, so that they go side by side: nobody reads those where nothing was found.
         for (std::size_t i = 0; i < kLanes; ++i) {
             const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
             const float length = glm::length(n);
