@@ -59,6 +59,12 @@ double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot 
     return slot == NormalSlot::coat && coat->value("clearcoatFactor", 0.0) <= 0 ? 0 : map.scale;
 }
 
+std::string imageName(const Json& root, std::size_t image)
+{
+    const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+    return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
+}
+
 const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }
 
 // The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
@@ -111,9 +117,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
     const auto image = std::size_t(texture.image);
     MapJob& job = jobs[image];
     job.image = image;
-    job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
-    if (job.name.empty() || job.name.starts_with("data:"))
-        job.name = fmt::format("image {}", image);
+    job.name = imageName(root, image);
     if (std::ranges::find(job.places, place) == job.places.end())
         job.places.push_back(place);
     for (const glm::dmat3& linear : placed) {
@@ -150,6 +154,27 @@ std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
                 foreign.push_back({m, slot});
         }
     return foreign;
+}
+
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
+{
+    std::set<int> images;
+    for (const MapPlace& place : foreignNormalMaps(document)) {
+        const int texture = normalMapOf(document.root, place.material, place.slot).texture;
+        images.insert(textureAt(document.root, texture).image);
+    }
+    std::vector<UnreadMap> unread;
+    for (const int image : images)
+        if (image >= 0) // or there is none
+            if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
+                const std::string format = foreignFormat(*bytes);
+                unread.push_back({std::size_t(image), imageName(document.root, std::size_t(image)), format,
+                                  format.starts_with("KTX2")
+                                      ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
+                                        "pack it again"
+                                      : "make it PNG or JPEG, and convert again"});
+            }
+    return unread;
 }
 
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)

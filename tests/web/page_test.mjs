@@ -30,7 +30,8 @@ await new Promise(done => server.once('listening', done));
 const address = `http://127.0.0.1:${server.address().port}/`;
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader',
+    '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync'],
 });
 
@@ -257,6 +258,80 @@ await fact('theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice', async () => 
   await page.screenshot({ path: join(scratch, 'page-shader.png') });
   await page.context().close();
   return copied === shown ? '' : 'what was copied is not what is shown';
+});
+
+await fact('theShaderOfTheFrameTriangleIsGivenByStage', async () => {
+  for (const stage of ['fragment', 'mesh']) {
+    const page = await open({}, `#shader?lang=wgsl&frame=triangle&map=gltf&stage=${stage}`);
+    await page.waitForFunction(() => document.querySelector('pre code')?.textContent.length > 500 || document.querySelector('#shader-panel [role=status]')?.textContent);
+    const text = await page.textContent('pre code'), tools = run('shader', '--lang', 'wgsl', '--frame', 'triangle', '--stage', stage, '--preset', 'gltf');
+    if (text.trim() !== tools.trim()) return `the text for ${stage} differs from the tool's: ${text.slice(0, 200)} ${await page.textContent('#shader-panel [role=status]')}`;
+    await page.context().close();
+  }
+});
+
+// One thing drawn both ways. SwiftShader rasterises and samples for both, so what differs is how numbers are rounded: a step of 8 bits in
+// the picture, which the highlight, a power of 40 of a cosine, makes a few of where it is steep.
+await fact('webGpuAndWebGlDrawTheSamePictures', async () => {
+  const shots = [], places = ['.view canvas', ...[1, 2, 3, 4].map(k => `.patches figure:nth-child(${k}) canvas`)];
+  for (const way of ['WebGPU', 'WebGL 2']) {
+    const page = await open();
+    if (way !== 'WebGPU') await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined }));
+    if (way !== 'WebGPU') await page.reload();
+    await page.click('#sample-map');
+    await settled(page);
+    await page.waitForFunction(() => document.querySelectorAll('[data-drawn-with] canvas').length === 5);
+    const ways = await page.locator('[data-drawn-with]').evaluateAll(all => [...new Set(all.map(element => element.dataset.drawnWith))]);
+    if (ways.join() !== way) return `${ways.join(' and ')} drew where ${way} was expected`;
+    const pictures = [];
+    for (const place of places) {
+      await page.locator(place).scrollIntoViewIfNeeded();
+      await page.waitForTimeout(300);
+      pictures.push(decode(await page.locator(place).screenshot({ path: join(scratch, `page-${way.replace(' ', '')}-${places.indexOf(place)}.png`) })));
+    }
+    shots.push(pictures);
+    await page.context().close();
+  }
+  const wrong = places.flatMap((place, k) => {
+    const [a, b] = shots.map(pictures => pictures[k]);
+    if (a.width !== b.width || a.height !== b.height) return [`${place}: ${a.width} x ${a.height} and ${b.width} x ${b.height}`];
+    let most = 0, several = 0, lit = 0;
+    for (let i = 0; i < a.data.length; i += a.channels) {
+      const step = Math.max(...[0, 1, 2].map(c => Math.abs(a.data[i + c] - b.data[i + c])));
+      most = Math.max(most, step);
+      several += step > 1;
+      lit += Math.abs(a.data[i] - a.data[0]) > 24;
+    }
+    const pixels = a.width * a.height;
+    if (process.env.VERBOSE) console.log(`${place}: ${most} steps at the most, ${several} of ${pixels} pixels differ by more than one`);
+    return most <= 4 && several <= 0.001 * pixels && lit > 0.05 * pixels ? [] : [`${place}: ${most} steps at the most, ${several} of ${pixels} pixels differ by more than one, ${lit} show something`];
+  });
+  return wrong.join('\n');
+});
+
+await fact('aLostDeviceLeavesThePicturesToWebGl', async () => {
+  const page = await open();
+  await page.addInitScript(() => {
+    const ask = GPUAdapter.prototype.requestDevice;
+    GPUAdapter.prototype.requestDevice = async function (...values) { return window.device = await ask.apply(this, values); };
+  });
+  await page.reload();
+  await page.click('#sample-map');
+  await settled(page);
+  await page.waitForFunction(() => document.querySelectorAll('[data-drawn-with="WebGPU"] canvas').length === 5);
+  const before = decode(await page.locator('.view canvas').screenshot());
+  await page.evaluate(() => window.device.destroy());
+  await page.waitForFunction(() => document.querySelectorAll('[data-drawn-with="WebGL 2"] canvas').length === 5);
+  const after = decode(await page.locator('.view canvas').screenshot());
+  if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
+  let differ = 0;
+  for (let k = 0; k < before.data.length; ++k) differ += Math.abs(before.data[k] - after.data[k]) > 4;
+  if (differ > 0) return `${differ} numbers of the picture are others afterwards`;
+  const box = await page.locator('.view canvas').boundingBox(); // the light still follows
+  await page.mouse.move(box.x + box.width * 0.9, box.y + box.height * 0.9);
+  const moved = decode(await page.locator('.view canvas').screenshot());
+  await page.context().close();
+  return Buffer.compare(Buffer.from(moved.data), Buffer.from(after.data)) === 0 ? 'the light stays where it was' : '';
 });
 
 await fact('thePatchAnswersKeysAndPointerWithRightDegrees', async () => {
