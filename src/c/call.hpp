@@ -152,7 +152,8 @@ cotan_status callCaught(char* message, std::size_t size, void (*run)(void* work)
 // Runs the work of one function.
 template<class Work> cotan_status call(char* message, std::size_t size, Work work)
 {
-    return callCaught(message, size, [](void* w) { (*static_cast<Work*>(w))(); }, &work);
+    return callCaught(
+        message, size, [](void* w) { (*static_cast<Work*>(w))(); }, &work);
 }
 
 } // namespace cotan::c

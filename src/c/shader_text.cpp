@@ -16,10 +16,8 @@ namespace {
 std::optional<shader_text::Stage> stageFromName(std::string_view name)
 {
     using shader_text::Stage;
-    constexpr std::pair<std::string_view, Stage> kStages[] = {{"fragment", Stage::fragment},
-                                                              {"vertex", Stage::vertex},
-                                                              {"mesh", Stage::mesh},
-                                                              {"compute", Stage::compute}};
+    constexpr std::pair<std::string_view, Stage> kStages[] = {
+        {"fragment", Stage::fragment}, {"vertex", Stage::vertex}, {"mesh", Stage::mesh}, {"compute", Stage::compute}};
     for (const auto& [word, stage] : kStages)
         if (word == name)
             return stage;

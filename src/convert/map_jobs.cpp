@@ -168,11 +168,12 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
         if (image >= 0) // or there is none
             if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
                 const std::string format = foreignFormat(*bytes);
-                unread.push_back({std::size_t(image), imageName(document.root, std::size_t(image)), format,
-                                  format.starts_with("KTX2")
-                                      ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
-                                        "pack it again"
-                                      : "make it PNG or JPEG, and convert again"});
+                unread.push_back(
+                    {std::size_t(image), imageName(document.root, std::size_t(image)), format,
+                     format.starts_with("KTX2")
+                         ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
+                           "pack it again"
+                         : "make it PNG or JPEG, and convert again"});
             }
     return unread;
 }
