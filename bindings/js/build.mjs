@@ -30,7 +30,7 @@ for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.
 for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm']]) {
   const bytes = fs.readFileSync(path.join(wasmFolder, built));
   fs.writeFileSync(path.join(place, `wasm/${name}.wasm`), bytes);
-  const text = deflateRawSync(bytes, { level: 9 }).toString('base64');
+  const text = deflateRawSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
   put(`wasm/${name}_inside.js`, `import { through } from '../src/streams.js';
 const text = '${text}';
 export const bytes = () => through(new DecompressionStream('deflate-raw'), Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
