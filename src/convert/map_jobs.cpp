@@ -156,20 +156,38 @@ std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
     return foreign;
 }
 
+namespace {
+
+// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
+}
+
+} // namespace
+
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
+    const Json& root = document.root;
     std::set<int> images;
-    for (const MapPlace& place : foreignNormalMaps(document)) {
-        const int texture = normalMapOf(document.root, place.material, place.slot).texture;
-        images.insert(textureAt(document.root, texture).image);
-    }
+    for (const MapPlace& place : foreignNormalMaps(document))
+        images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
     std::vector<UnreadMap> unread;
     for (const int image : images)
-        if (image >= 0) // or there is none
+        if (image >= 0)
             if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
                 const std::string format = foreignFormat(*bytes);
                 unread.push_back(
-                    {std::size_t(image), imageName(document.root, std::size_t(image)), format,
+                    {std::size_t(image), imageName(root, std::size_t(image)),
+                     format.empty() ? "an unknown format" : format,
                      format.starts_with("KTX2")
                          ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
                            "pack it again"
