@@ -215,12 +215,12 @@ const cases = {
       for (const [, to] of script(name).matchAll(/from '(\.[^']+)'/g)) reached(path.join(path.dirname(name), to), seen);
       return seen;
     };
-    // 30 KB are 30,000 bytes where the file lies beside the scripts, 30 KiB where it is a text inside them.
-    for (const [name, most, mostInside] of [['tangents', 30000, 30 * 1024], ['cotan', 400 * 1024, 400 * 1024]]) {
+    // The module in a file beside the scripts. As a text inside them it takes 2.4 % and 0.5 % more.
+    for (const [name, most] of [['tangents', 30000], ['cotan', 400 * 1024]]) {
       const beside = packed(...reached(`${name}_beside.js`), `wasm/${name}.wasm`), inside = packed(...reached(`${name}.js`));
       console.log(`${name}: ${beside} bytes gzipped, ${inside} with the wasm inside`);
       assert.ok(beside <= most, `${name}: ${beside} bytes gzipped`);
-      assert.ok(inside <= mostInside, `${name}: ${inside} bytes gzipped, the wasm inside`);
+      assert.ok(inside <= 1.03 * most, `${name}: ${inside} bytes gzipped, the wasm inside`);
     }
   },
 };
