@@ -458,4 +458,11 @@ for thread in threads:
 for thread in threads:
     thread.join()
 assert len(texts) == 8 and len(set(texts)) == 1 and len(texts[0]) == size.value - 1 and b"fn " in texts[0]
+# A stage behind the frame's name.
+call("cotan_shader_text", b"wgsl", b"triangle", b"gltf", None, c.byref(size))
+whole = size.value
+call("cotan_shader_text", b"wgsl", b"triangle,fragment", b"gltf", None, c.byref(size))
+assert 0 < size.value < whole
+assert "stage: expected fragment" in call("cotan_shader_text", b"wgsl", b"triangle,pixel", b"gltf", None, c.byref(size), expect=1)
+assert "the frame triangle" in call("cotan_shader_text", b"wgsl", b"cotangent,mesh", b"gltf", None, c.byref(size), expect=1)
 print("all of it holds")

@@ -265,6 +265,8 @@ TEST(ForeignMaps, convertLeavesThemAndTheTangentsThatTheyNeed)
         const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
         EXPECT_TRUE(r["maps"].empty()) << f.name;
         EXPECT_TRUE(says(r["notes"].dump(), "TANGENT stays")) << r["notes"];
+        EXPECT_TRUE(says(r["notes"].dump(), fmt::format("{}: a normal map in {}", f.file, f.name))) << r["notes"];
+        EXPECT_TRUE(says(r["notes"].dump(), "make it PNG")) << r["notes"];
         // Against the specification, but met: the texture itself names such an image.
         Made m = quad(2);
         m.root["images"][0] = {{"uri", f.file}};

@@ -22,7 +22,10 @@ cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
     mapsConvertAndTellTheirGreen errorsSayWhatAndWhere badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
-    provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng)
+    provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng mapsInKtx2AreNamedWithWhatToDo
+    itsCommandLineRunsOurCommands)
+cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES typingsTakeEveryExportInStrictMode typingsNameWhatThereIsAndNothingElse wrongCallsAreRefusedLineByLine)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
 cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)
@@ -32,8 +35,9 @@ add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_
 set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)
 foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToBeAndMended verdictsOnPublishedMapsAreTheirs
     aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid realModelsAreJudgedAndDrawn
-    aConvertedModelIsTheOneThatTheCommandLineWrites badFilesAreAnsweredInOneLineEach
-    theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice thePatchAnswersKeysAndPointerWithRightDegrees
+    aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo badFilesAreAnsweredInOneLineEach
+    theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice theShaderOfTheFrameTriangleIsGivenByStage
+    webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl thePatchAnswersKeysAndPointerWithRightDegrees
     documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
   add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
     ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})

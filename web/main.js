@@ -55,11 +55,7 @@ document.addEventListener('paste', event => {
 for (const name of ['map', 'model'])
   document.getElementById(`sample-${name}`).addEventListener('click', () => show(import('./samples.js').then(samples => samples[name]())));
 
-try {
-  showWhy(document.getElementById('why-panel'));
-} catch (error) {
-  document.getElementById('why-panel').append(el('p', { class: 'small' }, `The pictures need WebGL 2: ${error.message}`));
-}
+showWhy(document.getElementById('why-panel'));
 const panel = document.getElementById('shader-panel');
 const whenSeen = new IntersectionObserver(entries => {
   if (!entries.some(entry => entry.isIntersecting)) return;

@@ -13,17 +13,17 @@ const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
 
 export async function showMap(result, name, picture) {
   const library = await cotan();
-  const [green, info] = await Promise.all([library.detect(picture), library.info(picture)]);
-  const view = el('canvas', { role: 'img', 'aria-label': 'The map as relief, lit from where the pointer is' });
-  const preview = mapView(view);
-  preview.put(0, picture);
+  const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf' });
+  const [green, info, essl, wgsl] = await Promise.all([library.detect(picture), library.info(picture), text('essl'), text('wgsl')]);
+  const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as relief, lit from where the pointer is' });
+  preview.put('before', picture);
   const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
   const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the mended map');
   const command = el('code', {});
   const known = green.green !== 'unknown', isDown = green.green === 'down';
   let target = isDown ? 'gltf' : 'unreal', mended;
   const engine = choice('Your engine reads', kEngines, target, value => { target = value; mend(); });
-  const halves = divider(view, share => preview.show(share), ['as it is', 'mended']);
+  const halves = divider(preview.element, share => preview.show(share), ['as it is', 'mended']);
 
   const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
   const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
@@ -33,7 +33,7 @@ export async function showMap(result, name, picture) {
     if (wanted !== target) return;
     mended = made;
     preview.greenDown = down;
-    preview.put(1, mended);
+    preview.put('after', mended);
     preview.show(halves.share());
     verdict.className = `verdict ${!known ? '' : fits ? 'good' : 'bad'}`;
     verdict.textContent = !known ? words
@@ -50,9 +50,9 @@ export async function showMap(result, name, picture) {
     el('div', {}, verdict, advice, el('div', { class: 'choices' }, engine.element, button),
       table('What the numbers of the map say', rows(name, picture, green, info)),
       !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command)),
-    el('figure', { class: 'view' }, view, halves.element,
+    el('figure', { class: 'view' }, preview.element, halves.element,
       el('figcaption', {}, 'Move the pointer over the picture to move the light. Left: the map as your engine reads it now.'))));
-  await mend();
+  await Promise.all([mend(), preview.ready]);
 }
 
 function greenWords({ green, confidence, swapped, reason }, info) {

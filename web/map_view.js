@@ -1,55 +1,55 @@
 // A normal map as relief under a light that follows the pointer: as it is on the left of the border, mended on the right.
-import { bind, context, draw, kLit, program, set } from './gl.js';
+import { kLit } from './lit.js';
+import { pictureOf } from './picture.js';
 
-const kFragment = `
-uniform sampler2D before, after;
-uniform vec3 light;
-uniform float border, aspect, width; // aspect: height over width; width: of the canvas, pixels
-uniform float green_down;            // 1: the engine reads green against v
-${kLit}
-void main() {
-  bool right = place.x >= border;
+// The map lies flat in the picture, in units of its width, and v runs down. Where the engine reads green the other way, v
+// is turned instead: that is the same.
+const kEssl = `
+vec4 colour_at(vec2 place) {
   vec2 at = vec2(place.x, 1.0 - place.y);
-  vec3 c = right ? texture(after, at).xyz : texture(before, at).xyz;
-  vec3 n = (c * 255.0 - 128.0) / 127.0;
-  if (green_down > 0.5) n.y = -n.y;
-  n = dot(n, n) > 1e-4 ? normalize(n) : vec3(0.0, 0.0, 1.0);
-  colour = vec4(lit(vec3(place * vec2(1.0, aspect), 0.0), n, light, vec3(0.42, 0.45, 0.52)), 1.0);
-  if (abs(gl_FragCoord.x - border * width) < 1.0) colour = vec4(1.0);
-}
-`;
+  vec3 surface = vec3(place.x, place.y * v.aspect.x, 0.0), texel = place.x < v.border.x ? texture(before, at).xyz : texture(after, at).xyz;
+  vec3 n = cotan_perturb_normal(vec3(0.0, 0.0, 1.0), surface, vec2(surface.x, surface.y * v.along_v.x), texel);
+  bool edge = abs(place.x - v.border.x) * v.width.x < 1.0;
+  return vec4(edge ? vec3(1.0) : lit(surface, n, v.light.xyz, vec3(0.42, 0.45, 0.52)), 1.0);
+}`;
+const kWgsl = `
+fn colour_at(place: vec2f) -> vec4f {
+  let at = vec2f(place.x, 1.0 - place.y);
+  let surface = vec3f(place.x, place.y * v.aspect.x, 0.0);
+  let texel = select(textureSample(after, smoothly, at).xyz, textureSample(before, smoothly, at).xyz, place.x < v.border.x);
+  let n = cotan_perturb_normal(vec3f(0.0, 0.0, 1.0), surface, vec2f(surface.x, surface.y * v.along_v.x), texel);
+  let edge = abs(place.x - v.border.x) * v.width.x < 1.0;
+  return vec4f(select(lit(surface, n, v.light.xyz, vec3f(0.42, 0.45, 0.52)), vec3f(1.0), edge), 1.0);
+}`;
 
-export function mapView(canvas) {
-  const gl = context(canvas), made = program(gl, kFragment);
-  const textures = [gl.createTexture(), gl.createTexture()];
-  const state = { border: 0.5, light: [0.3, 0.75], greenDown: false, aspect: 1 };
+// texts: of the library's shader for maps of glTF, { essl, wgsl }.
+export function mapView(texts, attributes) {
+  const shader = { essl: texts.essl + kLit.essl + kEssl, wgsl: texts.wgsl + kLit.wgsl + kWgsl,
+    values: ['light', 'border', 'aspect', 'width', 'along_v'], maps: ['before', 'after'] };
+  const picture = pictureOf(shader, attributes, 256, 256);
+  const state = { border: 0.5, light: [0.3, 0.75], greenDown: false, aspect: 1, width: 256 };
 
   function show() {
-    set(gl, made, { border: state.border, aspect: state.aspect, width: canvas.width, green_down: state.greenDown ? 1 : 0,
+    picture.draw({ border: state.border, aspect: state.aspect, width: state.width, along_v: state.greenDown ? 1 : -1,
       light: [state.light[0], state.light[1] * state.aspect, 0.28] });
-    bind(gl, made, 'before', 0, textures[0]);
-    bind(gl, made, 'after', 1, textures[1]);
-    gl.viewport(0, 0, canvas.width, canvas.height);
-    draw(gl);
   }
-  canvas.addEventListener('pointermove', event => {
-    const box = canvas.getBoundingClientRect();
+  picture.element.addEventListener('pointermove', event => {
+    const box = picture.element.getBoundingClientRect();
     state.light = [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
     show();
   });
   return {
+    element: picture.element,
+    ready: picture.ready,
     show: border => { if (border !== undefined) state.border = border; show(); },
     set greenDown(value) { state.greenDown = value; },
-    // which: 0 before, 1 after
-    put(which, picture) {
-      const { width, height, data } = inBytes(picture);
+    // which: 'before' or 'after'
+    put(which, given) {
+      const { width, height, data } = inBytes(given);
       state.aspect = height / width;
-      canvas.width = Math.min(1024, Math.max(256, width));
-      canvas.height = Math.max(1, Math.round(canvas.width * Math.min(state.aspect, 2)));
-      gl.bindTexture(gl.TEXTURE_2D, textures[which]);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, data);
-      gl.generateMipmap(gl.TEXTURE_2D);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+      state.width = Math.min(1024, Math.max(256, width));
+      picture.resize(state.width, Math.max(1, Math.round(state.width * Math.min(state.aspect, 2))));
+      picture.put(which, { width, height, data });
     },
   };
 }

@@ -102,5 +102,6 @@ function savedWords({ glb, report }, { model, beside }) {
   const before = model.bytes.length + [...beside.values()].reduce((sum, bytes) => sum + bytes.length, 0), saved = before - glb.length;
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
   return `${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, ${size(report.tangents.bytes)} of tangents dropped; `
-    + `the file is ${saved >= 0 ? `${size(saved)} smaller` : `${size(-saved)} larger`}.${off.length > 0 ? ` With the new frame normals are off by ${degrees(Math.max(...off))}.` : ''}`;
+    + `the file is ${saved >= 0 ? `${size(saved)} smaller` : `${size(-saved)} larger`}.${off.length > 0 ? ` With the new frame normals are off by ${degrees(Math.max(...off))}.` : ''}`
+    + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('');
 }

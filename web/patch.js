@@ -35,13 +35,19 @@ export function frameOf(name, lies, rowsDown) {
   return { t, b: [-t[1] * side, t[0] * side] };
 }
 
-// Slopes of the relief along u and v, in the middle of a tile of 1 x 1: round domes. The shader has the same.
-export const kRelief = `
+// Slopes of the relief along u and v, in the middle of a tile of 1 x 1: round domes. The shaders have the same.
+export const kRelief = {
+  essl: `
 vec2 slopes(vec2 uv) { // dh/du, dh/dv
   vec2 d = fract(uv * 2.0) - 0.5;
-  float r2 = dot(d, d) / 0.14;
-  return r2 < 1.0 ? -d * 4.2 * (1.0 - r2) : vec2(0.0);
-}`;
+  return -d * 4.2 * max(1.0 - dot(d, d) / 0.14, 0.0);
+}`,
+  wgsl: `
+fn slopes(uv: vec2f) -> vec2f {
+  let d = fract(uv * 2.0) - 0.5;
+  return -d * 4.2 * max(1.0 - dot(d, d) / 0.14, 0.0);
+}`,
+};
 export function slopes(u, v) {
   const d = [2 * u - Math.floor(2 * u) - 0.5, 2 * v - Math.floor(2 * v) - 0.5], r2 = (d[0] * d[0] + d[1] * d[1]) / 0.14;
   return r2 < 1 ? times(d, -4.2 * (1 - r2)) : [0, 0];

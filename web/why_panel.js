@@ -1,26 +1,33 @@
 // The idea, to be pulled at: a patch, its two pairs of arrows, and the pictures that four frames make of it.
 import { degrees, el } from './elements.js';
-import { context, draw, kLit, program, set } from './gl.js';
+import { kLit } from './lit.js';
 import { frameOf, gradients, kFrames, kRelief, meanError, patch } from './patch.js';
+import { pictureOf } from './picture.js';
 
-const kFragment = `
-uniform vec2 gu, gv, t, b; // gradients of u and v; the frame
-${kRelief}
-${kLit}
-void main() {
-  vec2 p = (place - 0.5) * 3.2, uv = vec2(dot(p, gu), dot(p, gv)), h = slopes(uv);
-  vec3 n = normalize(vec3(-h.x * t - h.y * b, 1.0));
-  colour = vec4(lit(vec3(p, 0.0), n, vec3(-2.2, 2.6, 2.4), vec3(0.10, 0.24, 0.42)), 1.0);
-}`;
+// gu, gv: gradients of u and v; t, b: the frame.
+const kShader = {
+  values: ['gu', 'gv', 't', 'b'], maps: [],
+  essl: `${kRelief.essl}${kLit.essl}
+vec4 colour_at(vec2 place) {
+  vec2 p = (place - 0.5) * 3.2, h = slopes(vec2(dot(p, v.gu.xy), dot(p, v.gv.xy)));
+  vec3 n = normalize(vec3(-h.x * v.t.xy - h.y * v.b.xy, 1.0));
+  return vec4(lit(vec3(p, 0.0), n, vec3(-2.2, 2.6, 2.4), vec3(0.10, 0.24, 0.42)), 1.0);
+}`,
+  wgsl: `${kRelief.wgsl}${kLit.wgsl}
+fn colour_at(place: vec2f) -> vec4f {
+  let p = (place - 0.5) * 3.2;
+  let h = slopes(vec2f(dot(p, v.gu.xy), dot(p, v.gv.xy)));
+  let n = normalize(vec3f(-h.x * v.t.xy - h.y * v.b.xy, 1.0));
+  return vec4f(lit(vec3f(p, 0.0), n, vec3f(-2.2, 2.6, 2.4), vec3f(0.10, 0.24, 0.42)), 1.0);
+}`,
+};
 
 export function showWhy(panel) {
   const state = { stretch: 2, shear: 25, mirrored: false, rowsDown: true };
   const drawing = el('canvas', { class: 'patch', width: 720, height: 480, role: 'img', 'aria-label': 'The patch with its grid of texture coordinates, tangents and cotangents' });
   const pictures = Object.entries(kFrames).map(([name, { name: shown, text }]) => {
-    const canvas = el('canvas', { width: 300, height: 300, role: 'img', 'aria-label': `Embossed dots, ${shown}` }), figure = el('b', {});
-    const gl = context(canvas);
-    return { name, canvas, gl, made: program(gl, kFragment), figure,
-      element: el('figure', {}, canvas, el('figcaption', {}, figure, ` ${shown}: ${text}.`)) };
+    const picture = pictureOf(kShader, { 'aria-label': `Embossed dots, ${shown}` }, 300, 300), figure = el('b', {});
+    return { name, picture, figure, element: el('figure', {}, picture.element, el('figcaption', {}, figure, ` ${shown}: ${text}.`)) };
   });
   const stretch = slider('Stretch along u', 0.5, 3, 0.05, 'stretch', value => `${value.toFixed(2)} : 1`);
   const shear = slider('Shear', -60, 60, 1, 'shear', value => `${value.toFixed(0)}°`);
@@ -44,11 +51,9 @@ export function showWhy(panel) {
 
   function show() {
     const lies = patch(state), g = gradients(lies);
-    for (const { name, gl, made, figure, canvas } of pictures) {
+    for (const { name, picture, figure } of pictures) {
       const frame = frameOf(name, lies, state.rowsDown);
-      set(gl, made, { gu: g.u, gv: g.v, t: frame.t, b: frame.b });
-      gl.viewport(0, 0, canvas.width, canvas.height);
-      draw(gl);
+      picture.draw({ gu: g.u, gv: g.v, t: frame.t, b: frame.b });
       figure.textContent = degrees(meanError(name, lies, state.rowsDown));
     }
     drawPatch(drawing, lies, g);

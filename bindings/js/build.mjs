@@ -16,8 +16,9 @@ const place = path.join(out, 'package');
 fs.rmSync(place, { recursive: true, force: true });
 fs.mkdirSync(path.join(place, 'wasm'), { recursive: true });
 
-// Comments are for readers of the repository; what users read is in the typings.
-const slim = (text) => text.split('\n').filter((line) => !/^\s*(\/\/.*|\/\*\*.*\*\/\s*)?$/.test(line)).join('\n') + '\n';
+// Comments and indentation are for readers of the repository; what users read is in the typings. No file has a text over
+// several lines.
+const slim = (text) => text.split('\n').map((line) => line.trim()).filter((line) => !/^(\/\/.*|\/\*\*.*\*\/|\/\*\*.*|\* .*|)$/.test(line)).join('\n') + '\n';
 const put = (name, text) => {
   const file = path.join(place, name);
   fs.mkdirSync(path.dirname(file), { recursive: true });
@@ -29,7 +30,7 @@ for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.
 for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm']]) {
   const bytes = fs.readFileSync(path.join(wasmFolder, built));
   fs.writeFileSync(path.join(place, `wasm/${name}.wasm`), bytes);
-  const text = deflateRawSync(bytes, { level: 9 }).toString('base64');
+  const text = deflateRawSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
   put(`wasm/${name}_inside.js`, `import { through } from '../src/streams.js';
 const text = '${text}';
 export const bytes = () => through(new DecompressionStream('deflate-raw'), Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
@@ -55,12 +56,14 @@ import { hostImports } from './src/host.js';
 import { CotanError, Library } from './src/instance.js';
 import { mapFunctions } from './src/maps.js';
 import { modelFunctions } from './src/models.js';
+import { provokingFunction } from './src/provoking.js';
 import { tangentFunctions } from './src/tangents.js';
 import { bytes } from './wasm/cotan_${way}.js';
 const library = new Library(), host = hostImports();
 export const ready = library.load(bytes(), { cotan: host.imports });
 ready.catch(() => {});
-export const { tangents, smooth, triangles, split, splitMirrored, packTriangles, packSmooth, packTangents, provoking } = tangentFunctions(library);
+export const { tangents, smooth, triangles, split, splitMirrored, packTriangles, packSmooth, packTangents } = tangentFunctions(library);
+export const provoking = provokingFunction(library);
 export const { detect, info, convertMap, blend, fromHeight, toHeight, mips } = mapFunctions(library, host);
 export const { apply, encode, frames, shader } = frameFunctions(library);
 export const { lint, convert } = modelFunctions(library, host);

@@ -8,5 +8,6 @@ if(NOT EXISTS ${EMSCRIPTEN_ROOT_PATH}/cmake)
 endif()
 include(${EMSCRIPTEN_ROOT_PATH}/cmake/Modules/Platform/Emscripten.cmake)
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/../headers)
-# Errors are exceptions; the unwinding is WebAssembly's own, which every browser has. Vectors of 128 bits likewise.
-set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -msimd128 -flto -DGLM_FORCE_INLINE -fno-unroll-loops -fno-slp-vectorize -include ${CMAKE_CURRENT_LIST_DIR}/libcxx_13.hpp")
+# Errors are exceptions; the unwinding is WebAssembly's own, which every browser has. Vectors of 128 bits and copies of memory
+# in one instruction likewise.
+set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -msimd128 -mbulk-memory -flto -DGLM_FORCE_INLINE -fno-unroll-loops -fno-slp-vectorize -include ${CMAKE_CURRENT_LIST_DIR}/libcxx_13.hpp")

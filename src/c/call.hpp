@@ -117,10 +117,15 @@ inline void copyText(std::string_view text, char* to, std::size_t size)
     to[length] = '\0';
 }
 
+inline cotan_status refused(ErrorKind kind, std::string_view why, char* message, std::size_t size)
+{
+    copyText(why, message, size);
+    return cotan_status(kind);
+}
+
 inline cotan_status refused(const Error& error, char* message, std::size_t size)
 {
-    copyText(error.message, message, size);
-    return cotan_status(error.kind);
+    return refused(error.kind, error.message, message, size);
 }
 
 // Text as bytes, where somebody wants it.
@@ -141,18 +146,14 @@ inline std::string joined(const std::vector<std::string>& lines)
     return text;
 }
 
+// Runs run(work), and turns what it throws into a code.
+cotan_status callCaught(char* message, std::size_t size, void (*run)(void* work), void* work);
+
 // Runs the work of one function.
 template<class Work> cotan_status call(char* message, std::size_t size, Work work)
-try {
-    copyText("", message, size);
-    work();
-    return COTAN_OK;
-} catch (const Failure& failure) {
-    return refused(failure.error, message, size);
-} catch (const std::bad_alloc&) {
-    return refused({ErrorKind::unavailable, "not enough memory"}, message, size);
-} catch (const std::exception& e) {
-    return refused({ErrorKind::unavailable, e.what()}, message, size);
+{
+    return callCaught(
+        message, size, [](void* w) { (*static_cast<Work*>(w))(); }, &work);
 }
 
 } // namespace cotan::c

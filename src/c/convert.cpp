@@ -26,9 +26,15 @@ namespace {
 
 Json convertJson(const ConvertModelReport& report)
 {
-    Json json = {{"maps", Json::array()}, {"tangents", tangentsJson(report)}, {"notes", report.notes}};
+    Json json = {{"maps", Json::array()},
+                 {"unread_maps", Json::array()},
+                 {"tangents", tangentsJson(report)},
+                 {"notes", report.notes}};
     for (const ConvertedMap& map : report.maps)
         json["maps"].push_back(toJson(map));
+    for (const UnreadMap& map : report.unread)
+        json["unread_maps"].push_back(
+            {{"image", map.image}, {"name", map.name}, {"format", map.format}, {"advice", map.advice}});
     return json;
 }
 

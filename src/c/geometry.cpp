@@ -138,14 +138,15 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
                             size_t message_size)
 {
     return call(message, message_size, [&] {
+        // Not by the table of frames, which cotan/tangents would have to carry.
         const std::string_view which = word(kind, "kind");
-        const auto frame = frameFromName(which);
-        if (!frame || !readsTangents(*frame))
+        const bool vertex = which == "vertex";
+        if (!vertex && which != "mikktspace")
             fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made = generateTangents(*frame, view, threads);
+        const std::vector<glm::vec4> made = generateTangents(vertex ? Frame::vertex : Frame::mikktspace, view, threads);
         std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
     });
 }

@@ -1,10 +1,30 @@
 // cotan.h: shader text.
 #include "cotan/shader_text/shader_text.hpp"
+
+#include <optional>
+#include <utility>
+
 #include "call.hpp"
 #include "cotan/convention_words.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
+
+namespace {
+
+// "triangle,vertex": what follows the frame's name is the stage.
+std::optional<shader_text::Stage> stageFromName(std::string_view name)
+{
+    using shader_text::Stage;
+    constexpr std::pair<std::string_view, Stage> kStages[] = {
+        {"fragment", Stage::fragment}, {"vertex", Stage::vertex}, {"mesh", Stage::mesh}, {"compute", Stage::compute}};
+    for (const auto& [word, stage] : kStages)
+        if (word == name)
+            return stage;
+    return std::nullopt;
+}
+
+} // namespace
 
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size)
@@ -16,11 +36,20 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         if (!known)
             fail(ErrorKind::usage,
                  "language: expected glsl, essl, hlsl, wgsl, msl, cpp or godot, found '" + std::string(language) + "'");
-        const auto which = frameFromName(word(frame, "frame"));
+        const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
+        const auto which = frameFromName(name);
         if (!which)
-            fail(ErrorKind::usage, "frame: there is none named '" + std::string(frame) + "'");
+            fail(ErrorKind::usage, "frame: there is none named '" + std::string(name) + "'");
         choice.language = *known;
         choice.frame = *which;
+        if (name.size() < words.size()) {
+            const std::string_view stage = words.substr(name.size() + 1);
+            const auto wanted = stageFromName(stage);
+            if (!wanted)
+                fail(ErrorKind::usage,
+                     "stage: expected fragment, vertex, mesh or compute, found '" + std::string(stage) + "'");
+            choice.stage = *wanted;
+        }
         choice.convention = valueOf(conventionFromWords(word(convention, "convention")), "convention");
         const shader_text::ShaderText made = valueOf(shader_text::makeShaderText(choice), "shader");
         const std::size_t needed = made.text.size() + 1;

@@ -28,6 +28,12 @@ public:
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
+        report_.unread = unreadNormalMaps(document_);
+        for (const UnreadMap& map : report_.unread)
+            report_.notes.push_back(fmt::format(
+                "{}: a normal map in {} is not read here; it stays as it is, and so do the tangents that it "
+                "needs: {}",
+                map.name, map.format, map.advice));
         if (jobs->empty())
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {

@@ -59,6 +59,12 @@ double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot 
     return slot == NormalSlot::coat && coat->value("clearcoatFactor", 0.0) <= 0 ? 0 : map.scale;
 }
 
+std::string imageName(const Json& root, std::size_t image)
+{
+    const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+    return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
+}
+
 const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }
 
 // The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
@@ -111,9 +117,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
     const auto image = std::size_t(texture.image);
     MapJob& job = jobs[image];
     job.image = image;
-    job.name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
-    if (job.name.empty() || job.name.starts_with("data:"))
-        job.name = fmt::format("image {}", image);
+    job.name = imageName(root, image);
     if (std::ranges::find(job.places, place) == job.places.end())
         job.places.push_back(place);
     for (const glm::dmat3& linear : placed) {
@@ -150,6 +154,46 @@ std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
                 foreign.push_back({m, slot});
         }
     return foreign;
+}
+
+namespace {
+
+// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
+}
+
+} // namespace
+
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
+{
+    const Json& root = document.root;
+    std::set<int> images;
+    for (const MapPlace& place : foreignNormalMaps(document))
+        images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
+    std::vector<UnreadMap> unread;
+    for (const int image : images)
+        if (image >= 0)
+            if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
+                const std::string format = foreignFormat(*bytes);
+                unread.push_back(
+                    {std::size_t(image), imageName(root, std::size_t(image)),
+                     format.empty() ? "an unknown format" : format,
+                     format.starts_with("KTX2")
+                         ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
+                           "pack it again"
+                         : "make it PNG or JPEG, and convert again"});
+            }
+    return unread;
 }
 
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)

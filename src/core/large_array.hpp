@@ -8,7 +8,7 @@
 #include <new>
 #include <type_traits>
 
-#if __has_include(<sys/mman.h>)
+#if __has_include(<sys/mman.h>) && !defined(__EMSCRIPTEN__) // where malloc is all there is, and zeros are written out
 #include <sys/mman.h>
 #endif
 

@@ -311,10 +311,12 @@ std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
         return {};
     std::vector<glm::vec4> out;
     CornersAt at;
-    LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, [&] { // fresh memory takes half as long
+    auto makeRoom = [&] { // fresh memory takes half as long
         out = zeros(mesh.indices.size());
         at = noCorners(mesh);
-    });
+    };
+    const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
+    LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, beside);
     Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);
     addCorners(t, used, at);
     const int flags = std::reduce(t.flags.get(), t.flags.get() + t.count, std::uint8_t(0), std::bit_or<std::uint8_t>());

@@ -51,11 +51,12 @@ void Ring::make(const Triangles& t, std::span<const std::uint32_t> corners)
 void Ring::pair()
 {
     const auto sorted = [this](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
+        keys.resize(count);
         order.resize(count);
-        for (std::uint32_t i = 0; i < order.size(); ++i)
-            order[i] = i;
-        std::sort(order.begin(), order.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return std::pair(others[a], a) < std::pair(others[b], b); });
+        for (std::uint32_t i = 0; i < count; ++i)
+            keys[i] = std::uint64_t(others[i]) << 32 | i;
+        std::sort(keys.begin(), keys.end());
+        std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t key) { return std::uint32_t(key); });
     };
     sorted(leaving, byLeaving);
     sorted(coming, byComing);

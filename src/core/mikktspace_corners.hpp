@@ -52,6 +52,7 @@ private:
     std::uint32_t count = 0;                    // of corners; the lists are as long as the longest needed so far
     std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
     std::vector<std::uint32_t> byLeaving, byComing;
+    std::vector<std::uint64_t> keys; // another vertex, and the corner below it
 
     void join(std::uint32_t i, std::uint32_t j)
     {

@@ -84,9 +84,8 @@ struct Batch {
     {
         std::fill_n(sound, kLanes, 1);
         deriveDirections();
-        deriveContributions<0>();
-        deriveContributions<1>();
-        deriveContributions<2>();
+        for (std::size_t k = 0; k < 3; ++k)
+            deriveContributions(k);
     }
 
 private:
@@ -104,7 +103,7 @@ private:
         }
     }
 
-    template<std::size_t k> [[gnu::always_inline]] inline void deriveContributions()
+    [[gnu::always_inline]] inline void deriveContributions(std::size_t k)
     {
         const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
         for (std::size_t l = 0; l < kLanes; ++l) {

@@ -21,7 +21,7 @@ bool usable(const MeshView& mesh, std::size_t threads)
     return inRange;
 }
 
-LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const std::function<void()>& beside)
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const Task& beside)
 {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];

@@ -6,7 +6,6 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -46,17 +45,25 @@ inline void fetch([[maybe_unused]] const void* memory)
 #endif
 }
 
-struct Nothing {
-    void operator()() const {}
+// Something that is called once; a plain pointer, since std::function weighs more than what it is for here.
+struct Task {
+    void (*run)(void* what) = nullptr;
+    void* what = nullptr;
+
+    void operator()() const
+    {
+        if (run)
+            run(what);
+    }
 };
 
 // For every i < count the smallest j that has the same key. `key(i)` returns an array of
 // std::uint32_t of even length. Linear: hash tables with open addressing, one a thread; equal keys
 // have equal hashes and so meet in one table.
 // beside: something that one thread may do meanwhile; called once.
-template<class KeyOf, class Beside = Nothing>
+template<class KeyOf>
 LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1,
-                                     const Beside& beside = {})
+                                     const Task& beside = {})
 {
     const LargeArray<std::uint32_t> hashes = makeLargeArray<std::uint32_t>(count);
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
@@ -104,8 +111,7 @@ LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std:
 }
 
 // For every vertex the first vertex that equals it in position, normal and texcoord. beside: as firstEqual has it.
-LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1,
-                               const std::function<void()>& beside = Nothing());
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1, const Task& beside = {});
 
 // A unit vector perpendicular to n; n may be zero or not finite.
 glm::vec3 anyPerpendicular(glm::vec3 n);

@@ -1,5 +1,6 @@
 // cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES SHARED_DATA [CASE]
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -112,6 +113,60 @@ const cases = {
       assert.ok((await io.writeBinary(document)).length > 1000);
       console.log(`${path.basename(file)}: ${used.join(' ')}: ${report.maps.filter((map) => !map.kept).length} of ${report.maps.length} maps made anew`);
     }
+  },
+
+  async mapsInKtx2AreNamedWithWhatToDo() {
+    const file = path.join(data, 'compressed/jet_fighter_draco_basisu.glb');
+    if (!fs.existsSync(file)) skip(`${file} is not here`);
+    const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
+    const io = new NodeIO().registerExtensions(ALL_EXTENSIONS)
+      .registerDependencies({ 'draco3d.decoder': await (await from('draco3dgltf')).default.createDecoderModule() });
+    const document = await io.read(file), warnings = [];
+    document.setLogger({ debug() {}, info() {}, warn: (text) => warnings.push(text), error() {} });
+    const normalMaps = new Set(document.getRoot().listMaterials().map((material) => material.getNormalTexture()).filter(Boolean));
+    const before = [...normalMaps].map((texture) => texture.getImage());
+    assert.ok([...normalMaps].every((texture) => texture.getMimeType() === 'image/ktx2') && normalMaps.size > 0);
+    let report;
+    await document.transform(transforms.untangent({ report: (found) => { report = found; } }));
+    assert.equal(report.unread_maps.length, normalMaps.size);
+    for (const { image, name, format, advice } of report.unread_maps) {
+      assert.equal(document.getRoot().listTextures()[image].getMimeType(), 'image/ktx2');
+      assert.match(format, /^KTX2 with BasisU/);
+      assert.match(advice, /gltf-transform ktxdecompress/);
+      assert.ok(warnings.some((text) => text.startsWith('untangent: ') && text.includes(name) && text.includes(format) && text.includes(advice)), warnings.join('\n'));
+    }
+    assert.deepEqual([...normalMaps].map((texture) => texture.getImage()), before);
+  },
+
+  async itsCommandLineRunsOurCommands() {
+    const program = path.join(modules, '@gltf-transform/cli/bin/cli.js');
+    if (!fs.existsSync(program)) skip('@gltf-transform/cli is not installed');
+    const io = new NodeIO(), file = (name) => path.join(folder, name), { document, mesh } = await hillsDocument();
+    await io.write(file('in.glb'), document);
+    const run = (...words) => {
+      const { status, stdout, stderr } = spawnSync(process.execPath, [program, ...words, '--config', 'node_modules/cotan/gltf-transform/config.mjs'],
+        { cwd: folder, encoding: 'utf8', env: { ...process.env, NO_COLOR: '1' } });
+      assert.equal(status, 0, `${words.join(' ')}: ${stdout}${stderr}`);
+      return stdout + stderr;
+    };
+    const primitiveOf = async (name) => (await io.read(file(name))).getRoot().listMeshes()[0].listPrimitives()[0];
+    run('cotan-tangents', 'in.glb', 'tangents.glb');
+    assert.deepEqual(cornersOf(await primitiveOf('tangents.glb'), 'TANGENT', 4), cotan.tangents(mesh));
+    run('cotan-tangents', 'tangents.glb', 'vertex.glb', '--kind', 'vertex', '--overwrite', 'true');
+    assert.deepEqual(cornersOf(await primitiveOf('vertex.glb'), 'TANGENT', 4), cotan.tangents(mesh, { kind: 'vertex' }));
+
+    run('untangent', 'tangents.glb', 'free.glb', '--to', 'cotangent');
+    const ours = await io.read(file('tangents.glb'));
+    await ours.transform(transforms.untangent({ to: 'cotangent' }));
+    assert.equal((await primitiveOf('free.glb')).getAttribute('TANGENT'), null);
+    const [map, expected] = [await io.read(file('free.glb')), ours].map((d) => d.getRoot().listTextures()[0].getImage());
+    assert.deepEqual(await cotan.decodePng(map), await cotan.decodePng(expected));
+
+    run('provoking', 'in.glb', 'last.glb', '--vertex', 'last');
+    (await primitiveOf('last.glb')).getIndices().getArray().forEach((index, i) => { if (i % 3 === 2) assert.equal(index, (i - 2) / 3); });
+    const { recommendation } = await cotan.lint(fs.readFileSync(file('in.glb')));
+    assert.ok(run('lint-normals', 'in.glb').includes(recommendation.split('\n')[0]));
+    assert.match(run('--help'), /untangent/);
   },
 
   async webpMapsBecomePng() {

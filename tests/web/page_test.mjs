@@ -15,7 +15,7 @@ if (!existsSync(join(root, 'index.html'))) {
 }
 const require = createRequire(join(modules, 'x.js'));
 const { chromium } = require('playwright-core');
-const { decode } = await import(join(modules, 'fast-png/lib/index.js'));
+const { decode, encode } = await import(join(modules, 'fast-png/lib/index.js'));
 const scratch = join(dirname(root), 'page-pictures'), errors = [], hasData = existsSync(join(data, 'textures'));
 mkdirSync(scratch, { recursive: true });
 let tried = 0, failed = 0, skipped = 0;
@@ -30,7 +30,8 @@ await new Promise(done => server.once('listening', done));
 const address = `http://127.0.0.1:${server.address().port}/`;
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader',
+    '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--disable-quic', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync'],
 });
 
@@ -226,6 +227,17 @@ await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
   }
 }, needsData);
 
+await fact('mapsInKtx2AreNamedWithWhatToDo', async () => {
+  const page = await open();
+  await drop(page, [join(data, 'compressed/jet_fighter_draco_basisu.glb')]);
+  await page.locator('.result select').first().selectOption('cotangent');
+  await saved(page, () => page.click('text=Convert and download'));
+  await page.waitForFunction(() => /bytes|KB|MB/.test(document.querySelector('.result').textContent) && !/Converting/.test(document.querySelector('.result').textContent));
+  const words = await page.textContent('.result');
+  await page.context().close();
+  return / is in KTX2 with BasisU.*, which is not read here.*gltf-transform ktxdecompress/.test(words) ? '' : `says: ${words.slice(0, 1500)}`;
+}, needsData);
+
 await fact('badFilesAreAnsweredInOneLineEach', async () => {
   const page = await open(), wrong = [], walk = folder => readdirSync(folder).flatMap(name => {
     const path = join(folder, name);
@@ -257,6 +269,89 @@ await fact('theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice', async () => 
   await page.screenshot({ path: join(scratch, 'page-shader.png') });
   await page.context().close();
   return copied === shown ? '' : 'what was copied is not what is shown';
+});
+
+await fact('theShaderOfTheFrameTriangleIsGivenByStage', async () => {
+  for (const stage of ['fragment', 'mesh']) {
+    const page = await open({}, `#shader?lang=wgsl&frame=triangle&map=gltf&stage=${stage}`);
+    await page.waitForFunction(() => document.querySelector('pre code')?.textContent.length > 500 || document.querySelector('#shader-panel [role=status]')?.textContent);
+    const text = await page.textContent('pre code'), tools = run('shader', '--lang', 'wgsl', '--frame', 'triangle', '--stage', stage, '--preset', 'gltf');
+    if (text.trim() !== tools.trim()) return `the text for ${stage} differs from the tool's: ${text.slice(0, 200)} ${await page.textContent('#shader-panel [role=status]')}`;
+    await page.context().close();
+  }
+});
+
+// One thing drawn both ways. SwiftShader rasterises and samples for both, so what differs is how numbers are rounded: by one step of
+// 8 bits. A map that is larger than the canvas is seen through its levels, whose texels are rounded too: there a step of a texel is up to
+// 0.45 degrees, which the highlight, a power of 40, makes five steps of.
+await fact('webGpuAndWebGlDrawTheSamePictures', async () => {
+  const large = { width: 1536, height: 1100, depth: 8, channels: 3, data: new Uint8Array(1536 * 1100 * 3) };
+  for (let k = 0; k < 1536 * 1100; ++k) {
+    const [x, y] = [0.6 * Math.sin((k % 1536) / 40), 0.6 * Math.cos(Math.floor(k / 1536) / 25)];
+    large.data.set([x, y, Math.sqrt(1 - x * x - y * y)].map(c => Math.round(128 + 127 * c)), 3 * k);
+  }
+  writeFileSync(join(scratch, 'large.png'), encode(large));
+  const patches = [1, 2, 3, 4].map(k => `.patches figure:nth-child(${k}) canvas`);
+  async function pictures(way) {
+    const page = await open();
+    if (way !== 'WebGPU') await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'gpu', { value: undefined }));
+    if (way !== 'WebGPU') await page.reload();
+    const taken = [];
+    for (const [map, places] of [['sample', ['.view canvas', ...patches]], ['large', ['.view canvas']]]) {
+      if (map === 'sample') await page.click('#sample-map'); else await drop(page, [join(scratch, 'large.png')]);
+      await settled(page);
+      await page.waitForFunction(way => document.querySelectorAll(`[data-drawn-with="${way}"] canvas`).length === 5, way);
+      for (const place of places) {
+        await page.locator(place).scrollIntoViewIfNeeded();
+        await page.waitForTimeout(300);
+        const path = join(scratch, `page-${way.replace(' ', '')}-${map}-${Math.max(0, patches.indexOf(place) + 1)}.png`);
+        taken.push({ name: `${map}: ${place}`, limit: map === 'large' ? 5 : 1, ...decode(await page.locator(place).screenshot({ path })) });
+      }
+    }
+    await page.context().close();
+    return taken;
+  }
+  const [gpu, gl] = [await pictures('WebGPU'), await pictures('WebGL 2')];
+  const wrong = gpu.flatMap((a, k) => {
+    const b = gl[k];
+    if (a.width !== b.width || a.height !== b.height) return [`${a.name}: ${a.width} x ${a.height} and ${b.width} x ${b.height}`];
+    let most = 0, several = 0, shown = 0;
+    for (let i = 0; i < a.data.length; i += a.channels) {
+      const step = Math.max(...[0, 1, 2].map(c => Math.abs(a.data[i + c] - b.data[i + c])));
+      most = Math.max(most, step);
+      several += step > 1;
+      shown += Math.abs(a.data[i] - a.data[0]) > 24;
+    }
+    const pixels = a.width * a.height, said = `${a.name}: ${most} steps at the most, ${several} of ${pixels} pixels differ by more than one, ${shown} show something`;
+    if (process.env.VERBOSE) console.log(said);
+    return most <= a.limit && shown > 0.05 * pixels ? [] : [said];
+  });
+  return wrong.join('\n');
+});
+
+await fact('aLostDeviceLeavesThePicturesToWebGl', async () => {
+  const page = await open();
+  await page.addInitScript(() => {
+    const ask = GPUAdapter.prototype.requestDevice;
+    GPUAdapter.prototype.requestDevice = async function (...values) { return window.device = await ask.apply(this, values); };
+  });
+  await page.reload();
+  await page.click('#sample-map');
+  await settled(page);
+  await page.waitForFunction(() => document.querySelectorAll('[data-drawn-with="WebGPU"] canvas').length === 5);
+  const before = decode(await page.locator('.view canvas').screenshot());
+  await page.evaluate(() => window.device.destroy());
+  await page.waitForFunction(() => document.querySelectorAll('[data-drawn-with="WebGL 2"] canvas').length === 5);
+  const after = decode(await page.locator('.view canvas').screenshot());
+  if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
+  let differ = 0;
+  for (let k = 0; k < before.data.length; ++k) differ += Math.abs(before.data[k] - after.data[k]) > 4;
+  if (differ > 0) return `${differ} numbers of the picture are others afterwards`;
+  const box = await page.locator('.view canvas').boundingBox(); // the light still follows
+  await page.mouse.move(box.x + box.width * 0.9, box.y + box.height * 0.9);
+  const moved = decode(await page.locator('.view canvas').screenshot());
+  await page.context().close();
+  return Buffer.compare(Buffer.from(moved.data), Buffer.from(after.data)) === 0 ? 'the light stays where it was' : '';
 });
 
 await fact('thePatchAnswersKeysAndPointerWithRightDegrees', async () => {

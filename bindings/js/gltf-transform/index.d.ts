@@ -1,27 +1,29 @@
 import type { Transform } from '@gltf-transform/core';
+import type { ConvertReport, LintReport, Picture } from '../cotan.js';
 
 /** Gives every primitive tangents, indexed ones too: vertices are copied where the corners that share one differ.
  * Primitives that have some keep them, unless overwrite is true. What cannot have any is left, with a warning. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
 /** Makes the normal maps for another frame and drops TANGENT, as `cotan convert` does: see convert of the package
- * cotan. Gives new tangents where `to` reads some. Maps in WebP and AVIF become PNG; those in KTX2 stay as they are. */
+ * cotan. Gives new tangents where `to` reads some. Maps in WebP and AVIF become PNG. Those in KTX2 stay as they are, and so do
+ * the tangents that they need: the report has them as unread_maps. */
 export function untangent(options?: {
   from?: string;
   to?: string;
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
-  decode?: (bytes: Uint8Array, name: string) => Promise<any>;
-  /** Gets the report of the conversion. */
-  report?: (report: any) => void;
+  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  /** Gets the report of the conversion. Its notes are warnings of the document's logger too. */
+  report?: (report: ConvertReport) => void;
 }): Transform;
 
 /** Says what to expect of the model when its maps are read without stored tangents; changes nothing. */
 export function lintNormals(options?: {
   distance?: number;
-  decode?: (bytes: Uint8Array, name: string) => Promise<any>;
-  report?: (report: any) => void;
+  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  report?: (report: LintReport) => void;
 }): Transform;
 
 /** Numbers the vertices so that vertex k provokes triangle k: see provoking of the package cotan. */

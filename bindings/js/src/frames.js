@@ -1,5 +1,5 @@
 // Frames at places on a surface, and shader text.
-import { floats, options } from './arrays.js';
+import { choice, floats, options } from './arrays.js';
 import { usage } from './instance.js';
 
 export function frameFunctions(library) {
@@ -23,8 +23,10 @@ export function frameFunctions(library) {
     frames: () => library.run((s) =>
       Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)))),
     shader: (given) => library.run((s) => {
-      const o = options(given, { language: 'glsl', frame: 'cotangent', convention: 'gltf' });
-      const words = [s.text(o.language, 'options.language'), s.text(o.frame, 'options.frame'), s.text(o.convention, 'options.convention')];
+      const o = options(given, { language: 'glsl', frame: 'cotangent', convention: 'gltf', stage: undefined });
+      if (o.stage !== undefined) choice(o.stage, 'options.stage', ['fragment', 'vertex', 'mesh', 'compute']);
+      const frame = s.text(o.stage ? `${o.frame},${o.stage}` : o.frame, 'options.frame');
+      const words = [s.text(o.language, 'options.language'), frame, s.text(o.convention, 'options.convention')];
       const size = s.put(new Uint32Array(1));
       s.call('cotan_shader_text', ...words, 0, size);
       const text = s.room(s.view(Uint32Array, size, 1)[0]);

@@ -18,6 +18,23 @@ function arraysOf(mesh) {
   };
 }
 
+/** Vertices of which some are copied: work(indices, sources, count) writes them. */
+export const splitBy = (s, vertices, corners, work) => {
+  const indices = s.room(4 * corners), sources = s.room(4 * (vertices + corners)), count = s.room(4);
+  work(indices, sources, count);
+  return {
+    indices: s.take(Uint32Array, indices, corners),
+    sources: s.take(Uint32Array, sources, s.view(Uint32Array, count, 1)[0]),
+  };
+};
+
+/** A number of vertices. */
+export function counted(vertexCount) {
+  if (!(Number.isInteger(vertexCount) && vertexCount >= 0 && vertexCount < 2 ** 32))
+    throw usage(`vertexCount: expected a whole number, found ${wordsFor(vertexCount)}`);
+  return vertexCount;
+}
+
 /** The functions over a library. */
 export function tangentFunctions(library) {
   const withMesh = (mesh, work) => library.run((s) => {
@@ -36,14 +53,6 @@ export function tangentFunctions(library) {
     s.call(name, count, ...given.map((array) => s.put(array)), out);
     return s.take(Type, out, width * count);
   });
-  const splitBy = (s, vertices, corners, work) => {
-    const indices = s.room(4 * corners), sources = s.room(4 * (vertices + corners)), count = s.room(4);
-    work(indices, sources, count);
-    return {
-      indices: s.take(Uint32Array, indices, corners),
-      sources: s.take(Uint32Array, sources, s.view(Uint32Array, count, 1)[0]),
-    };
-  };
 
   return {
     tangents(mesh, given) {
@@ -69,8 +78,7 @@ export function tangentFunctions(library) {
     split(vertexCount, indices, corners) {
       const list = words(indices, 'indices');
       const values = floats(corners, 'corners', 4, list.length);
-      if (!(Number.isInteger(vertexCount) && vertexCount >= 0 && vertexCount < 2 ** 32))
-        throw usage(`vertexCount: expected a whole number, found ${wordsFor(vertexCount)}`);
+      counted(vertexCount);
       return library.run((s) => splitBy(s, vertexCount, list.length, (...out) =>
         s.call('cotan_split_vertices', vertexCount, list.length, s.put(list), s.put(values), ...out)));
     },
@@ -96,20 +104,6 @@ export function tangentFunctions(library) {
     packTangents(normals, tangents) {
       const ns = floats(normals, 'normals', 3), ts = floats(tangents, 'tangents', 4, ns.length / 3);
       return pack([ns, ts], 'cotan_pack_tangents', 3, ns, Uint16Array, 1);
-    },
-
-    provoking(vertexCount, indices, given) {
-      const { vertex } = options(given, { vertex: 'first' });
-      choice(vertex, 'options.vertex', ['first', 'last']);
-      const list = words(indices, 'indices');
-      if (!(Number.isInteger(vertexCount) && vertexCount >= 0 && vertexCount < 2 ** 32))
-        throw usage(`vertexCount: expected a whole number, found ${wordsFor(vertexCount)}`);
-      return library.run((s) => {
-        const corners = s.room(4 * list.length);
-        const split = splitBy(s, vertexCount, list.length, (...out) =>
-          s.call('cotan_provoking', vertexCount, list.length, s.put(list), vertex === 'last' ? 1 : 0, ...out, corners));
-        return { ...split, corners: s.take(Uint32Array, corners, list.length) };
-      });
     },
   };
 }

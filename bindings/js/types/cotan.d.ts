@@ -88,6 +88,8 @@ export function shader(options?: {
   language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
   frame?: string;
   convention?: Convention;
+  /** Of the frame "triangle" only: the part for one stage; left out: all of them. */
+  stage?: 'fragment' | 'vertex' | 'mesh' | 'compute';
 }): string;
 
 /** Vertices numbered so that vertex k provokes triangle k; corners: of the old vertices, the provoking one first. */
@@ -105,9 +107,46 @@ export interface ModelOptions {
   progress?: (done: number) => boolean | void;
 }
 
-/** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents: the report of
- * `cotan lint --json`, `recommendation` first. */
-export function lint(model: Bytes, options?: ModelOptions & { distance?: number }): Promise<any>;
+/** The report of `cotan lint --json`. */
+export interface LintReport {
+  recommendation: string;
+  /** The frame to convert to; empty: nothing has to change. */
+  advice: string;
+  warnings: string[];
+  primitives: any[];
+  [more: string]: any;
+}
+
+/** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents. */
+export function lint(model: Bytes, options?: ModelOptions & { distance?: number }): Promise<LintReport>;
+
+/** A normal map that stays as it is, with the tangents that it needs, since its format is not read here. */
+export interface UnreadMap {
+  image: number;
+  name: string;
+  /** "KTX2 with BasisU (ETC1S)". */
+  format: string;
+  /** What to do. */
+  advice: string;
+}
+
+/** The report of `cotan convert --json`. */
+export interface ConvertReport {
+  maps: {
+    image: number;
+    name: string;
+    size: [number, number];
+    /** It stays, since the new frame reads it as well as a new one. */
+    kept: boolean;
+    bytes_before: number;
+    bytes_after: number;
+    [more: string]: any;
+  }[];
+  unread_maps: UnreadMap[];
+  tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
+  /** What the user should know, one line each; unread maps are among it. */
+  notes: string[];
+}
 
 /** The model's normal maps made for another frame, as `cotan convert` does. */
 export function convert(model: Bytes, options?: ModelOptions & {
@@ -121,7 +160,7 @@ export function convert(model: Bytes, options?: ModelOptions & {
   generateTangents?: boolean;
   /** The PNG file of a picture; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
-}): Promise<{ glb: Uint8Array; report: any }>;
+}): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
 // ---- pictures
 

@@ -11,7 +11,7 @@ def shader(lang: str, frame: str = "cotangent", convention: str = "gltf") -> str
 
     Args:
         lang: "glsl", "essl", "hlsl", "wgsl", "msl", "cpp" or "godot" (a whole spatial shader).
-        frame: see `frames`.
+        frame: see `frames`; "triangle,vertex" and the like give the part for one stage (fragment, vertex, mesh, compute).
         convention: how the map is stored.
     """
     words = [arrays.encoded(w, n) for w, n in ((lang, "lang"), (frame, "frame"), (convention, "convention"))]

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cotan/convert/map_jobs.hpp"
 #include "cotan/convert/reencode.hpp"
 #include "cotan/convert/tangents.hpp"
 #include "cotan/files/limits.hpp"
@@ -51,6 +52,7 @@ struct ConvertModelReport {
     TangentsAfter tangents = TangentsAfter::dropped; // given: the new frame reads them; kept: keepTangents
     std::size_t primitivesGiven = 0;                 // that have new tangents
     TangentBytes dropped;
+    std::vector<UnreadMap> unread;  // normal maps that stay, since their format is not read here
     std::vector<std::string> notes; // what the user should know, one line each
 };
 

@@ -42,4 +42,14 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
 // the texture itself.
 std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document);
 
+// A normal map that stays as it is, since its format is not read here.
+struct UnreadMap {
+    std::size_t image = 0; // index into the file's images
+    std::string name;
+    std::string format; // "KTX2 with BasisU (ETC1S)"
+    std::string advice; // what to do, one line
+};
+// In the order of the file's images.
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
+
 } // namespace cotan

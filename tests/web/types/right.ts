@@ -1,0 +1,76 @@
+// Every export of the package once, as its typings have it: compiled in strict mode by types_test.mjs, not run.
+import * as cotan from 'cotan';
+import * as beside from 'cotan/beside';
+import * as small from 'cotan/tangents';
+import * as smallBeside from 'cotan/tangents/beside';
+import { frames, lintNormals, provoking, tangents, untangent } from 'cotan/gltf-transform';
+import { replaceFrame, untangle, untangled, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
+import * as tsl from 'cotan/three/tsl';
+import { Document, type Transform } from '@gltf-transform/core';
+import { Material, MeshStandardMaterial, Object3D, Texture } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+
+await Promise.all([cotan.ready, beside.ready, small.ready, smallBeside.ready]);
+const version: string = cotan.version();
+
+// Tangents
+const mesh: small.Mesh = { positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], normals: new Float32Array(9), uvs: [0, 0, 1, 0, 0, 1], indices: [0, 1, 2] };
+const corners: Float32Array = small.tangents(mesh, { kind: 'vertex' });
+const { u, v }: { u: Float32Array; v: Float32Array } = smallBeside.smooth(mesh);
+const onTriangles = cotan.triangles(mesh);
+const { sources, indices }: cotan.Split = cotan.split(3, [0, 1, 2], corners);
+const mirrored: Uint32Array = beside.splitMirrored(mesh).indices;
+const words: Uint32Array = cotan.packTriangles(onTriangles.u, onTriangles.v);
+const eight: Int16Array = cotan.packSmooth(mesh.normals, u, v);
+const four: Uint32Array = cotan.packSmooth(mesh.normals, u, v, { bytes: 4 });
+const two: Uint16Array = cotan.packTangents(mesh.normals, corners);
+const provoked: Uint32Array = cotan.provoking(3, indices, { vertex: 'last' }).corners;
+
+// Maps
+const picture: cotan.Picture = await cotan.decodePng(new Uint8Array());
+const read: cotan.Picture & { bits: number } = await cotan.decodePicture(new Uint8Array(), 'map.jpg');
+const file: Uint8Array = await cotan.encodePng(read);
+const green: 'up' | 'down' | 'unknown' = cotan.detect(picture).green;
+const zero: 127 | 128 | null = cotan.info(picture).zero;
+const bits: cotan.Bits = 16, convention: cotan.Convention = 'unity,xyz';
+const other: cotan.Picture = cotan.convertMap(picture, { from: convention, to: 'gltf', bits });
+const blended: cotan.Picture = cotan.blend(picture, other, { mode: 'whiteout', strength: 0.5 });
+const made: cotan.Picture = cotan.fromHeight(blended, { scale: [1, 2] });
+const heights: Float32Array = cotan.toHeight(made, { from: 'directx' }).data;
+const roughness: cotan.Picture | undefined = cotan.mips(made, { roughness: 0.2 })[0]?.roughness;
+
+// Frames, shaders
+const places: cotan.Places = { normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] };
+const atVertices: cotan.VertexPlaces = { normals: [0, 0, 1], tangents: [1, 0, 0, 1] };
+const normals: Float32Array = cotan.apply('cotangent', places, [0, 0, 1]), texels: Float32Array = cotan.encode('mikktspace', atVertices, normals);
+const names: string[] = cotan.frames();
+const text: string = cotan.shader({ language: 'wgsl', frame: 'triangle', convention: 'gltf', stage: 'vertex' });
+
+// Models
+const options: cotan.ModelOptions = { files: { 'scene.bin': new ArrayBuffer(4) }, decode: async () => read, progress: (done) => done < 0.5 };
+const judged: cotan.LintReport = await cotan.lint(file, { ...options, distance: 2 });
+const { glb, report } = await cotan.convert(file, { ...options, to: 'smooth', bits: 8, keepTangents: true, encode: async () => file });
+const unread: cotan.UnreadMap[] = report.unread_maps, advice: string | undefined = unread[0]?.advice, notes: string[] = (report satisfies cotan.ConvertReport).notes;
+try {
+  cotan.shader();
+} catch (error) {
+  if (error instanceof cotan.CotanError && error.code === 'input') console.log(error.file, error.field, error.expected, error.found);
+}
+
+// glTF-Transform
+const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', report: (r) => r.unread_maps.map((map) => map.name) }),
+  lintNormals({ report: (r) => r.recommendation }), provoking({ vertex: 'first' })];
+await new Document().transform(...all);
+const known: string[] = frames();
+
+// three.js
+const frame: Frame = 'triangle', wanted: UntangleOptions = { frame };
+const model: LoadedModel = await new GLTFLoader().register(untangled(wanted)).loadAsync('model.glb');
+const same: LoadedModel = untangle(model, wanted), object: Object3D = untangle(new Object3D());
+const material: MeshStandardMaterial = replaceFrame(new MeshStandardMaterial(), { frame: 'orthonormal', against: true, from: new Material() });
+tsl.untangle(object, { frame: 'cotangent' } satisfies tsl.UntangleNodesOptions);
+tsl.replaceFrame(material, { against: false });
+new GLTFLoader().register(tsl.untangled());
+const node = tsl.perturbedNormal(new Texture());
+
+export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, glb, advice, notes, known, same, node };

@@ -1,0 +1,59 @@
+// The typings of the package, by the compiler of TypeScript: node types_test.mjs TARBALL NODE_MODULES [CASE]
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+import { installed, skip } from './shared.mjs';
+
+const [tarball, modules, only] = process.argv.slice(2);
+if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
+const compiler = path.join(modules, 'typescript/lib/tsc.js');
+if (!fs.existsSync(compiler) || !fs.existsSync(path.join(modules, '@types/three'))) skip('typescript and @types/three are not installed');
+const folder = installed(tarball, modules, ['@gltf-transform', 'property-graph', 'three', '@types']);
+
+/** What the compiler says of a program, typings of the package and of what they name included. */
+function compiled(name, text) {
+  fs.writeFileSync(path.join(folder, name), text);
+  fs.writeFileSync(path.join(folder, 'tsconfig.json'), JSON.stringify({ files: [name], compilerOptions: {
+    noEmit: true, strict: true, noUncheckedIndexedAccess: true, target: 'es2022', lib: ['es2022', 'dom', 'dom.iterable'], module: 'nodenext', types: [],
+  } }));
+  const { stdout, stderr, error } = spawnSync(process.execPath, [compiler, '--pretty', 'false'], { cwd: folder, encoding: 'utf8' });
+  if (error || stderr) throw error ?? new Error(stderr);
+  // Those of other packages are not ours to mend; theirs are checked because ours have to be.
+  return stdout.split('\n').filter((line) => /error TS/.test(line) && !/^node_modules\/(?!cotan\/)|^\.\.\//.test(line));
+}
+const program = (name) => fs.readFileSync(path.join(import.meta.dirname, 'types', name), 'utf8');
+
+const cases = {
+  typingsTakeEveryExportInStrictMode() {
+    assert.deepEqual(compiled('right.ts', program('right.ts')), []);
+  },
+
+  async typingsNameWhatThereIsAndNothingElse() {
+    fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
+    const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
+    let text = '';
+    for (const [k, entry] of ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside', 'cotan/gltf-transform', 'cotan/three', 'cotan/three/tsl'].entries()) {
+      const names = Object.keys(await from(entry));
+      assert.ok(names.length > 2, entry);
+      for (const name of names) assert.match(program('right.ts'), new RegExp(`\\b${name}\\b`), `right.ts does not use ${name} of ${entry}`);
+      text += `import * as entry${k} from '${entry}';\nexport const names${k}: Record<keyof typeof entry${k}, true> = { ${names.map((name) => `${name}: true`).join(', ')} };\n`;
+    }
+    assert.deepEqual(compiled('names.ts', text), []);
+  },
+
+  wrongCallsAreRefusedLineByLine() {
+    const text = program('wrong.ts'), errors = compiled('wrong.ts', text);
+    const refused = new Set(errors.map((line) => Number(/^wrong\.ts\((\d+),/.exec(line)?.[1])));
+    const wrong = text.split('\n').flatMap((line, k) => (line === '' || /^(\/\/|import )/.test(line) ? [] : [k + 1]));
+    assert.ok(wrong.length > 10);
+    assert.deepEqual([...refused].sort((a, b) => a - b), wrong);
+  },
+};
+for (const [name, work] of Object.entries(cases)) {
+  if (only && only !== name) continue;
+  await work();
+  console.log(`holds: ${name}`);
+}
