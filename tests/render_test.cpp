@@ -179,6 +179,29 @@ TEST(RenderDevice, aSceneReplacesTheOneBefore)
     EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f);
 }
 
+// The third scene has another picture on purpose, which must not be looked at.
+TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
+{
+    COTAN_RENDERER_OR_SKIP(renderer, {});
+    const Scene still = sceneOf(sphere(6), flatImage(texelOf({0.3f, 0.1f, 1})));
+    Scene moved = still;
+    moved.instances[0].toWorld[3] = {0.3f, 0.2f, 0, 1};
+    moved.materials[0].baseColorMap.image = 0; // another way of use
+    Scene other = moved;
+    other.images[0] = flatImage(texelOf({-0.3f, 0.5f, 1}));
+    const View view = viewOf(Output::normal);
+    load(renderer, moved);
+    const Image fresh = drawn(renderer, view);
+    load(renderer, other);
+    EXPECT_NE(drawn(renderer, view).data, fresh.data);
+    load(renderer, still);
+    EXPECT_NE(drawn(renderer, view).data, fresh.data);
+    for (const Scene* scene : {&moved, &other}) {
+        ASSERT_TRUE(renderer.load(*scene, /*sameImages*/ true));
+        EXPECT_EQ(drawn(renderer, view).data, fresh.data);
+    }
+}
+
 TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});

@@ -1,6 +1,7 @@
 // `cotan view` of models that move.
 #include <gtest/gtest.h>
 
+#include "cotan/shapes/shapes.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
 
@@ -24,6 +25,36 @@ TEST(ViewAnimation, aMomentIsThePictureThatRenderWritesAndTheFileIsReadOnce)
                                   folder.path());
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "r.png")), 0u);
+}
+
+// Textures stay on the device between moments, also those of another way to read a map; a map that has changed
+// meanwhile, of the same size, does not.
+TEST(ViewAnimation, everyMomentHasTheTexturesThatRenderHas)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(movingQuad(), folder.path());
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
+    ASSERT_TRUE(writeImage(folder / "other.png", makeReliefMap(Relief::waves, 64)));
+    const std::vector<std::string> words = {"--size",       "160x120", "--camera",   "0,1,6,0,1,0",
+                                            "--normal-map", "map.png", "--exposure", "1"};
+    std::vector<std::string> seen = words;
+    seen.insert(seen.begin(), "quad.gltf");
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do set animation high\n0 do set time 1\n0 wait\n0 do picture v1.png\n"
+                             "0 do set time 2\n0 wait\n0 do picture v2.png\n"
+                             "0 do show normal-map\n0 do set time 3\n0 wait\n"
+                             "0 do show shaded\n0 do convention directx\n0 wait\n0 do picture v3.png\n0 do convention\n"
+                             "0 do normal-map other.png\n0 do set time 1\n0 wait\n0 do picture v4.png\n",
+                             seen);
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const std::string name : {"v1.png", "v2.png", "v3.png", "v4.png"}) {
+        std::filesystem::rename(folder / name, folder / ("window-" + name));
+        const std::string command = doWritten(folder, run.out, name);
+        ASSERT_NE(command, "") << run.out;
+        EXPECT_TRUE(readWhole(folder / name) == readWhole(folder / ("window-" + name))) << command;
+    }
+    EXPECT_GT(differentPixels(readPicture(folder / "v1.png"), readPicture(folder / "v4.png")), 100u);
 }
 
 TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)

@@ -108,6 +108,28 @@ TEST(ViewWindow, aMenuIsOpenedAndChosenFromByThePointer)
               "no"); // what the menu takes the picture does not get
 }
 
+// Code 0 alone does not tell a session that was lived through from one that chose Quit on its way.
+TEST(ViewWindow, theReportSaysHowASessionEnded)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    const std::string quitInAMenu = "0 do scale 1\n0 wait\n0 move 20 10\n0 press left\n0 release left\n0 wait\n" // File
+                                    "0 move 25 314\n0 press left\n0 release left\n0 wait\n"; // its last entry
+    for (const auto& [session, by] : std::vector<std::pair<std::string, std::string>>{{"0 wait\n", "last event"},
+                                                                                      {quitInAMenu, "menu"},
+                                                                                      {"0 key ctrl+q\n", "key"},
+                                                                                      {"0 close\n", "close button"},
+                                                                                      {"0 do quit\n", "command"}}) {
+        const ToolRun run =
+            play(folder, session + "0 wait\n0 do report r.txt\n",
+                 {"--shape", "plane", "--size", "640x600", "--device", "reference", "--json", "end.json"});
+        ASSERT_EQ(run.code, 0) << run.err;
+        const std::string end = readWhole(folder / "end.json");
+        EXPECT_NE(end.find(fmt::format(R"("ended": "{}")", by)), std::string::npos) << end;
+        EXPECT_EQ(std::filesystem::remove(folder / "r.txt"), by == "last event") << by;
+    }
+}
+
 TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
 {
     COTAN_NEEDS_DISPLAY();

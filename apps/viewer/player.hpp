@@ -23,6 +23,7 @@ public:
 
     bool waits() const { return waits_; }
     bool ended() const { return next_ == events_.size(); }
+    std::size_t played() const { return next_; } // events
 
     // What a played command could not do: the first of them is how the session ends.
     void blame(const std::string& problem);

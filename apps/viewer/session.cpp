@@ -50,6 +50,16 @@ Interface interfaceNow(const Parts& parts)
 
 namespace {
 
+// By what the user asked for the end.
+const char* quitBy(const Event& event)
+{
+    switch (event.kind) {
+    case EventKind::close: return "close button";
+    case EventKind::command: return event.seconds < 0 ? "menu" : "command";
+    default: return "key";
+    }
+}
+
 class Session {
 public:
     Session(State state, const SessionOptions& options)
@@ -195,6 +205,9 @@ private:
             written_ = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
             if (written_ && state_.problem != before)
                 player_.blame(state_.problem);
+            if (ended_.empty()
+                && std::ranges::any_of(state_.wishes, [](const Wish& w) { return w.kind == Wish::Kind::quit; }))
+                ended_ = quitBy(event);
         }
         goOn(state_, passed);
     }
@@ -248,6 +261,8 @@ private:
                 {"pictures", state_.pictures},
                 {"loads", state_.loads},
                 {"failed_loads", state_.failedLoads},
+                {"ended", ended_.empty() ? "last event" : ended_},
+                {"events_played", player_.played()},
                 {"seconds",
                  {{"window", windowSeconds_},
                   {"load", loadSeconds_},
@@ -273,6 +288,7 @@ private:
     double start_ = 0, last_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstShown_ = 0;
     std::optional<Error> refused_; // why there is no first model
     bool written_ = false;         // what happens now was written as a command
+    std::string ended_;            // what asked for the end; empty: nothing has
 };
 
 } // namespace

@@ -39,11 +39,11 @@ struct Parts {
 
     State state;
     const SessionOptions& options;
+    std::unique_ptr<Window> window; // outlives the threads of those below, which wake it
     Waker waker;
     Loader loader;
     Pictures pictures;
     PointerProbe probe;
-    std::unique_ptr<Window> window;
     Dialog dialog;
     Watch watch; // of the model's file
     bool quits = false;

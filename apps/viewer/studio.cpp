@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,15 @@ bool plain(const PictureOptions& o, Frame frame)
 std::string lightKey(const PictureOptions& o)
 {
     return fmt::format("{}|{}|{}", o.environment, o.environmentRotation, o.environmentIntensity);
+}
+
+// Compared, and not told by keys: a map's file may have changed meanwhile, and a model that is read again may not have.
+bool sameImages(const std::vector<Image>& a, const std::vector<Image>& b)
+{
+    return std::ranges::equal(a, b, [](const Image& x, const Image& y) {
+        return x.width == y.width && x.height == y.height && x.type == y.type && x.data.size() == y.data.size()
+            && std::memcmp(x.data.data(), y.data.data(), x.data.size()) == 0;
+    });
 }
 
 View smaller(View view)
@@ -212,7 +222,7 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
         if (known.key == key && known.painter)
             return &known;
     Stage& s = stages_[index];
-    s.key.clear();
+    const bool loaded = !std::exchange(s.key, {}).empty();
     if (!s.painter) {
         auto painter = app::openDevice(deviceOf(o), common_, validation_);
         if (!painter)
@@ -220,9 +230,9 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
         s.painter = std::move(*painter);
     }
     s.painter->forget();
-    s.scene = nullptr;
-    s.own = {};
-    s.model = order.model;
+    const auto modelBefore = std::exchange(s.model, order.model);
+    const Scene ownBefore = std::exchange(s.own, {});
+    const Scene* before = !loaded ? nullptr : s.scene == &s.own ? &ownBefore : s.scene;
     s.scene = &s.model->scene;
     if (!plain(o, *frame) || !inspection.empty()) {
         s.own = s.model->scene;
@@ -230,8 +240,9 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
             return prepared.error();
         s.scene = &s.own;
     }
-    if (Status loaded = s.painter->load(*s.scene); !loaded)
-        return loaded.error();
+    const bool same = before && sameImages(before->images, s.scene->images);
+    if (Status done = s.painter->load(*s.scene, same); !done)
+        return done.error();
     s.key = key;
     return &s;
 }

@@ -18,7 +18,7 @@ public:
     std::string device() const override { return "reference"; }
 
 private:
-    Status loadScene(const Scene& scene) override
+    Status loadScene(const Scene& scene, bool) override
     {
         scene_ = &scene;
         return Done{};
@@ -39,7 +39,7 @@ public:
     std::vector<std::string> messages() const override { return renderer_.messages(); }
 
 private:
-    Status loadScene(const Scene& scene) override { return renderer_.load(scene); }
+    Status loadScene(const Scene& scene, bool sameImages) override { return renderer_.load(scene, sameImages); }
     Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
 
     Renderer renderer_;
@@ -64,12 +64,12 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&, bool)
 
 } // namespace
 
-Status Painter::load(const Scene& scene)
+Status Painter::load(const Scene& scene, bool sameImages)
 {
     Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
     if (status)
-        status = loadScene(scene);
-    loaded_ = bool(status);
+        status = loadScene(scene, sameImages && holds_);
+    loaded_ = holds_ = bool(status);
     return status;
 }
 

@@ -56,15 +56,16 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-Status Renderer::load(const Scene& scene)
+Status Renderer::load(const Scene& scene, bool sameImages)
 {
     return guarded<Done>("uploading the scene", [&]() -> Status {
         if (const Status ok = checkTrianglesDrawn(scene); !ok)
             return ok;
         const auto start = std::chrono::steady_clock::now();
         state_->drawer->forgetScene();
+        Textures textures = sameImages && state_->scene ? state_->scene->takeTextures() : Textures(*state_->device);
         state_->scene.reset(); // its memory may be needed for the new one
-        state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene);
+        state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene, std::move(textures));
         state_->timings.upload = secondsSince(start);
         return Done{};
     });

@@ -218,8 +218,9 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
 
 } // namespace
 
-GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& scene)
-    : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device), textures_(device)
+GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& scene, Textures textures)
+    : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
+      textures_(std::move(textures))
 {
     for (const FrameInfo& f : frames())
         withFrame.push_back(checkVertexAttributes(scene, f.frame));

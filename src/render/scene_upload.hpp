@@ -58,7 +58,11 @@ struct GpuInstance {
 // a corner that is not finite, attributes with a wrong count.
 class GpuScene {
 public:
-    GpuScene(const Device& device, const Layouts& layouts, const Scene& scene);
+    // textures: empty, or those of a scene with the same images.
+    GpuScene(const Device& device, const Layouts& layouts, const Scene& scene, Textures textures);
+
+    // For the next scene; this one cannot be drawn any more.
+    Textures takeTextures() { return std::move(textures_); }
 
     // Switches the textures of all materials between the samplers' filters and nearest texels.
     void setPointSampled(bool pointSampled);

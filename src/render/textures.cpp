@@ -124,12 +124,16 @@ Textures::Key Textures::keyOf(const MapUse& use)
     return {use.texture->image, use.kind, use.format.expansion, use.format.channels};
 }
 
-void Textures::request(const Scene& scene, const MapUse& use)
+void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipRequest>& missing)
 {
     if (!use.texture->present() || std::size_t(use.texture->image) >= scene.images.size())
         return;
     const Image& image = scene.images[std::size_t(use.texture->image)];
-    if (!hasPixels(image) || !index_.emplace(keyOf(use), requests_.size()).second)
+    if (!hasPixels(image))
+        return;
+    const auto [made, isNew] = made_.emplace(keyOf(use), textures_.size() + missing.size());
+    index_.insert(*made);
+    if (!isNew)
         return;
     MipRequest r;
     r.image = &image;
@@ -140,18 +144,7 @@ void Textures::request(const Scene& scene, const MapUse& use)
     if (use.kind == TextureKind::normal && r.format == TexelFormat::unorm8 && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
-    requests_.push_back(r);
-}
-
-void Textures::collect(const Scene& scene)
-{
-    for (const Material& m : scene.materials)
-        for (const MapUse& use : mapUses(m))
-            if (!m.unlit || use.texture == &m.baseColorMap || use.texture == &m.normalMap)
-                request(scene, use);
-    MipRequest white;
-    white.image = &whiteImage();
-    requests_.push_back(white);
+    missing.push_back(r);
 }
 
 Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
@@ -172,13 +165,20 @@ Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
 
 void Textures::load(const Scene& scene, Uploader& uploader)
 {
-    collect(scene);
-    for (std::size_t first = 0; first < requests_.size();) {
+    std::vector<MipRequest> missing;
+    if (textures_.empty())
+        missing.emplace_back().image = &whiteImage();
+    index_.clear();
+    for (const Material& m : scene.materials)
+        for (const MapUse& use : mapUses(m))
+            if (!m.unlit || use.texture == &m.baseColorMap || use.texture == &m.normalMap)
+                request(scene, use, missing);
+    for (std::size_t first = 0; first < missing.size();) {
         std::size_t end = first;
-        for (std::size_t bytes = 0; end < requests_.size() && bytes < kBatchBytes; ++end)
-            bytes += requests_[end].image->data.size();
+        for (std::size_t bytes = 0; end < missing.size() && bytes < kBatchBytes; ++end)
+            bytes += missing[end].image->data.size();
         std::vector<MipChain> chains(end - first);
-        onAllCores(chains.size(), [&](std::size_t i) { chains[i] = buildMips(requests_[first + i]); });
+        onAllCores(chains.size(), [&](std::size_t i) { chains[i] = buildMips(missing[first + i]); });
         for (const MipChain& chain : chains)
             textures_.push_back(upload(chain, uploader));
         first = end;
@@ -189,7 +189,7 @@ bool Textures::present(const MapUse& use) const { return use.texture->present() 
 
 vk::ImageView Textures::view(const MapUse& use) const
 {
-    return *(present(use) ? textures_[index_.at(keyOf(use))] : textures_.back()).view;
+    return *(present(use) ? textures_[index_.at(keyOf(use))] : textures_.front()).view;
 }
 
 } // namespace cotan

@@ -41,7 +41,8 @@ public:
     explicit Textures(const Device& device) : device_(&device), memory_(device) {}
 
     // Uploads every image that the scene's materials use, once for each way of use. Mips are
-    // built by all cores. Images without size or data count as absent.
+    // built by all cores. Images without size or data count as absent. A second scene must have the
+    // images of the first: only ways of use that are new are uploaded.
     void load(const Scene& scene, Uploader& uploader);
 
     // The view of a use of an image; a white texel where there is none.
@@ -52,15 +53,14 @@ private:
     // Image, kind, and for normal maps the coding that they are averaged in.
     using Key = std::tuple<int, TextureKind, Expansion, Channels>;
     static Key keyOf(const MapUse& use);
-    void collect(const Scene& scene);
-    void request(const Scene& scene, const MapUse& use);
+    void request(const Scene& scene, const MapUse& use, std::vector<MipRequest>& missing);
     Texture2D upload(const MipChain& chain, Uploader& uploader);
 
     const Device* device_;
     Memory memory_;
-    std::map<Key, std::size_t> index_;
-    std::vector<MipRequest> requests_;
-    std::vector<Texture2D> textures_; // the last one is white
+    std::map<Key, std::size_t> made_;  // on the device
+    std::map<Key, std::size_t> index_; // that the scene uses
+    std::vector<Texture2D> textures_;  // the first one is white
 };
 
 } // namespace cotan

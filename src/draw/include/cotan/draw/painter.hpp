@@ -23,7 +23,9 @@ public:
     // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over kMostTrianglesDrawn
     // (cotan/scene/bounds.hpp) of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable
     // when the device has not enough memory.
-    Status load(const Scene& scene);
+    // sameImages: all images are those of the scene that was loaded before, in its order (another moment of an
+    // animation, say); what was made of them is kept. Where that load failed, everything is made again.
+    Status load(const Scene& scene, bool sameImages = false);
 
     // The painter has no scene from here on.
     void forget() { loaded_ = false; }
@@ -47,10 +49,11 @@ public:
     std::string note;
 
 private:
-    virtual Status loadScene(const Scene& scene) = 0;
+    virtual Status loadScene(const Scene& scene, bool sameImages) = 0;
     virtual Result<Image> drawLoaded(const View& view) = 0;
 
     bool loaded_ = false;
+    bool holds_ = false; // the last load has worked
 };
 
 // Opens a device. `device`: "reference"; "auto" is the best Vulkan device, and the reference renderer where

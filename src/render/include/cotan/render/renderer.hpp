@@ -37,7 +37,8 @@ public:
 
     // Uploads a scene; it replaces the one before. Errors: ErrorKind::unavailable when the device
     // has not enough memory; ErrorKind::input over kMostTrianglesDrawn (cotan/scene/bounds.hpp).
-    Status load(const Scene& scene);
+    // sameImages: all images are those of the scene before, in its order; their textures stay on the device.
+    Status load(const Scene& scene, bool sameImages = false);
 
     // Draws the loaded scene. Translucent materials are composed per sample in the order of their distance,
     // whatever their number of layers; of equally far ones the one later in the scene is in front. Lists of
