@@ -32,10 +32,18 @@ void PointerProbe::follow(State& state)
         if (probe.hit)
             probe.surface = prober_.at(model->scene, model->number, *probe.hit, *parseFrame(side.frame),
                                        side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
-        done_();
         return probe;
     };
-    finding_ = std::async(std::launch::async, look);
+    std::promise<Probe> found;
+    finding_ = found.get_future();
+    running_ = std::async(std::launch::async, [this, look, found = std::move(found)]() mutable {
+        try {
+            found.set_value(look());
+        } catch (...) {
+            found.set_exception(std::current_exception());
+        }
+        done_(); // who is woken finds the result
+    });
 }
 
 } // namespace cotan::viewer

@@ -23,7 +23,8 @@ private:
     std::function<void()> done_;
     Prober prober_;
     std::string key_;
-    std::future<Probe> finding_; // last: it uses the others
+    std::future<Probe> finding_;
+    std::future<void> running_; // the thread that finds it; last: it uses the others
 };
 
 } // namespace cotan::viewer
