@@ -283,6 +283,10 @@ std::vector<Case> litCases()
     all.push_back(COTAN_LIT_CASE("roughness of a spread",
                                  cotan_vec3(cotan_roughness_of_spread(s.roughness, y), cotan_spread_of_turn(l, s.v),
                                             cotan_spread_of_length(y))));
+    all.push_back(COTAN_LIT_CASE("places of a roughness",
+                                 cotan_vec3(cotan_places_of_roughness(s.roughness), cotan_places_of_roughness(y),
+                                            cotan_places_of_roughness(cotan_real(0.0)))
+                                     * cotan_real(0.0625)));
     all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
     all.push_back(COTAN_LIT_CASE("linear to sRGB",
                                  cotan_vec3(cotan_linear_to_srgb(s.base_color.x), cotan_linear_to_srgb(s.base_color.y),
