@@ -511,7 +511,7 @@ TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
     }
 }
 
-TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
+TEST_F(PictureFile, ddsOfChannelsWithoutBitsOrOfNoKnownKindIsRefused)
 {
     std::string file = dx10(1, 1, 0).substr(0, 128);
     file.replace(80, 28,
@@ -525,6 +525,16 @@ TEST_F(PictureFile, ddsOfAChannelWithoutBitsIsRefused)
     ASSERT_TRUE(decodeImage(bytesOf(file), "a.dds"));
     for (const std::size_t mask : {92u, 96u, 100u, 104u})
         EXPECT_FALSE(decodeImage(bytesOf(std::string(file).replace(mask, 4, 4, '\0')), "a.dds")) << mask;
+    const auto ofKind = [&](std::uint32_t flags) {
+        std::string other = file;
+        for (std::size_t i = 0; i < 4; ++i)
+            other[80 + i] = char(flags >> 8 * i);
+        return bool(decodeImage(bytesOf(other), "a.dds"));
+    };
+    EXPECT_TRUE(ofKind(0x40) && ofKind(0x20000) && ofKind(0x20001)) << "colours and brightness";
+    // Alpha alone, palettes, YUV: read as colours whatever their masks are.
+    for (const std::uint32_t flags : {0u, 1u, 2u, 0x20u, 0x21u, 0x200u, 0x20040u})
+        EXPECT_FALSE(ofKind(flags)) << flags;
 }
 
 // ---- JPEG ---------------------------------------------------------------------------------------

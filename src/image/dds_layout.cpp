@@ -48,13 +48,16 @@ DdsFormat ddsFormat(Numbers& numbers)
     constexpr std::uint64_t kFourLetters = 0x4;
     const std::uint64_t flags = numbers.at(80, 4);
     if (!(flags & kFourLetters)) {
-        // OpenImageIO does not come back from a channel that is there but has no bits in its mask.
-        const bool alpha = (flags & 0x3) != 0;
-        const std::uint64_t colours = flags & 0x40 ? 3 : flags & 0x20000 ? 1 : 0;
-        bool masks = colours > 0 || alpha;
+        // Colours or one brightness, with alpha or without. OpenImageIO takes anything else for colours, and does not
+        // come back from a channel without bits in its mask.
+        constexpr std::uint64_t kAlpha = 0x1, kColours = 0x40, kBrightness = 0x20000;
+        const std::uint64_t kind = flags & ~kAlpha;
+        if (kind != kColours && kind != kBrightness)
+            return {};
         for (std::uint64_t i = 0; i < 4; ++i)
-            masks = masks && ((i < 3 ? i >= colours : !alpha) || numbers.at(92 + 4 * i, 4) != 0);
-        return {0, masks ? std::size_t(numbers.at(88, 4) / 8) : 0};
+            if ((i == 3 ? (flags & kAlpha) != 0 : i == 0 || kind == kColours) && numbers.at(92 + 4 * i, 4) == 0)
+                return {};
+        return {0, std::size_t(numbers.at(88, 4) / 8)};
     }
     std::string name;
     for (std::uint64_t i = 0; i < 4; ++i)
