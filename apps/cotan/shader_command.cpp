@@ -57,7 +57,6 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
 
 Status chooseText(const ShaderCommandOptions& o, Choice& choice)
 {
-    using shader_text::Stage;
     Words<shader_text::Language> languages;
     for (shader_text::Language l : shader_text::kLanguages)
         languages.push_back({name(l), l});
@@ -67,12 +66,10 @@ Status chooseText(const ShaderCommandOptions& o, Choice& choice)
                            {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
         !ok)
         return ok;
-    if (Status ok = choose(choice.stage, "--stage", o.stage,
-                           {{"fragment", Stage::fragment},
-                            {"vertex", Stage::vertex},
-                            {"mesh", Stage::mesh},
-                            {"compute", Stage::compute}});
-        !ok)
+    Words<shader_text::Stage> stages;
+    for (shader_text::Stage s : shader_text::kStages)
+        stages.push_back({name(s), s});
+    if (Status ok = choose(choice.stage, "--stage", o.stage, stages); !ok)
         return ok;
     return choose(choice.callerDifferences, "--differences", o.differences, {{"shader", false}, {"caller", true}});
 }

@@ -1,30 +1,11 @@
 // cotan.h: shader text.
 #include "cotan/shader_text/shader_text.hpp"
 
-#include <optional>
-#include <utility>
-
 #include "call.hpp"
 #include "cotan/convention_words.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
-
-namespace {
-
-// "triangle,vertex": what follows the frame's name is the stage.
-std::optional<shader_text::Stage> stageFromName(std::string_view name)
-{
-    using shader_text::Stage;
-    constexpr std::pair<std::string_view, Stage> kStages[] = {
-        {"fragment", Stage::fragment}, {"vertex", Stage::vertex}, {"mesh", Stage::mesh}, {"compute", Stage::compute}};
-    for (const auto& [word, stage] : kStages)
-        if (word == name)
-            return stage;
-    return std::nullopt;
-}
-
-} // namespace
 
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size)
@@ -42,9 +23,9 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
             fail(ErrorKind::usage, "frame: there is none named '" + std::string(name) + "'");
         choice.language = *known;
         choice.frame = *which;
-        if (name.size() < words.size()) {
+        if (name.size() < words.size()) { // "triangle,vertex": a comma, then the stage
             const std::string_view stage = words.substr(name.size() + 1);
-            const auto wanted = stageFromName(stage);
+            const auto wanted = shader_text::stageFromName(stage);
             if (!wanted)
                 fail(ErrorKind::usage,
                      "stage: expected fragment, vertex, mesh or compute, found '" + std::string(stage) + "'");

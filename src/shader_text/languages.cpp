@@ -235,6 +235,26 @@ std::optional<Language> languageFromName(std::string_view text)
     return std::nullopt;
 }
 
+std::string_view name(Stage stage)
+{
+    switch (stage) {
+    case Stage::fragment: return "fragment";
+    case Stage::vertex: return "vertex";
+    case Stage::mesh: return "mesh";
+    case Stage::compute: return "compute";
+    case Stage::all: break;
+    }
+    return "all";
+}
+
+std::optional<Stage> stageFromName(std::string_view text)
+{
+    for (Stage s : kStages)
+        if (name(s) == text)
+            return s;
+    return std::nullopt;
+}
+
 const Names& namesOf(Language language)
 {
     switch (language) {

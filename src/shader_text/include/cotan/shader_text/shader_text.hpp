@@ -40,6 +40,10 @@ enum class Stage {
     mesh,    // for each primitive
     compute, // both in one
 };
+// Those that can be asked for by name; `all` is what one gets without asking.
+inline constexpr Stage kStages[] = {Stage::fragment, Stage::vertex, Stage::mesh, Stage::compute};
+std::string_view name(Stage stage);
+std::optional<Stage> stageFromName(std::string_view name);
 
 // More functions than the frame's own: all of one or two parts of the portable text.
 enum class Set {
