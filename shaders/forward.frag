@@ -103,18 +103,20 @@ struct TapSource {
     vec2 dx, dy; // of uv, over the part of a tap
     float spread; // of the interpolated normals in that part
     float roughness; // the material's own
+    int aSide; // how many taps
 };
 TapSource tapSource;
 
-// As many places as the roughness asks for. s: of the whole pixel, as rough as the material.
-void setTaps(cotan_frame frame, vec3 smoothNormal, float side, Turn turn, vec2 uv, Differences d, cotan_surface s)
+// As many places as the roughness asks for. turned: the spread of the turn. roughness: the material's own.
+void setTaps(cotan_frame frame, vec3 smoothNormal, float side, Turn turn, float turned, vec2 uv, Differences d,
+    float roughness)
 {
     if (!mapped())
         return;
-    float aSide = floor(cotan_places_of_roughness(s.roughness));
-    tapCount = int(aSide * aSide);
-    tapSource = TapSource(frame, smoothNormal, side, turn, uv, finiteUv(d.duvdx / aSide), finiteUv(d.duvdy / aSide),
-        cotan_spread_of_turn(turn.x, turn.y) / (aSide * aSide), s.roughness);
+    int aSide = int(cotan_places_of_roughness(roughness));
+    tapCount = aSide * aSide;
+    tapSource = TapSource(frame, smoothNormal, side, turn, uv, finiteUv(d.duvdx / float(aSide)),
+        finiteUv(d.duvdy / float(aSide)), turned / float(tapCount), roughness, aSide);
 }
 
 // Its normal, from its part of the map and turned as the surface is there, and as rough as lost length says.
@@ -122,7 +124,7 @@ cotan_surface atTap(cotan_surface s, int tap)
 {
     if (tapCount == 1)
         return s;
-    int aSide = int(sqrt(float(tapCount)) + 0.5);
+    int aSide = tapSource.aSide;
     vec2 place = vec2(float(tap % aSide), float(tap / aSide)) - 0.5 * float(aSide - 1);
     vec2 uv = finiteUv(tapSource.uv + tapSource.dx * place.x + tapSource.dy * place.y);
     vec4 texel = textureGrad(normalMap, uv, tapSource.dx, tapSource.dy);
@@ -239,7 +241,7 @@ void main()
         if (material.normalMap.w == 0) {
             cotan_surface s = surfaceOf(base.rgb, n);
             if (SPECULAR_ANTIALIASING) {
-                setTaps(frame, smoothNormal, side, turn, uv, d, s);
+                setTaps(frame, smoothNormal, side, turn, turned, uv, d, s.roughness);
                 s.roughness = cotan_roughness_of_spread(s.roughness, spread);
             }
             Layers over;

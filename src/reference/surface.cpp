@@ -287,11 +287,12 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int 
     const int side = int(f32::cotan_places_of_roughness(roughness));
     std::vector<LitTap> taps(std::size_t(side * side));
     const float share = 1 / float(side), turn = normal.turn * share * share;
+    const f32::cotan_normal_format format = formatOf(in);
     for (int i = 0; i < side * side; ++i) {
         const glm::vec2 at = placeOf(i, side);
         const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
         const glm::vec4 texel = sample(*in.maps->normal, map.sampler, part, in.view->pointSampled);
-        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
         glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
         n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
         taps[std::size_t(i)] = {in.triangle->front ? n : -n,
