@@ -190,13 +190,21 @@ TEST(SpecularAntialiasing, isTheSameOnTheDevice)
     auto device = openPainter("auto");
     if (!device || !(*device)->note.empty())
         GTEST_SKIP() << "no Vulkan device";
-    for (const bool mapped : {false, true}) {
-        Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 32, 8), 0.2f, mapped);
-        if (mapped)
+    struct Case {
+        bool mapped;
+        MipFilter mip;
+        double most; // of what the option changes
+    };
+    // With levels the reference filters along the longer side of a pixel, which Mesa's CPU driver is not asked to.
+    for (const Case& c : {Case{false, MipFilter::linear, 0.001}, Case{true, MipFilter::none, 0.005},
+                          Case{true, MipFilter::linear, 0.3}}) {
+        Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 32, 8), 0.2f, c.mapped);
+        if (c.mapped)
             scene.images[0] = leaning();
+        scene.materials[0].normalMap.sampler.mip = c.mip;
         scene.materials[0].coat.strength = 0.5f;
         scene.materials[0].coat.roughness = 0.1f;
-        scene.materials[0].coat.normalMap.image = mapped ? 0 : -1;
+        scene.materials[0].coat.normalMap.image = c.mapped ? 0 : -1;
         View view = sunlit(128);
         ASSERT_TRUE((*device)->load(scene));
         const Image without = drawn(scene, view);
@@ -204,8 +212,8 @@ TEST(SpecularAntialiasing, isTheSameOnTheDevice)
         const Image ours = drawn(scene, view);
         auto theirs = (*device)->draw(view);
         ASSERT_TRUE(theirs) << theirs.error().message;
-        EXPECT_GT(apart(ours, without), 0.001) << mapped;
-        EXPECT_LT(apart(ours, *theirs), 0.3 * apart(ours, without)) << mapped; // edges of the torus
+        EXPECT_GT(apart(ours, without), 0.001) << c.most;
+        EXPECT_LT(apart(ours, *theirs), c.most * apart(ours, without)) << c.mapped;
     }
 }
 
