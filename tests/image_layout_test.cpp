@@ -418,7 +418,9 @@ TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAnd
             EXPECT_NE(message.find(why), std::string::npos) << message;
     };
     with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2),
-         "compression 14337"); // once zeros, or whatever was there
+         "compression 14337");                // once zeros, or whatever was there
+    for (const char fax : {'\2', '\3', '\4'}) // once whatever was there, but not by rows
+        with(std::string("\x03\x01\x03\0", 4), std::string(1, fax), "3 samples of 8 bits a pixel, a fax has 1 of 1");
     with(std::string("\x16\x01\x04\0", 4), std::string("\0\0\0\x1d", 4), "strips have 486539264 rows"); // once 3.9 GB
     with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip, however high
 }
@@ -535,6 +537,50 @@ TEST_F(PictureFile, ddsOfChannelsWithoutBitsOrOfNoKnownKindIsRefused)
     // Alpha alone, palettes, YUV: read as colours whatever their masks are.
     for (const std::uint32_t flags : {0u, 1u, 2u, 0x20u, 0x21u, 0x200u, 0x20040u})
         EXPECT_FALSE(ofKind(flags)) << flags;
+}
+
+// ---- BMP ----------------------------------------------------------------------------------------
+
+// 2 x 2 of palette entries 1, 2, 3 and 4; runs are of 8 bits.
+std::string makeBmp(std::uint32_t bits, std::uint32_t compression)
+{
+    const std::string rows = compression == 0 ? std::string("\1\2\0\0\3\4\0\0", 8) // a row has 4 bytes
+                                              : std::string("\1\1\1\2\0\0\1\3\1\4\0\1", 12);
+    std::string file = "BM";
+    const auto add = [&](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i)
+            file += char(value >> 8 * i);
+    };
+    for (const std::uint32_t value : {std::uint32_t(1078 + rows.size()), 0u, 1078u, 40u, 2u, 2u})
+        add(value, 4);
+    add(1, 2);
+    add(bits, 2);
+    for (const std::uint32_t value : {compression, std::uint32_t(rows.size()), 2835u, 2835u, 0u, 0u})
+        add(value, 4);
+    for (std::uint32_t i = 0; i < 256; ++i)
+        add(i * 0x010203, 4); // blue three times red
+    return file + rows;
+}
+
+TEST_F(PictureFile, bmpOfRunsIsReadOfTheirOwnBitsAPixelAndRefusedOfOthers)
+{
+    for (const std::uint32_t compression : {0u, 1u}) {
+        const auto image = decodeImage(bytesOf(makeBmp(8, compression)), "a.bmp");
+        ASSERT_TRUE(image) << image.error().message;
+        const int expected[] = {3, 4, 1, 2}; // rows from below
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_EQ(image->bytes8()[4 * i], expected[i]) << compression;
+            EXPECT_EQ(image->bytes8()[4 * i + 2], 3 * expected[i]) << compression;
+        }
+    }
+    for (const std::uint32_t bits : {1u, 4u, 16u, 24u, 32u}) // 24 once read in front of the rows, a crash
+        EXPECT_FALSE(decodeImage(bytesOf(makeBmp(bits, 1)), "a.bmp")) << bits;
+    for (const std::uint32_t bits : {1u, 8u, 16u, 24u, 32u})
+        EXPECT_FALSE(decodeImage(bytesOf(makeBmp(bits, 2)), "a.bmp")) << bits;
+    const std::string runs = makeBmp(24, 1);
+    EXPECT_NE(messageOf(openRows(write("a.bmp", runs))).find("24 bits a pixel, its compression 1 has 8"),
+              std::string::npos);
+    EXPECT_FALSE(decodeImage(bytesOf(runs.substr(0, 33)), "a.bmp"));
 }
 
 // ---- JPEG ---------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// Checks of three formats whose readers believe the headers of their files.
+// Checks of the formats whose readers believe the headers of their files.
 #pragma once
 
 #include <cstdint>
@@ -27,5 +27,6 @@ inline Numbers numbersOf(File& file, bool bigEndian = false)
 Problem checkTiff(File& file, const LoadLimits& limits);
 Problem checkExr(File& file, const LoadLimits& limits);
 Problem checkDds(File& file);
+Problem checkBmp(File& file);
 
 } // namespace cotan::oiio

@@ -138,6 +138,8 @@ Problem checkFileLayout(File& file, const std::string& format, const LoadLimits&
         return checkExr(file, limits);
     if (format == "dds")
         return checkDds(file);
+    if (format == "bmp")
+        return checkBmp(file);
     return std::nullopt;
 }
 

@@ -1,0 +1,24 @@
+// Whether the compression of a BMP file goes with its bits a pixel.
+#include <fmt/format.h>
+
+#include "file_layout.hpp"
+
+namespace cotan::oiio {
+
+// Microsoft's BITMAPINFOHEADER. Runs are of 8 bits a pixel, or of 4: of others OpenImageIO reads in front of its rows.
+Problem checkBmp(File& file)
+{
+    Numbers numbers = numbersOf(file);
+    constexpr std::uint64_t kOldHeader = 12; // OS/2's, without a compression
+    if (numbers.at(14, 4) == kOldHeader)
+        return std::nullopt;
+    const std::uint64_t bits = numbers.at(28, 2), compression = numbers.at(30, 4);
+    if (numbers.past)
+        return "its header goes on behind the end of the file";
+    const std::uint64_t ofRuns = compression == 1 ? 8 : compression == 2 ? 4 : 0;
+    if (ofRuns != 0 && bits != ofRuns)
+        return fmt::format("it has {} bits a pixel, its compression {} has {}", bits, compression, ofRuns);
+    return std::nullopt;
+}
+
+} // namespace cotan::oiio
