@@ -41,6 +41,13 @@ Status run(const CostCommandOptions& o)
     });
     if (!report)
         return inWords(report.error());
+    // Tables without machine code do not take the place of older ones that may have it.
+    if (!report->codeSilence.empty())
+        for (const std::filesystem::path& file :
+             {std::filesystem::path(o.output), std::filesystem::path(o.csv), std::filesystem::path(o.json)})
+            if (std::filesystem::is_regular_file(file))
+                return unavailableError(
+                    fmt::format("{}; {} is there and stays as it is", report->codeSilence, file.string()));
     const auto picture = o.output.empty() ? std::nullopt : costChart(*report);
     const std::string tables = toMarkdown(*report, picture ? chart.filename().string() : "");
     if (picture)
