@@ -65,6 +65,15 @@ TEST(BatchJobs, aLineIsAJobWithItsFilesAndANameOfItsOwnOrItsCommandLine)
     EXPECT_EQ(list->jobs[1].outputs, std::vector<std::string>{"y"});
 }
 
+// Lists in lists, or objects in objects, far deeper than a stack.
+std::string deep(char open, char close)
+{
+    std::string text;
+    for (int i = 0; i < 200000; ++i)
+        (text += open) += open == '{' ? "\"a\":" : "";
+    return text + "1" + std::string(200000, close);
+}
+
 TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
 {
     const std::pair<std::string, std::string> cases[] = {
@@ -81,6 +90,9 @@ TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
         {"{\"command\": [\"copy\"], \"name\": \"\"}", "\"name\": expected a text"},
         {"{\"command\": [\"bad\"]}", "there is no command 'bad'"},
         {std::string(100000, '['), "no JSON"},
+        {"{\"command\": [" + deep('[', ']') + "]}", "\"command\": expected texts only"}, // once no stack was left
+        {"{\"command\": " + deep('{', '}') + "}", "found an object"},
+        {"{\"name\": " + deep('[', ']') + ", \"command\": [\"copy\"]}", "\"name\": expected a text"},
         {std::string("\0\0\0", 3), "no JSON"},
         {"{\"name\": \"ok\", \"command\": [\"copy\", \"other\"]}", "is the name of line 1, too"},
     };

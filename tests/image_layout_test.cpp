@@ -583,6 +583,20 @@ TEST_F(PictureFile, bmpOfRunsIsReadOfTheirOwnBitsAPixelAndRefusedOfOthers)
     EXPECT_FALSE(decodeImage(bytesOf(runs.substr(0, 33)), "a.bmp"));
 }
 
+TEST_F(PictureFile, bmpOfRunsOfMorePixelsThanTheLimitIsRefusedBeforeTheyAreRead)
+{
+    LoadLimits limits;
+    limits.imageBytes = 16; // 2 x 2 pixels of 4 bytes
+    EXPECT_TRUE(decodeImage(bytesOf(makeBmp(8, 1)), "a.bmp", limits));
+    for (const std::string& height : {std::string("\0\1\0\0", 4), std::string("\0\xff\xff\xff", 4)}) { // 256, -256
+        const std::string runs = makeBmp(8, 1).replace(22, 4, height);
+        EXPECT_NE(
+            messageOf(decodeImage(bytesOf(runs), "a.bmp", limits)).find("2 x 256 pixels of a byte, the limit is 16"),
+            std::string::npos)
+            << messageOf(decodeImage(bytesOf(runs), "a.bmp", limits));
+    }
+}
+
 // ---- JPEG ---------------------------------------------------------------------------------------
 
 std::string makeJpeg(int width, int height, bool progressive)

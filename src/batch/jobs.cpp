@@ -22,10 +22,13 @@ using nlohmann::json;
 constexpr std::size_t kMostBytes = std::size_t(4) << 30;
 constexpr std::size_t kMostNameBytes = 1000;
 
+// Lists and objects are named only: writing one out takes stack for each level that it is deep.
 Error expected(const std::string& member, const std::string& what, const json& found)
 {
-    return inputError(fmt::format("\"{}\": expected {}; found {}", member, what,
-                                  printable(found.dump(-1, ' ', false, json::error_handler_t::replace), 60)));
+    const std::string text = found.is_array() ? "a list"
+        : found.is_object()                   ? "an object"
+                                              : found.dump(-1, ' ', false, json::error_handler_t::replace);
+    return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, printable(text, 60)));
 }
 
 // The words of a member that is a list of texts.

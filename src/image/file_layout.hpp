@@ -27,6 +27,6 @@ inline Numbers numbersOf(File& file, bool bigEndian = false)
 Problem checkTiff(File& file, const LoadLimits& limits);
 Problem checkExr(File& file, const LoadLimits& limits);
 Problem checkDds(File& file);
-Problem checkBmp(File& file);
+Problem checkBmp(File& file, const LoadLimits& limits);
 
 } // namespace cotan::oiio

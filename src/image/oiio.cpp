@@ -139,7 +139,7 @@ Problem checkFileLayout(File& file, const std::string& format, const LoadLimits&
     if (format == "dds")
         return checkDds(file);
     if (format == "bmp")
-        return checkBmp(file);
+        return checkBmp(file, limits);
     return std::nullopt;
 }
 
