@@ -358,6 +358,75 @@ TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
     refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0'); // beyond 64 bits, were it not stopped
 }
 
+// 2 x 2 of one channel of floats, in blocks of a row; or in one tile, level 0. Parts: two of the same.
+std::string makeExr(bool tiled, bool parts, char compression)
+{
+    std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
+        {"channels", "chlist", 19, std::string("R\0", 2) + words({2, 0, 1, 1}) + '\0'},
+        {"compression", "compression", 1, std::string(1, compression)},
+        {"dataWindow", "box2i", 16, words({0, 0, 1, 1})},
+        {"displayWindow", "box2i", 16, words({0, 0, 1, 1})},
+        {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
+        {"pixelAspectRatio", "float", 4, words({0x3f800000})},
+        {"screenWindowCenter", "v2f", 8, words({0, 0})},
+        {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+    if (tiled)
+        attributes.emplace_back("tiles", "tiledesc", 9, words({2, 2}) + '\0');
+    const std::uint32_t blocks = tiled ? 1 : 2;
+    std::string header;
+    for (const char* const name : {"a", "b"}) {
+        auto all = attributes;
+        if (parts) {
+            all.emplace_back("name", "string", 1, name);
+            const std::string type = tiled ? "tiledimage" : "scanlineimage";
+            all.emplace_back("type", "string", std::uint32_t(type.size()), type);
+            all.emplace_back("chunkCount", "int", 4, words({blocks}));
+        }
+        if (name == std::string("a") || parts)
+            header += exrHeader(all);
+    }
+    header += parts ? std::string(1, '\0') : "";
+    const std::uint32_t version = 2u | (parts ? 0x1000u : tiled ? 0x200u : 0u);
+    const std::string start = words({0x01312f76, version}) + header;
+    std::string table, pixels;
+    for (std::uint32_t part = 0; part < (parts ? 2u : 1u); ++part)
+        for (std::uint32_t y = 0; y < blocks; ++y) {
+            const std::size_t tables = 8 * blocks * (parts ? 2 : 1);
+            table += words({std::uint32_t(start.size() + tables + pixels.size()), 0});
+            pixels += (parts ? words({part}) : "") + (tiled ? words({0, 0, 0, 0, 16}) : words({y, 8}));
+            for (std::uint32_t i = 0; i < (tiled ? 4u : 2u); ++i)
+                pixels += words({0x3f000000});
+        }
+    return start + table + pixels;
+}
+
+TEST_F(PictureFile, exrBlocksThatAreNotThereOrTooShortAreRefusedWholeAndByRows)
+{
+    for (const bool tiled : {false, true})
+        for (const bool parts : {false, true}) {
+            const std::string sound = makeExr(tiled, parts, 0);
+            const auto image = decodeImage(bytesOf(sound), "a.exr");
+            ASSERT_TRUE(image) << tiled << parts << image.error().message;
+            EXPECT_EQ(image->floats()[0], 0.5f);
+            const std::size_t blocks = tiled ? 1 : 2, before = (parts ? 4 : 0) + (tiled ? 16 : 4);
+            const std::size_t first =
+                sound.size() - blocks * (parts ? 2 : 1) * (before + 4 + (tiled ? 16 : 8)); // behind the tables
+            const std::size_t table = first - 8 * blocks * (parts ? 2 : 1);
+            const auto refused = [&](std::size_t at, std::uint32_t value, const std::string& why, char compression) {
+                std::string file = makeExr(tiled, parts, compression);
+                file.replace(at, 4, words({value}));
+                for (const auto& message :
+                     {messageOf(decodeImage(bytesOf(file), "a.exr")), messageOf(openRows(write("a.exr", file)))})
+                    EXPECT_NE(message.find(why), std::string::npos) << tiled << parts << ": " << message;
+            };
+            refused(table, 0, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
+            refused(table, 100000, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
+            refused(first + before, 7, "block 0 has 7 bytes, expected " + std::to_string(tiled ? 16 : 8), 0);
+            refused(first + before, 0, "block 0 has 0 bytes, expected 1", 2); // once whatever the memory held
+            refused(first + before, 100000, "block 0 takes 100000 bytes from ", 2);
+        }
+}
+
 // The size says that the header ends before what the reader of the type goes on to, an attribute of 1.7 GB.
 TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
 {
@@ -418,11 +487,28 @@ TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAnd
             EXPECT_NE(message.find(why), std::string::npos) << message;
     };
     with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2),
-         "compression 14337");                // once zeros, or whatever was there
-    for (const char fax : {'\2', '\3', '\4'}) // once whatever was there, but not by rows
-        with(std::string("\x03\x01\x03\0", 4), std::string(1, fax), "3 samples of 8 bits a pixel, a fax has 1 of 1");
+         "compression 14337"); // once zeros, or whatever was there
     with(std::string("\x16\x01\x04\0", 4), std::string("\0\0\0\x1d", 4), "strips have 486539264 rows"); // once 3.9 GB
     with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip, however high
+}
+
+TEST_F(PictureFile, tiffWhoseStripsCannotBeDecodedIsRefusedWholeAndInAnyNumberOfRows)
+{
+    const std::string sound = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
+    const std::size_t entry = sound.find(std::string("\x03\x01\x03\0", 4)); // the tag of the compression
+    ASSERT_NE(entry, std::string::npos);
+    for (const char compression : {'\2', '\3', '\4', '\5', '\7', '\x08'}) { // faxes, LZW, JPEG, zip
+        std::string file = sound;
+        file[entry + 8] = compression;
+        EXPECT_NE(messageOf(decodeImage(bytesOf(file), "a.tif")).find("a.tif: broken tiff image"), std::string::npos)
+            << int(compression); // once zeros, or whatever was there
+        for (const int rows : {1, 2}) {
+            auto reader = openRows(write("a.tif", file));
+            ASSERT_TRUE(reader) << reader.error().message;
+            Image strip = makeImage(2, rows, (*reader)->type);
+            EXPECT_FALSE((*reader)->read(strip)) << int(compression) << ' ' << rows;
+        }
+    }
 }
 
 TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
@@ -581,6 +667,16 @@ TEST_F(PictureFile, bmpOfRunsIsReadOfTheirOwnBitsAPixelAndRefusedOfOthers)
     EXPECT_NE(messageOf(openRows(write("a.bmp", runs))).find("24 bits a pixel, its compression 1 has 8"),
               std::string::npos);
     EXPECT_FALSE(decodeImage(bytesOf(runs.substr(0, 33)), "a.bmp"));
+}
+
+TEST_F(PictureFile, bmpOfAnUnknownHeaderIsRefused)
+{
+    for (const std::uint32_t size : {0u, 11u, 16u, 64u, 0xffffffffu}) // once a size that the memory held
+        EXPECT_NE(messageOf(decodeImage(bytesOf(makeBmp(8, 0).replace(14, 4, words({size}))), "a.bmp"))
+                      .find("headers of " + std::to_string(size) + " bytes are not read here"),
+                  std::string::npos);
+    EXPECT_NE(messageOf(decodeImage(bytesOf(makeBmp(8, 0).substr(0, 53)), "a.bmp")).find("its header goes on behind"),
+              std::string::npos);
 }
 
 TEST_F(PictureFile, bmpOfRunsOfMorePixelsThanTheLimitIsRefusedBeforeTheyAreRead)

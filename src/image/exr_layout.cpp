@@ -97,7 +97,10 @@ struct ExrBlocks {
     std::int64_t width = 0, height = 0;
     std::uint64_t rows = 1; // in a block
     std::uint64_t channels = 0;
+    std::uint64_t pixelBytes = 0; // not known, 0, where a channel leaves pixels out
     std::uint64_t tileWidth = 0, tileHeight = 0;
+    bool compressed = true;
+    bool deep = false; // lists of samples, which OpenImageIO refuses
 };
 
 // An attribute whose value ends at `end`.
@@ -111,14 +114,23 @@ void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start,
         constexpr std::array<std::uint64_t, 10> kRows = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
         const std::uint64_t method = numbers.at(end - 1, 1);
         blocks.rows = method < kRows.size() ? kRows[method] : 1;
+        blocks.compressed = method != 0;
     } else if (name == "tiles") {
         blocks.tileWidth = numbers.at(end - 9, 4);
         blocks.tileHeight = numbers.at(end - 5, 4);
     } else if (name == "channels") {
+        bool all = true;
         while (start < end && !nameAt(numbers, start).empty()) {
+            constexpr std::uint64_t kHalf = 1;
+            blocks.pixelBytes += numbers.at(start, 4) == kHalf ? 2 : 4;
+            all = all && numbers.at(start + 8, 4) == 1 && numbers.at(start + 12, 4) == 1;
             start += 16;
             ++blocks.channels;
         }
+        if (!all)
+            blocks.pixelBytes = 0;
+    } else if (name == "type") {
+        blocks.deep = nameAt(numbers, start).starts_with("deep");
     }
 }
 
@@ -135,6 +147,33 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
     return std::nullopt;
 }
 
+// The blocks of the first part, level 0 of its tiles: from the table at `table`, each one with its pixels. OpenEXR
+// hands out what its memory held where one is shorter.
+Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const ExrBlocks& blocks)
+{
+    if (blocks.width <= 0 || blocks.height <= 0 || blocks.deep)
+        return std::nullopt;
+    const bool tiled = blocks.tileWidth > 0 && blocks.tileHeight > 0;
+    const auto width = std::uint64_t(blocks.width), height = std::uint64_t(blocks.height);
+    const std::uint64_t wide = tiled ? blocks.tileWidth : width, high = tiled ? blocks.tileHeight : blocks.rows;
+    const std::uint64_t across = (width + wide - 1) / wide, count = across * ((height + high - 1) / high);
+    const std::uint64_t before = (several ? 4 : 0) + (tiled ? 16 : 4); // part, and place
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::uint64_t at = numbers.at(table + 8 * i, 8);
+        if (at == 0 || at > numbers.size() || numbers.past)
+            return fmt::format("block {} of {} is not in the file", i, count);
+        const std::uint64_t stored = numbers.at(at + before, 4), begin = at + before + 4;
+        const std::uint64_t pixels =
+            std::min(wide, width - i % across * wide) * std::min(high, height - i / across * high);
+        const std::uint64_t needed = std::max<std::uint64_t>(blocks.compressed ? 1 : pixels * blocks.pixelBytes, 1);
+        if (stored < needed)
+            return fmt::format("block {} has {} bytes, expected {}", i, stored, needed);
+        if (begin > numbers.size() || stored > numbers.size() - begin)
+            return fmt::format("block {} takes {} bytes from {}, the file has {}", i, stored, begin, numbers.size());
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 // "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
@@ -145,7 +184,8 @@ Problem checkExr(File& file, const LoadLimits& limits)
     Numbers numbers = numbersOf(file);
     std::uint64_t at = 8;
     const bool several = (numbers.at(4, 4) & kSeveralParts) != 0;
-    for (bool first = true, more = true; more; first = false) {
+    ExrBlocks first;
+    for (bool begins = true, more = true; more; begins = false) {
         bool empty = true;
         ExrBlocks blocks;
         for (std::string name = nameAt(numbers, at); !name.empty(); name = nameAt(numbers, at), empty = false) {
@@ -162,9 +202,11 @@ Problem checkExr(File& file, const LoadLimits& limits)
             return problem;
         if (numbers.past)
             return "its header goes on behind the end of the file";
-        more = several && !(empty && !first);
+        if (begins)
+            first = blocks;
+        more = several && !(empty && !begins);
     }
-    return std::nullopt;
+    return checkExrTable(numbers, at, several, first);
 }
 
 } // namespace cotan::oiio

@@ -143,6 +143,28 @@ Problem checkFileLayout(File& file, const std::string& format, const LoadLimits&
     return std::nullopt;
 }
 
+// TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
+// its memory held.
+bool readScanlines(OIIO::ImageInput& input, int first, int channels, Image& to)
+{
+    const OIIO::ImageSpec& spec = input.spec();
+    const OIIO::TypeDesc type = typeDesc(to.type);
+    const auto stride = OIIO::stride_t(to.bytesPerPixel());
+    if (input.format_name() != std::string_view("tiff"))
+        return input.read_scanlines(0, 0, spec.y + first, spec.y + first + to.height, 0, 0, channels, type,
+                                    to.data.data(), stride);
+    const std::size_t used = std::size_t(channels) * type.size(), each = std::size_t(spec.nchannels) * type.size();
+    std::vector<std::byte> row(std::size_t(to.width) * each);
+    std::byte* out = to.data.data();
+    for (int y = 0; y < to.height; ++y) {
+        if (!input.read_scanline(spec.y + first + y, 0, type, row.data()))
+            return false;
+        for (std::size_t x = 0; x < std::size_t(to.width); ++x, out += stride)
+            std::copy_n(row.data() + x * each, used, out);
+    }
+    return true;
+}
+
 } // namespace oiio
 
 using namespace oiio;
@@ -227,8 +249,10 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
 
     Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
     const int channels = std::min(spec.nchannels, 4);
-    if (!input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
-                           OIIO::stride_t(image.bytesPerPixel())))
+    const bool done = spec.tile_width > 0 ? input->read_image(0, 0, 0, channels, typeDesc(image.type),
+                                                              image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
+                                          : readScanlines(*input, 0, channels, image);
+    if (!done)
         return broken(input->geterror());
     if (format == "dds" && channels == 2)
         spreadTwo(image);

@@ -30,10 +30,14 @@ OIIO::TypeDesc typeDesc(PixelType type);
 // Spreads the first `channels` components of every pixel over red, green, blue and alpha.
 void completeChannels(Image& image, int channels);
 
-// Compares what the headers of TIFF, OpenEXR and DDS files promise with the size of the file: every
+// Compares what the headers of TIFF, OpenEXR, DDS and BMP files promise with the size of the file: every
 // strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
 // by those numbers, or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
 Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits);
+
+// Rows of a file without tiles, from `first` on: those of `to`, the first `channels` components of each pixel. False:
+// input says why.
+bool readScanlines(OIIO::ImageInput& input, int first, int channels, Image& to);
 
 // What a header may claim beside its size.
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name);

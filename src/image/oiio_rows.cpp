@@ -25,7 +25,8 @@ public:
     Status read(Image& strip) override
     {
         try {
-            const bool done = spec_.tile_height > 0 ? fromTiles(strip) : scanlines(strip);
+            const bool done =
+                spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels_, strip);
             if (!done)
                 return broken(input_->geterror());
         } catch (const std::exception& e) {
@@ -40,13 +41,6 @@ private:
     Error broken(const std::string& why) const
     {
         return inputError(fmt::format("{}: broken {} image: {}", name, format_, oneLine(why)));
-    }
-
-    bool scanlines(Image& strip)
-    {
-        const int first = spec_.y + next_;
-        return input_->read_scanlines(0, 0, first, first + strip.height, 0, 0, channels_, typeDesc(type),
-                                      strip.data.data(), OIIO::stride_t(strip.bytesPerPixel()));
     }
 
     // Files of tiles: a row of tiles is kept, and rows are taken from it.

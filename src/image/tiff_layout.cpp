@@ -107,9 +107,6 @@ bool knownTiffCompression(std::uint64_t method)
     return std::ranges::find(kKnown, method) != kKnown.end();
 }
 
-// CCITT's: Huffman, group 3, group 4.
-bool isFax(std::uint64_t method) { return method >= 2 && method <= 4; }
-
 } // namespace
 
 // TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
@@ -133,10 +130,6 @@ Problem checkTiff(File& file, const LoadLimits& limits)
         return "its directory does not state the bits per sample";
     if (!knownTiffCompression(tiff.valueOr(259, 1)))
         return fmt::format("its compression {} is not read here", tiff.valueOr(259, 1));
-    // Of others OpenImageIO hands out what the memory held.
-    if (isFax(tiff.valueOr(259, 1)) && (tiff.valueOr(258, 1) != 1 || tiff.valueOr(277, 1) != 1))
-        return fmt::format("it has {} samples of {} bits a pixel, a fax has 1 of 1", tiff.valueOr(277, 1),
-                           tiff.valueOr(258, 1));
     // OpenImageIO takes memory for all rows of a strip, 4 channels each. The largest number means: all in one strip.
     const std::uint64_t sampleBytes = 4 * std::clamp<std::uint64_t>(tiff.valueOr(258, 1) / 8, 1, 16);
     const std::uint64_t width = std::clamp<std::uint64_t>(tiff.valueOr(256, 0), 1, 0xffffffff);
