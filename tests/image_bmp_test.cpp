@@ -1,0 +1,79 @@
+// BMP files made by hand: palettes, runs, and headers that promise what is not there.
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "picture_file.hpp"
+
+namespace cotan::test {
+namespace {
+
+// 2 x 2 of palette entries 1, 2, 3 and 4; runs are of 8 bits.
+std::string makeBmp(std::uint32_t bits, std::uint32_t compression)
+{
+    const std::string rows = compression == 0 ? std::string("\1\2\0\0\3\4\0\0", 8) // a row has 4 bytes
+                                              : std::string("\1\1\1\2\0\0\1\3\1\4\0\1", 12);
+    std::string file = "BM";
+    const auto add = [&](std::uint32_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i)
+            file += char(value >> 8 * i);
+    };
+    for (const std::uint32_t value : {std::uint32_t(1078 + rows.size()), 0u, 1078u, 40u, 2u, 2u})
+        add(value, 4);
+    add(1, 2);
+    add(bits, 2);
+    for (const std::uint32_t value : {compression, std::uint32_t(rows.size()), 2835u, 2835u, 0u, 0u})
+        add(value, 4);
+    for (std::uint32_t i = 0; i < 256; ++i)
+        add(i * 0x010203, 4); // blue three times red
+    return file + rows;
+}
+
+TEST_F(PictureFile, bmpOfRunsIsReadOfTheirOwnBitsAPixelAndRefusedOfOthers)
+{
+    for (const std::uint32_t compression : {0u, 1u}) {
+        const auto image = decodeImage(bytesOf(makeBmp(8, compression)), "a.bmp");
+        ASSERT_TRUE(image) << image.error().message;
+        const int expected[] = {3, 4, 1, 2}; // rows from below
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_EQ(image->bytes8()[4 * i], expected[i]) << compression;
+            EXPECT_EQ(image->bytes8()[4 * i + 2], 3 * expected[i]) << compression;
+        }
+    }
+    for (const std::uint32_t bits : {1u, 4u, 16u, 24u, 32u}) // 24 once read in front of the rows, a crash
+        EXPECT_FALSE(decodeImage(bytesOf(makeBmp(bits, 1)), "a.bmp")) << bits;
+    for (const std::uint32_t bits : {1u, 8u, 16u, 24u, 32u})
+        EXPECT_FALSE(decodeImage(bytesOf(makeBmp(bits, 2)), "a.bmp")) << bits;
+    const std::string runs = makeBmp(24, 1);
+    EXPECT_NE(messageOf(openRows(write("a.bmp", runs))).find("24 bits a pixel, its compression 1 has 8"),
+              std::string::npos);
+    EXPECT_FALSE(decodeImage(bytesOf(runs.substr(0, 33)), "a.bmp"));
+}
+
+TEST_F(PictureFile, bmpOfAnUnknownHeaderIsRefused)
+{
+    for (const std::uint32_t size : {0u, 11u, 16u, 64u, 0xffffffffu}) // once a size that the memory held
+        EXPECT_NE(messageOf(decodeImage(bytesOf(makeBmp(8, 0).replace(14, 4, words({size}))), "a.bmp"))
+                      .find("headers of " + std::to_string(size) + " bytes are not read here"),
+                  std::string::npos);
+    EXPECT_NE(messageOf(decodeImage(bytesOf(makeBmp(8, 0).substr(0, 53)), "a.bmp")).find("its header goes on behind"),
+              std::string::npos);
+}
+
+TEST_F(PictureFile, bmpOfRunsOfMorePixelsThanTheLimitIsRefusedBeforeTheyAreRead)
+{
+    LoadLimits limits;
+    limits.imageBytes = 16; // 2 x 2 pixels of 4 bytes
+    EXPECT_TRUE(decodeImage(bytesOf(makeBmp(8, 1)), "a.bmp", limits));
+    for (const std::string& height : {std::string("\0\1\0\0", 4), std::string("\0\xff\xff\xff", 4)}) { // 256, -256
+        const std::string runs = makeBmp(8, 1).replace(22, 4, height);
+        EXPECT_NE(
+            messageOf(decodeImage(bytesOf(runs), "a.bmp", limits)).find("2 x 256 pixels of a byte, the limit is 16"),
+            std::string::npos)
+            << messageOf(decodeImage(bytesOf(runs), "a.bmp", limits));
+    }
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,96 @@
+// JPEG files of many scans.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <jpeglib.h>
+
+#include "picture_file.hpp"
+
+namespace cotan::test {
+namespace {
+
+std::string makeJpeg(int width, int height, bool progressive)
+{
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = JDIMENSION(width);
+    jpeg.image_height = JDIMENSION(height);
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_colorspace(&jpeg, JCS_RGB);
+    if (progressive)
+        jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<JSAMPLE> row(std::size_t(width) * 3);
+    for (int y = 0; y < height; ++y) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] = JSAMPLE(i * 5 + std::size_t(y) * 3);
+        JSAMPROW rows = row.data();
+        jpeg_write_scanlines(&jpeg, &rows, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    std::string file(reinterpret_cast<const char*>(bytes), size);
+    std::free(bytes);
+    return file;
+}
+
+TEST_F(PictureFile, jpegOfOddSizeIsReadWithEveryNumberOfScans)
+{
+    for (const bool progressive : {false, true}) {
+        const auto image = decodeImage(bytesOf(makeJpeg(37, 21, progressive)), "a.jpg");
+        ASSERT_TRUE(image) << image.error().message;
+        EXPECT_EQ(image->width, 37);
+        EXPECT_EQ(image->height, 21);
+        // A ramp survives quality 75 within a few steps.
+        EXPECT_NEAR(component(*image, 10, 15, 0), 195, 12);
+        EXPECT_EQ(component(*image, 36, 20, 3), 255);
+    }
+}
+
+TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
+{
+    const std::string file = makeJpeg(64, 64, true);
+    const std::size_t last = file.rfind("\xff\xda");
+    ASSERT_NE(last, std::string::npos);
+    const std::string scan = file.substr(last, file.size() - last - 2), end = file.substr(file.size() - 2);
+    std::string many = file.substr(0, file.size() - 2);
+    for (int i = 0; i < 200; ++i)
+        many += scan;
+    const auto refused = decodeImage(bytesOf(many + end), "a.jpg");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("expected at most 100 scans"), std::string::npos) << refused.error().message;
+    // Ten scans of 30000 x 30000 pixels: over the limit in all. The size stands behind the frame's marker.
+    std::string large = file;
+    const std::size_t frame = large.find("\xff\xc2");
+    ASSERT_NE(frame, std::string::npos);
+    large.replace(frame + 5, 4, "\x75\x30\x75\x30");
+    LoadLimits limits;
+    limits.imageSide = 65535;
+    limits.imageBytes = std::size_t(1) << 40;
+    const auto slow = decodeImage(bytesOf(large), "a.jpg", limits);
+    ASSERT_FALSE(slow);
+    EXPECT_NE(slow.error().message.find("scans of 30000 x 30000 pixels"), std::string::npos) << slow.error().message;
+}
+
+// Three components of 64 x 64 coefficients of two bytes are 24576 bytes; the pixels take 16384.
+TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
+{
+    LoadLimits limits;
+    limits.imageBytes = 20000;
+    EXPECT_FALSE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
+    EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, false)), "a.jpg", limits));
+    limits.imageBytes = 24576;
+    EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
+}
+
+} // namespace
+} // namespace cotan::test
