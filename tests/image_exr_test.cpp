@@ -124,6 +124,9 @@ TEST_F(PictureFile, exrBlocksThatAreNotThereOrTooShortAreRefusedWholeAndByRows)
                      {messageOf(decodeImage(bytesOf(file), "a.exr")), messageOf(openRows(write("a.exr", file)))})
                     EXPECT_NE(message.find(why), std::string::npos) << tiled << parts << ": " << message;
             };
+            for (const char* const name :
+                 {"dataWindow", "compression", "channels"}) // once 64 x 64 of what the memory held
+                refused(sound.find(name + std::string(1, '\0')), 0x78787878, "lacks a data window", 0);
             refused(table, 0, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
             refused(table, 100000, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
             refused(first + before, 7, "block 0 has 7 bytes, expected " + std::to_string(tiled ? 16 : 8), 0);

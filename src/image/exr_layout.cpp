@@ -94,8 +94,8 @@ Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
 
 // What a header says about its blocks of rows or tiles. OpenEXR takes memory for one as soon as it opens a file.
 struct ExrBlocks {
-    std::int64_t width = 0, height = 0;
-    std::uint64_t rows = 1; // in a block
+    std::int64_t width = 0, height = 0; // 0: not stated
+    std::uint64_t rows = 0;             // in a block; 0: not stated
     std::uint64_t channels = 0;
     std::uint64_t pixelBytes = 0; // not known, 0, where a channel leaves pixels out
     std::uint64_t tileWidth = 0, tileHeight = 0;
@@ -138,7 +138,8 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 {
     if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
         return fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide);
-    const std::uint64_t row = std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * blocks.rows;
+    const std::uint64_t row =
+        std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * std::max<std::uint64_t>(blocks.rows, 1);
     const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
     const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
     if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
@@ -151,8 +152,10 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 // hands out what its memory held where one is shorter.
 Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const ExrBlocks& blocks)
 {
-    if (blocks.width <= 0 || blocks.height <= 0 || blocks.deep)
+    if (blocks.deep)
         return std::nullopt;
+    if (blocks.width <= 0 || blocks.height <= 0 || blocks.rows == 0 || blocks.channels == 0)
+        return "its header lacks a data window, a compression or channels";
     const bool tiled = blocks.tileWidth > 0 && blocks.tileHeight > 0;
     const auto width = std::uint64_t(blocks.width), height = std::uint64_t(blocks.height);
     const std::uint64_t wide = tiled ? blocks.tileWidth : width, high = tiled ? blocks.tileHeight : blocks.rows;
