@@ -10,7 +10,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kSeconds = 5;
 constexpr double kMegabytes = 1024;
 
 // A model that reads the picture as its normal map: how the tool meets an image file.
@@ -36,7 +35,7 @@ std::filesystem::path modelAround(const std::filesystem::path& picture, const Te
 // What holds whatever a command does with the file.
 void checkRun(const ToolRun& run, const Expected& row, const TemporaryFolder& folder)
 {
-    EXPECT_LT(run.seconds, kSeconds);
+    EXPECT_LT(run.seconds, kBadInputSeconds);
     EXPECT_LT(run.megabytes, kMegabytes);
     EXPECT_TRUE(run.code == 0 || run.code == 2) << run.code << " " << run.err;
     if (row.verdict == "reject") {
@@ -61,7 +60,7 @@ void check(const Expected& row)
     const bool picture = row.file.extension() == ".png";
     const auto input = picture ? modelAround(row.file, model) : row.file;
     const ToolRun run = runTool({"render", input.string(), "-o", "out.png", "--device", "reference", "--size", "64x64"},
-                                folder.path(), 20);
+                                folder.path(), unsigned(4 * kBadInputSeconds));
     checkRun(run, row, folder);
     if (run.code == 0) {
         EXPECT_TRUE(std::filesystem::exists(folder / "out.png"));
@@ -134,7 +133,7 @@ TEST(FoundInput, isBoundedInEveryCommandThatReadsIt)
             for (const Words& words : model ? modelCommands(row.file) : pictureCommands(row.file)) {
                 SCOPED_TRACE(words[0] + " " + words[1]);
                 TemporaryFolder folder;
-                checkRun(runTool(words, folder.path(), 20), row, folder);
+                checkRun(runTool(words, folder.path(), unsigned(4 * kBadInputSeconds)), row, folder);
             }
         }
     if (files == 0)
@@ -155,8 +154,8 @@ TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
         {"lint", model, "--quiet"}};
     for (const auto& call : calls) {
         SCOPED_TRACE(call[0]);
-        const ToolRun run = runTool(call, folder.path(), 20);
-        EXPECT_LT(run.seconds, kSeconds);
+        const ToolRun run = runTool(call, folder.path(), unsigned(4 * kBadInputSeconds));
+        EXPECT_LT(run.seconds, kBadInputSeconds);
         EXPECT_LT(run.megabytes, kMegabytes);
         if (call[0] == "lint") {
             EXPECT_EQ(run.code, 0) << run.err;

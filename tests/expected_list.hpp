@@ -9,6 +9,13 @@
 
 namespace cotan::test {
 
+// What bad input may take, of processor. Builds with sanitizers need several times as much.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr double kBadInputSeconds = 30;
+#else
+inline constexpr double kBadInputSeconds = 5;
+#endif
+
 struct Expected {
     std::filesystem::path file;
     std::string verdict; // reject, accept, warn, either

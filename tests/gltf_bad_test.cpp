@@ -31,19 +31,12 @@ void expectOneLine(const cotan::Error& error, const fs::path& file)
     EXPECT_EQ(error.message.find('\n'), std::string::npos) << error.message;
 }
 
-// What bad input may take; builds with sanitizers need several times as much.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kMostSeconds = 30;
-#else
-constexpr double kMostSeconds = 5;
-#endif
-
 void expectVerdict(const cotan::test::Expected& expected)
 {
     SCOPED_TRACE(expected.file.string());
     const std::clock_t start = std::clock();
     const cotan::Result<cotan::Scene> scene = cotan::loadGltf(expected.file);
-    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, kMostSeconds) << "of processor";
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, cotan::test::kBadInputSeconds) << "of processor";
     if (!scene) {
         EXPECT_NE(expected.verdict, "accept") << scene.error().message;
         expectOneLine(scene.error(), expected.file);
