@@ -174,8 +174,7 @@ int statusAfter(int signal, const fs::path& folder, bool hold, bool ignored)
 {
     const pid_t child = ::fork();
     if (child == 0) {
-        if (ignored)
-            ::signal(signal, SIG_IGN);
+        ::signal(signal, ignored ? SIG_IGN : SIG_DFL); // whatever the shell handed on (nohup)
         removePartsOnInterrupt();
         auto a = OutputFile::begin(folder / "a.png"), b = OutputFile::begin(folder / "b.png");
         if (!a || !b || !writeBytes(a->path(), {}) || !writeBytes(b->path(), {}))
