@@ -563,6 +563,37 @@ TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
     EXPECT_NE(problem("e.dae", "<COLLADA><p>0 1 2; 3</p></COLLADA>").find("whole numbers in <p>"), std::string::npos);
 }
 
+// Beside points and polygons Assimp wrote in front of its table; beside triangles alone it lost these.
+TEST_F(AssimpFile, facesWithoutCornersAreLeftOutAndTheOthersKept)
+{
+    const auto ply = [](const std::vector<std::string>& faces) {
+        std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face "
+            + std::to_string(faces.size())
+            + "\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+        for (const std::string& face : faces)
+            text += face + "\n";
+        return text;
+    };
+    const std::string triangle = "3 0 1 2", quad = "4 0 1 2 3", point = "1 0", none = "0";
+    const std::pair<std::vector<std::string>, std::size_t> cases[] = {{{triangle, none}, 1},
+                                                                      {{none, triangle, none, point}, 1},
+                                                                      {{point, quad, none, none}, 2},
+                                                                      {{none, quad, triangle}, 3}};
+    for (const auto& [faces, triangles] : cases) {
+        const Scene scene = load("a.ply", ply(faces));
+        ASSERT_EQ(scene.meshes.size(), 1u) << faces.front();
+        EXPECT_EQ(scene.meshes[0].triangleCount(), triangles) << faces.front();
+        const std::string left = std::to_string(std::ranges::count(faces, none)) + " of " + std::to_string(faces.size())
+            + " faces have no corners";
+        EXPECT_TRUE(std::ranges::any_of(scene.warnings, [&](const std::string& warning) {
+            return warning.find(left) != std::string::npos;
+        })) << left;
+    }
+    for (const std::vector<std::string>& faces : {std::vector{none}, std::vector{none, point, none}})
+        EXPECT_NE(problem("b.ply", ply(faces)).find("expected triangles, found none"), std::string::npos);
+}
+
 TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)
 {
     for (const char* extension : {".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"}) {

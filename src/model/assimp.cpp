@@ -143,6 +143,25 @@ Status checkIndices(const aiScene& source, const Job& job)
     return Done{};
 }
 
+// Assimp takes a face without corners for a polygon, and counts it in front of its table where other kinds are beside
+// it.
+void removeEmptyFaces(const aiScene& source, Job& job)
+{
+    for (unsigned m = 0; m < source.mNumMeshes; ++m) {
+        aiMesh& mesh = *source.mMeshes[m];
+        const unsigned all = mesh.mNumFaces;
+        const auto empty = [](const aiFace& face) { return face.mNumIndices == 0; };
+        mesh.mNumFaces = unsigned(std::remove_if(mesh.mFaces, mesh.mFaces + all, empty) - mesh.mFaces);
+        if (mesh.mNumFaces == all)
+            continue;
+        mesh.mPrimitiveTypes = 0;
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(mesh.mFaces[f].mNumIndices);
+        job.scene.warnings.push_back(fmt::format("mesh {}: {} of {} faces have no corners; left out",
+                                                 mesh.mName.C_Str(), all - mesh.mNumFaces, all));
+    }
+}
+
 Status checkCounts(const aiScene& source, const Job& job)
 {
     std::size_t vertices = 0, triangles = 0;
@@ -228,6 +247,7 @@ Result<Scene> load(Job& job)
         return inputError(fmt::format("{}: {}", job.name(), withoutBreaks(importer.GetErrorString())));
     if (Status ok = checkIndices(*source, job); !ok)
         return ok.error();
+    removeEmptyFaces(*source, job);
     if (job.limits.expect)
         job.limits.expect(bytesToConvert(*source));
     source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
