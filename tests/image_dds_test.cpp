@@ -97,5 +97,15 @@ TEST_F(PictureFile, ddsOfChannelsWithoutBitsOrOfNoKnownKindIsRefused)
         EXPECT_FALSE(ofKind(flags)) << flags;
 }
 
+TEST_F(PictureFile, ddsOfPlainPixelsNeedsAllOfThem)
+{
+    std::string file = dx10(4, 4, 0).substr(0, 128);
+    file.replace(80, 28, words({0x41, 0, 32, 0xff0000, 0xff00, 0xff, 0xff000000}));
+    EXPECT_TRUE(decodeImage(bytesOf(file + std::string(64, 'x')), "a.dds"));
+    EXPECT_NE(
+        messageOf(decodeImage(bytesOf(file + std::string(63, 'x')), "a.dds")).find("16 times 4 bytes, the file has 63"),
+        std::string::npos);
+}
+
 } // namespace
 } // namespace cotan::test

@@ -1,4 +1,6 @@
 // OpenEXR files made by hand: attributes and blocks that are not what the header says.
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -164,6 +166,99 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
             }
         }
     }
+}
+
+// Scan lines, or square tiles, of one channel that is not compressed; `type` 1: halves, 2: floats. A pixel's value is
+// 1 + x + 4 y of the data window, or 0.5 in halves.
+std::string plainExr(std::uint32_t left, std::uint32_t top, std::uint32_t width, std::uint32_t height,
+                     std::uint32_t type, std::uint32_t tile)
+{
+    const std::string window = words({left, top, left + width - 1, top + height - 1});
+    std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
+        {"channels", "chlist", 19, std::string("R\0", 2) + words({type, 0, 1, 1}) + '\0'},
+        {"compression", "compression", 1, std::string(1, '\0')},
+        {"dataWindow", "box2i", 16, window},
+        {"displayWindow", "box2i", 16, window},
+        {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
+        {"pixelAspectRatio", "float", 4, words({0x3f800000})},
+        {"screenWindowCenter", "v2f", 8, words({0, 0})},
+        {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+    if (tile > 0)
+        attributes.emplace_back("tiles", "tiledesc", 9, words({tile, tile}) + '\0');
+    const std::string start = words({0x01312f76, 2u | (tile > 0 ? 0x200u : 0u)}) + exrHeader(attributes);
+    const std::uint32_t wide = tile > 0 ? tile : width, high = tile > 0 ? tile : 1;
+    const std::size_t blocks = std::size_t((width + wide - 1) / wide) * ((height + high - 1) / high);
+    std::string table, body;
+    for (std::uint32_t y = 0; y < height; y += high)
+        for (std::uint32_t x = 0; x < width; x += wide) {
+            table += words({std::uint32_t(start.size() + 8 * blocks + body.size()), 0});
+            std::string pixels;
+            for (std::uint32_t j = y; j < std::min(y + high, height); ++j)
+                for (std::uint32_t i = x; i < std::min(x + wide, width); ++i)
+                    pixels += type == 1 ? std::string("\0\x38", 2)
+                                        : words({std::bit_cast<std::uint32_t>(float(1 + i + 4 * j))});
+            body += (tile > 0 ? words({x / tile, y / tile, 0, 0}) : words({top + y}))
+                + words({std::uint32_t(pixels.size())}) + pixels;
+        }
+    return start + table + body;
+}
+
+TEST_F(PictureFile, exrOfAnyWindowTypeAndTilesHasItsValuesInTheirPlaces)
+{
+    const struct {
+        std::uint32_t left, top, width, height, type, tile;
+    } cases[] = {{0, 0, 3, 2, 2, 0}, {7, 5, 3, 2, 2, 0}, {0, 0, 3, 3, 2, 2},
+                 {7, 5, 3, 5, 2, 2}, {0, 0, 3, 2, 1, 0}, {0, 0, 3, 3, 1, 2}};
+    for (const auto& c : cases) {
+        SCOPED_TRACE(testing::Message() << c.left << ' ' << c.height << ' ' << c.type << ' ' << c.tile);
+        const std::string file = plainExr(c.left, c.top, c.width, c.height, c.type, c.tile);
+        const auto image = decodeImage(bytesOf(file), "a.exr");
+        ASSERT_TRUE(image) << image.error().message;
+        ASSERT_EQ(image->width, int(c.width));
+        ASSERT_EQ(image->height, int(c.height));
+        for (std::uint32_t y = 0; y < c.height; ++y)
+            for (std::uint32_t x = 0; x < c.width; ++x)
+                EXPECT_EQ(image->floats()[4 * (y * c.width + x)], c.type == 1 ? 0.5f : float(1 + x + 4 * y)) << x << y;
+        for (const int strip : {1, 2}) {
+            const auto rows = byRows(write("a.exr", file), strip);
+            ASSERT_TRUE(rows) << strip;
+            EXPECT_EQ(rows->data, image->data) << strip;
+        }
+        EXPECT_NE(messageOf(decodeImage(bytesOf(file.substr(0, file.size() - 1)), "a.exr")).find("block "),
+                  std::string::npos);
+    }
+}
+
+// What OpenImageIO says of these is better than what could be said of their blocks.
+TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
+{
+    const auto file = [](std::uint32_t version, std::uint32_t sampling, const std::string& type, std::uint32_t bytes) {
+        std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
+            {"channels", "chlist", 19, std::string("R\0", 2) + words({2, 0, sampling, sampling}) + '\0'},
+            {"compression", "compression", 1, std::string(1, '\0')},
+            {"dataWindow", "box2i", 16, words({0, 0, 1, 1})},
+            {"displayWindow", "box2i", 16, words({0, 0, 1, 1})},
+            {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
+            {"pixelAspectRatio", "float", 4, words({0x3f800000})},
+            {"screenWindowCenter", "v2f", 8, words({0, 0})},
+            {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+        if (!type.empty()) {
+            attributes.emplace_back("type", "string", std::uint32_t(type.size()), type);
+            attributes.emplace_back("name", "string", 1, "a");
+            attributes.emplace_back("version", "int", 4, words({1}));
+            attributes.emplace_back("maxSamplesPerPixel", "int", 4, words({1}));
+            attributes.emplace_back("chunkCount", "int", 4, words({2}));
+        }
+        const std::string start = words({0x01312f76, version}) + exrHeader(attributes);
+        const auto at = std::uint32_t(start.size() + 16);
+        return start + words({at, 0, at + 8 + bytes, 0, 0, bytes}) + std::string(bytes, '\0') + words({1, bytes})
+            + std::string(bytes, '\0');
+    };
+    const auto deep = file(0x802, 1, "deepscanline", 32), subsampled = file(2, 2, "", 4);
+    for (const auto& [bytes, why] : {std::pair(deep, "found a volume"), std::pair(subsampled, "Subsampled channels")})
+        for (const auto& message :
+             {messageOf(decodeImage(bytesOf(bytes), "a.exr")), messageOf(openRows(write("a.exr", bytes)))})
+            EXPECT_NE(message.find(why), std::string::npos) << message;
 }
 
 } // namespace

@@ -92,5 +92,24 @@ TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
     EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
 }
 
+// libjpeg would go on with grey, or with what it made of the bits. Of these it says so in progressive files.
+TEST_F(PictureFile, jpegWhosePixelsEndEarlyOrAreNoCodesIsRefused)
+{
+    const struct {
+        bool progressive;
+        std::string bytes;
+        std::string why;
+    } cases[] = {{false, std::string("\xff\xd9", 2), "premature end of data segment"},
+                 {true, std::string("\xff\xd9", 2), "premature end of data segment"},
+                 {true, std::string("\xff\0\xff\0\xff\0\xff\0\xff\0\xff\0", 12), "bad Huffman code"}};
+    for (const auto& c : cases) {
+        const std::string sound = makeJpeg(64, 64, c.progressive);
+        const std::size_t scan = sound.rfind("\xff\xda"), middle = (scan + sound.size()) / 2;
+        const std::string message =
+            messageOf(decodeImage(bytesOf(std::string(sound).replace(middle, c.bytes.size(), c.bytes)), "a.jpg"));
+        EXPECT_NE(message.find(c.why), std::string::npos) << c.progressive << message;
+    }
+}
+
 } // namespace
 } // namespace cotan::test

@@ -248,5 +248,12 @@ TEST(Ktx2, bombsAreRefusedBeforeMemoryIsTaken)
     }
 }
 
+TEST(Ktx2, aPlainLevelOfMoreBytesThanItsPixelsIsRefused)
+{
+    EXPECT_NE(
+        ktx2Refusal(makeKtx2({.levels = {{"\1\2\3\4\5", 4}}})).find("has 4 bytes, 5 as stored; its size asks for 4"),
+        std::string::npos);
+}
+
 } // namespace
 } // namespace cotan

@@ -1,6 +1,7 @@
 // Image files: what is stored comes back, and what is broken is refused.
 #include "cotan/image/file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "cotan/image/convert.hpp"
 #include "expected_list.hpp"
 #include "png_maker.hpp"
 
@@ -366,6 +368,34 @@ TEST_F(ImageFile, failedWriteLeavesNothingAndKeepsTheOlderFile)
     EXPECT_FALSE(writeImage(folder / "old.png", Image{}));
     EXPECT_EQ(readAll(folder / "old.png"), "old");
     EXPECT_EQ(fileCount(), 2u);
+}
+
+TEST(ConvertImage, sixteenBitsGoToTheNearestOfEight)
+{
+    Image words = makeImage(2, 1, PixelType::unorm16);
+    const std::array<std::uint16_t, 8> values = {0, 128, 129, 385, 386, 65406, 65407, 65535}; // 257 a step
+    std::ranges::copy(values, words.words());
+    const Image bytes = toUnorm8(words);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(bytes.bytes8()[i], std::lround(values[i] / 257.0)) << values[i];
+}
+
+// x = 100 / 127, y = 40 / 127 and z = 67.15 / 127 have length 1.
+TEST(ConvertImage, blueIsMadeOfRedAndGreenWhereItIsMissingEverywhereAndThereIsNoAlpha)
+{
+    Image image = makeImage(2, 1, PixelType::unorm8);
+    const std::array<std::uint8_t, 8> stored = {228, 88, 128, 255, 128, 128, 128, 255};
+    std::ranges::copy(stored, image.bytes8());
+    completeNormals(image);
+    EXPECT_EQ(image.bytes8()[2], 128 + 67);
+    EXPECT_EQ(image.bytes8()[6], 255);
+    for (const std::size_t other : {2u, 3u}) { // another blue, or an alpha, in one texel
+        Image kept = makeImage(2, 1, PixelType::unorm8);
+        std::ranges::copy(stored, kept.bytes8());
+        kept.bytes8()[4 + other] = 200;
+        completeNormals(kept);
+        EXPECT_EQ(kept.bytes8()[2], 128) << other;
+    }
 }
 
 TEST(BadData, everyPngGetsItsVerdictInTimeAndMemory)

@@ -207,7 +207,7 @@ Problem checkExr(File& file, const LoadLimits& limits)
             return "its header goes on behind the end of the file";
         if (begins)
             first = blocks;
-        more = several && !(empty && !begins);
+        more = several && !empty;
     }
     return checkExrTable(numbers, at, several, first);
 }

@@ -41,7 +41,8 @@ void onError(j_common_ptr common)
     std::longjmp(decoder->escape, 1);
 }
 
-// libjpeg paints over damage and goes on; where picture data is missing or wrong, we do not.
+// libjpeg paints over damage and goes on; where it says that picture data is missing or wrong, we do not. Of bits that
+// are no code it says so in progressive files only, and at the end of others.
 void onMessage(j_common_ptr common, int level)
 {
     const int code = common->err->msg_code;
