@@ -255,6 +255,43 @@ TEST_F(AssimpFile, mtlRoughnessAndMetalnessWithTheirMaps)
     EXPECT_EQ(image.bytes8()[2], 200);
 }
 
+// Roughness goes to green and metalness to blue, each from the nearest texel of its own picture.
+TEST_F(AssimpFile, mtlRoughnessAndMetalnessOfDifferentSizesAreLaidOverEachOther)
+{
+    Image rough = makeImage(4, 2, PixelType::unorm8), metal = makeImage(2, 6, PixelType::unorm8);
+    for (Image* image : {&rough, &metal})
+        for (std::size_t i = 0; i < image->pixelCount(); ++i) {
+            const std::uint8_t value = std::uint8_t(10 * (1 + i));
+            const std::uint8_t rgba[4] = {value, 0, 0, 255};
+            std::memcpy(image->bytes8() + 4 * i, rgba, 4);
+        }
+    ASSERT_TRUE(writeImage(folder / "rough.png", rough));
+    ASSERT_TRUE(writeImage(folder / "metal.png", metal));
+    const Scene scene = loadMaterial("map_Pr rough.png\nmap_Pm metal.png\n");
+    const Image& image = scene.images.at(std::size_t(materialOf(scene).metallicRoughnessMap.image));
+    ASSERT_EQ(image.width, 4);
+    ASSERT_EQ(image.height, 6);
+    for (int y = 0; y < 6; ++y)
+        for (int x = 0; x < 4; ++x) {
+            const std::uint8_t* texel = image.bytes8() + 4 * (y * 4 + x);
+            EXPECT_EQ(texel[1], 10 * (1 + x + 4 * (y / 3))) << x << y;
+            EXPECT_EQ(texel[2], 10 * (1 + x / 2 + 2 * y)) << x << y;
+        }
+}
+
+TEST_F(AssimpFile, picturesBeyondTheLimitOfAllAreLeftOutAndSaid)
+{
+    writeColour(folder / "a.png", 1, 2, 3);
+    writeColour(folder / "b.png", 4, 5, 6);
+    write("m.mtl", "newmtl m\nmap_Kd a.png\nmap_Ke b.png\n");
+    LoadLimits limits;
+    limits.allImageBytes = 64; // one picture of 4 x 4
+    const auto scene = loadScene(write("m.obj", "mtllib m.mtl\n" + kQuad + "usemtl m\n" + kQuadFace), limits);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->images.size(), 1u);
+    EXPECT_TRUE(mentions(scene->warnings, "the images are over the limit of 64 bytes; left out"));
+}
+
 TEST_F(AssimpFile, mtlNormalMapsAreReadUnderEveryName)
 {
     writeColour(folder / "n.png", 128, 128, 255);
@@ -487,7 +524,12 @@ TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
     EXPECT_NE(problem("m.ply", text + "7 3" + std::string(8, '\0') + " 0 1 2\n7 3 2 1 0\n")
                   .find("found a byte of value 0 at"),
               std::string::npos);
-    EXPECT_NE(problem("l.ply", plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n")), "");
+    const std::string floats = plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n");
+    EXPECT_NE(problem("l.ply", floats + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("expected a whole number as the count"),
+              std::string::npos);
+    LoadLimits limits;
+    limits.vertices = 2;
+    EXPECT_NE(problem("n.ply", text + "7 3 0 1 2\n7 3 2 1 0", limits).find("it counts 3 elements"), std::string::npos);
 }
 
 std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& numbers)

@@ -1,13 +1,20 @@
 // The one way in which files are written, and the account of what is read and written.
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <csignal>
 #include <fstream>
+#include <span>
+#include <thread>
+#include <vector>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/files/plan.hpp"
 #include "cotan/image/file.hpp"
 #include "run_tool.hpp"
 
@@ -167,6 +174,101 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
     EXPECT_FALSE(fs::exists(left));
     EXPECT_TRUE(fs::exists(folder / elsewhere));
     EXPECT_TRUE(fs::exists(ours->path()));
+}
+
+TEST(OutputFiles, aNameWithoutAProcessIsNoPart)
+{
+    TemporaryFolder folder;
+    auto ours = OutputFile::begin(folder / "a.png");
+    ASSERT_TRUE(ours);
+    // A process below 0 stands for a group, which is not there.
+    const std::string number = std::to_string(::getpid());
+    std::string name = ours->path().filename().string();
+    name.replace(name.find(number), number.size(), "-999999");
+    std::ofstream(folder / name) << "mine";
+    EXPECT_TRUE(leftParts(folder.path()).empty());
+}
+
+TEST(OutputFiles, whatIsOpenUnderProcIsWrittenThrough)
+{
+    TemporaryFolder folder;
+    std::ofstream(folder / "a.txt") << "old";
+    const int file = ::open((folder / "a.txt").c_str(), O_RDWR | O_APPEND);
+    ASSERT_GE(file, 0);
+    EXPECT_TRUE(writeFileWhole("/proc/self/fd/" + std::to_string(file), "new"));
+    char text[4] = "";
+    EXPECT_EQ(::pread(file, text, 3, 0), 3); // the file that is open, not another one of its name
+    EXPECT_EQ(std::string(text), "new");
+    ::close(file);
+    EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+TEST(OutputFiles, writingGoesOnAfterASignal)
+{
+    TemporaryFolder folder;
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    struct sigaction quiet {};
+    quiet.sa_handler = [](int) {};
+    struct sigaction before {};
+    ::sigaction(SIGUSR1, &quiet, &before); // without SA_RESTART: write() ends with EINTR
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    const std::string sent(300000, 'x');
+    Status written = Done{};
+    std::thread writer([&] { written = writeBytes(pipe, std::as_bytes(std::span(sent.data(), sent.size()))); });
+    for (int i = 0; i < 50; ++i) { // the pipe is full soon
+        ::usleep(2000);
+        ::pthread_kill(writer.native_handle(), SIGUSR1);
+    }
+    std::size_t received = 0;
+    std::vector<char> buffer(65536);
+    for (int idle = 0; received < sent.size() && idle < 500;) {
+        const ssize_t count = ::read(reader, buffer.data(), buffer.size());
+        received += count > 0 ? std::size_t(count) : 0;
+        if (count <= 0) {
+            ::usleep(2000);
+            ++idle;
+        }
+    }
+    ::close(reader); // a writer that still waits ends
+    writer.join();
+    ::sigaction(SIGUSR1, &before, nullptr);
+    EXPECT_TRUE(written) << written.error().message;
+    EXPECT_EQ(received, sent.size());
+}
+
+TEST(OutputFiles, aFullQuotaIsNoSpace)
+{
+    EXPECT_EQ(reasonOf(EDQUOT), "no space left on the device");
+    EXPECT_EQ(reasonOf(ENOSPC), "no space left on the device");
+    EXPECT_EQ(reasonOf(EACCES), "permission denied");
+}
+
+TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
+{
+    TemporaryFolder folder;
+    auto output = OutputFile::begin(folder / "a.png");
+    ASSERT_TRUE(output);
+    const std::string part = output->path().string(), name = output->path().filename().string();
+    EXPECT_EQ(output->failed(outputError(part + ": bad; " + name)).message,
+              (folder / "a.png").string() + ": bad; a.png");
+    EXPECT_EQ(output->failed(inputError(part)).message, part) << "of an input nothing is changed";
+}
+
+TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)
+{
+    TemporaryFolder folder;
+    const fs::path deep = folder / "new";
+    EXPECT_TRUE(planOutputs(plannedIn("-o", deep, {"a.png", "b.png"})));
+    const auto missing = planOutputs({{"--json", deep / "c.json"}});
+    ASSERT_FALSE(missing);
+    EXPECT_NE(missing.error().message.find("new does not exist"), std::string::npos) << missing.error().message;
+    guardInputs(/*overwrite*/ false);
+    const auto twice = planOutputs({{"--csv", folder / "d"}, {"--json", folder / "d"}});
+    guardInputs(/*overwrite*/ true);
+    ASSERT_FALSE(twice);
+    EXPECT_NE(twice.error().message.find("--json"), std::string::npos) << twice.error().message;
+    EXPECT_NE(twice.error().message.find("--csv"), std::string::npos) << twice.error().message;
 }
 
 // Dies by `signal` in the middle of writing; the status of the process.

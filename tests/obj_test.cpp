@@ -160,6 +160,45 @@ TEST_F(ObjFile, manyGroupsAndMaterialsTakeTimeByTheirNumber)
     EXPECT_EQ(scene.materials.size(), std::size_t(kGroups));
 }
 
+TEST_F(ObjFile, theHighestIndexOfAnyFaceIsHeldToWhatThereIs)
+{
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    EXPECT_NE(problem(vertices + "f 1 2 9\nf 1 2 3\n").find("line 4: expected a position index up to 3, found 9"),
+              std::string::npos);
+    EXPECT_NE(problem(vertices + "vn 0 0 1\nf 1//1 2 3\n").find("found a mixture"), std::string::npos);
+    EXPECT_NE(problem(vertices + "vn 0 0 1\nf 1 2//1 3//1\n").find("found a mixture"), std::string::npos);
+}
+
+TEST_F(ObjFile, verticesBeforeTheFirstColourAreWhiteAndEachComponentIsMadeLinear)
+{
+    const Mesh mesh = load("v 1 0 0\nv 0 0 0 0.25 0.5 0.75\nv 0 1 0\nf 1 2 3\n").meshes.at(0);
+    EXPECT_EQ(mesh.colors.at(0), glm::vec4(1));
+    // IEC 61966-2-1: ((c + 0.055) / 1.055)^2.4.
+    EXPECT_NEAR(mesh.colors.at(1).x, 0.050876, 1e-5);
+    EXPECT_NEAR(mesh.colors.at(1).y, 0.214041, 1e-5);
+    EXPECT_NEAR(mesh.colors.at(1).z, 0.522522, 1e-5);
+    EXPECT_EQ(mesh.colors.at(2), glm::vec4(1));
+}
+
+TEST_F(ObjFile, linesAndPointsAreNoMeshes)
+{
+    const Scene scene = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wire\nf 1 2\nf 3\nusemtl skin\nf 1 2 3\n");
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
+}
+
+TEST_F(ObjFile, normalsThatAreNoDirectionsAreAllMadeAnewAndSaid)
+{
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const Scene zero = load(vertices + "vn 0 3 4\nvn 0 0 0\nf 1//1 2//1 3//2\n");
+    for (const glm::vec3& n : zero.meshes.at(0).normals)
+        EXPECT_EQ(n, glm::vec3(0, 0, 1));
+    EXPECT_TRUE(mentions(zero, "some normals are zero or missing; all are made anew"));
+    const Scene kept = load(vertices + "vn 0 3 4\nf 1//1 2//1 3//1\n");
+    EXPECT_EQ(kept.meshes.at(0).normals.at(0), glm::vec3(0, 0.6f, 0.8f));
+    EXPECT_TRUE(kept.warnings.empty());
+}
+
 // ---- polygons -----------------------------------------------------------------------------------
 
 using Polygon = std::vector<glm::dvec2>;
@@ -409,6 +448,28 @@ TEST_F(ObjFile, mapsAreScaledShiftedAndClamped)
         EXPECT_FLOAT_EQ(t.vRow.x * down.x + t.vRow.y * down.y + t.vRow.z, 1 - (3 * uv.y + 0.125f));
     }
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\nmap_Kd -clamp off 1.png\n")).baseColorMap.sampler.wrapU, Wrap::repeat);
+}
+
+TEST_F(ObjFile, onlyTheClampOptionClampsAndColoursAreNotNegative)
+{
+    const Texture& t = materialOf(loadMaterial("newmtl m\nmap_Kd -blendu on -cc on 1.png\n")).baseColorMap;
+    EXPECT_EQ(t.sampler.wrapU, Wrap::repeat);
+    EXPECT_EQ(t.sampler.wrapV, Wrap::repeat);
+    EXPECT_EQ(materialOf(loadMaterial("newmtl m\nKd -1 0.5 -0.25\n")).baseColor, glm::vec4(0, 0.5f, 0, 1));
+}
+
+TEST_F(ObjFile, eachMeshHasTheMaterialOfItsGroup)
+{
+    write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+    const Scene scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl blue\nf 1 2 3\nusemtl red\nf 1 2 3\n"
+                             "g again\nf 1 2 3\n");
+    ASSERT_EQ(scene.meshes.size(), 3u);
+    const auto colour = [&](std::size_t i) {
+        return scene.materials.at(std::size_t(scene.meshes[i].material)).baseColor;
+    };
+    EXPECT_EQ(colour(0), glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(colour(1), glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(colour(2), glm::vec4(1, 0, 0, 1));
 }
 
 } // namespace

@@ -13,7 +13,6 @@
 #include "cotan/files/folder.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
-#include "cotan/image/size.hpp"
 
 namespace cotan {
 
@@ -74,25 +73,16 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
         problem = "the embedded texture is empty";
         return std::nullopt;
     }
-    if (texture.mHeight == 0) { // a whole image file of mWidth bytes
-        auto image = decodeImage(
-            std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)), name, limits_);
-        if (image)
-            return *std::move(image);
-        problem = image.error().message;
+    if (texture.mHeight != 0) { // 0: a whole image file of mWidth bytes, as all formats that are read here have it
+        problem = "expected an embedded image file, found plain texels";
         return std::nullopt;
     }
-    if (auto error = checkImageSize(texture.mWidth, texture.mHeight, PixelType::unorm8, name, limits_)) {
-        problem = error->message;
-        return std::nullopt;
-    }
-    Image image = makeImage(int(texture.mWidth), int(texture.mHeight), PixelType::unorm8, name);
-    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-        const aiTexel& texel = texture.pcData[i];
-        const std::uint8_t rgba[4] = {texel.r, texel.g, texel.b, texel.a};
-        std::memcpy(image.bytes8() + 4 * i, rgba, 4);
-    }
-    return image;
+    auto image = decodeImage(std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
+                             name, limits_);
+    if (image)
+        return *std::move(image);
+    problem = image.error().message;
+    return std::nullopt;
 }
 
 int TextureReader::normalMap(const std::string& path, const std::string& material, float strength, bool& converted)
