@@ -253,6 +253,9 @@ TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
     EXPECT_EQ(output->failed(outputError(part + ": bad; " + name)).message,
               (folder / "a.png").string() + ": bad; a.png");
     EXPECT_EQ(output->failed(inputError(part)).message, part) << "of an input nothing is changed";
+    auto here = OutputFile::begin("a.png"); // in the folder of work, whose part is ./...
+    ASSERT_TRUE(here);
+    EXPECT_EQ(here->failed(outputError(here->path().string() + ": bad")).message, "a.png: bad");
 }
 
 TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)

@@ -254,7 +254,7 @@ TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
         return start + words({at, 0, at + 8 + bytes, 0, 0, bytes}) + std::string(bytes, '\0') + words({1, bytes})
             + std::string(bytes, '\0');
     };
-    const auto deep = file(0x802, 1, "deepscanline", 32), subsampled = file(2, 2, "", 4);
+    const auto deep = file(0x802, 1, "deepscanline", 4), subsampled = file(2, 2, "", 4);
     for (const auto& [bytes, why] : {std::pair(deep, "found a volume"), std::pair(subsampled, "Subsampled channels")})
         for (const auto& message :
              {messageOf(decodeImage(bytesOf(bytes), "a.exr")), messageOf(openRows(write("a.exr", bytes)))})
