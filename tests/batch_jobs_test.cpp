@@ -88,6 +88,7 @@ TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
         {"{\"command\": [\"copy\"], \"inputs\": \"a\"}", "\"inputs\": expected a list"},
         {"{\"command\": [\"copy\"], \"name\": 3}", "\"name\": expected a text"},
         {"{\"command\": [\"copy\"], \"name\": \"\"}", "\"name\": expected a text"},
+        {"{\"command\": [\"copy\"], \"name\": \"" + std::string(1001, 'n') + "\"}", "a text of 1 to 1000 bytes"},
         {"{\"command\": [\"bad\"]}", "there is no command 'bad'"},
         {std::string(100000, '['), "no JSON"},
         {"{\"command\": [" + deep('[', ']') + "]}", "\"command\": expected texts only"}, // once no stack was left
@@ -110,6 +111,7 @@ TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
     EXPECT_NE(several.error().message.find("jobs.jsonl:1: "), std::string::npos);
     EXPECT_NE(several.error().message.find("(and 2 more lines are wrong)"), std::string::npos);
     EXPECT_FALSE(read("\n\n"));
+    EXPECT_TRUE(read("\xef\xbb\xbf\n{\"command\": [\"copy\"], \"name\": \"" + std::string(1000, 'n') + "\"}\n"));
 }
 
 TEST(BatchJobs, noDamageToAFileOfJobsEndsTheProgram)

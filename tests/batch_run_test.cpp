@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -128,8 +129,31 @@ TEST(BatchStore, aRecordComesBackAsItWasAndHalfOfOneIsNone)
     EXPECT_EQ(back->inputs.at(0).changed, 7);
     for (std::size_t size = 0; size + 2 < text.size(); ++size)
         EXPECT_FALSE(parseRecord(text.substr(0, size))) << size;
+    std::string unknown = text;
+    const std::string state = "\"state\":\"";
+    unknown[unknown.find(state) + state.size()] = '?';
+    EXPECT_FALSE(parseRecord(unknown));
     for (const char* other : {"[]", "{\"format\": 1}", "{\"format\": 2, \"state\": \"done\"}", "null", "3"})
         EXPECT_FALSE(parseRecord(other)) << other;
+}
+
+TEST(BatchStore, whatEndedByItsInputsEndsSoAgainAndOtherThingsNeedNot)
+{
+    const auto again = [](JobState state, int code) {
+        JobRecord record;
+        record.state = state;
+        record.code = code;
+        return repeatable(record);
+    };
+    EXPECT_TRUE(again(JobState::done, 0));
+    EXPECT_TRUE(again(JobState::limit, 5));
+    EXPECT_TRUE(again(JobState::failed, 1)); // wrong words
+    EXPECT_TRUE(again(JobState::failed, 2)); // wrong input
+    for (const int code : {3, 4, 70})        // what is missing here, a full disk
+        EXPECT_FALSE(again(JobState::failed, code)) << code;
+    for (const JobState state :
+         {JobState::notRun, JobState::skipped, JobState::late, JobState::memory, JobState::crashed})
+        EXPECT_FALSE(again(state, 2)) << name(state);
 }
 
 TEST(BatchStore, findsByWordsAndVersionAndTakesADamagedRecordForNone)
@@ -171,6 +195,15 @@ TEST(BatchStore, workFoldersOfKilledProcessesGoAndOthersStay)
     EXPECT_NE(*a, *b);
     EXPECT_TRUE(fs::exists(*a));
     EXPECT_FALSE(fs::exists(folder / "s/work/killed"));
+
+    // Those without a lock are perhaps about to make one, for a minute.
+    fs::create_directories(folder / "s/work/young");
+    fs::create_directories(folder / "s/work/old");
+    fs::last_write_time(folder / "s/work/old", fs::file_time_type::clock::now() - std::chrono::minutes(2));
+    const Store three = openStore(folder / "s");
+    EXPECT_TRUE(fs::exists(*a) && fs::exists(*b));
+    EXPECT_TRUE(fs::exists(folder / "s/work/young"));
+    EXPECT_FALSE(fs::exists(folder / "s/work/old"));
 }
 
 TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)

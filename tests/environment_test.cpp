@@ -20,6 +20,7 @@ namespace cotan {
 namespace {
 
 using glm::dvec3;
+using glm::vec2;
 using glm::vec3;
 constexpr double kPi = std::numbers::pi;
 
@@ -292,6 +293,45 @@ TEST(Environment, theMiddleOfAPictureIsTowardsXAndItsTopUp)
     expectColor({-1, 0, 0}, {0, 0, 0});
     expectColor({0, 0, -1}, {0, 0, 0});
     expectColor({0, -1, 0}, {0, 0, 0});
+}
+
+// A function that is linear in the direction is found everywhere, over the edges of the map, too: where it is folded.
+TEST(Environment, thereIsNoSeam)
+{
+    const auto linear = [](vec3 d) { return 1.0f + d; };
+    const EnvironmentMap map = makeEnvironment(linear, 2);
+    for (const float y : {-0.05f, -0.3f, -0.6f, -0.9f, -0.995f, 0.2f})
+        for (const vec2 side : {vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -1)})
+            for (const float off : {-0.004f, -0.001f, 0.001f, 0.004f}) {
+                const vec2 level = std::sqrt(1 - y * y) * side + off * vec2(side.y, side.x);
+                const vec3 d = glm::normalize(vec3(level.x, y, level.y));
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(radianceAlong(map, d, 0)[c], 1 + d[c], 0.006f) << d.x << ' ' << d.y << ' ' << d.z;
+            }
+}
+
+// Between the middles of its pixels a picture is what lies between them, round the back, too.
+TEST(Environment, picturesAreReadBetweenTheirPixels)
+{
+    constexpr int kWidth = 16, kHeight = 8;
+    Image picture = makeImage(kWidth, kHeight, PixelType::float32, "test");
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const double longitude = 2 * kPi * (x + 0.5) / kWidth - kPi;
+            picture.floats()[4 * (y * kWidth + x)] = float(y);
+            picture.floats()[4 * (y * kWidth + x) + 1] = float(1 + std::sin(longitude));
+        }
+    const auto map = environmentOfPicture(picture);
+    ASSERT_TRUE(map) << map.error().message;
+    for (double colatitude = 0.35; colatitude < 2.8; colatitude += 0.05)
+        for (double longitude = -kPi; longitude < kPi; longitude += 0.3) {
+            const vec3 d(std::sin(colatitude) * std::cos(longitude), std::cos(colatitude),
+                         std::sin(colatitude) * std::sin(longitude));
+            const vec3 found = radianceAlong(*map, d, 0);
+            EXPECT_NEAR(found.x, colatitude / kPi * kHeight - 0.5, 0.08) << colatitude;
+            // A sine between 16 of its values: off by (2 pi / 16)^2 / 8 at most.
+            EXPECT_NEAR(found.y, 1 + std::sin(longitude), 0.02 + 0.02) << longitude;
+        }
 }
 
 TEST(Environment, picturesOfOtherShapesAndTypesAreRefused)

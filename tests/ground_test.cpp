@@ -85,12 +85,62 @@ TEST(Ground, darkeningIsTheSkyThatRaysDoNotReach)
     EXPECT_LT(d.most, 0.5);
 }
 
+TEST(Ground, lampAndSkyCountByWhatTheyBringToALevelPlane)
+{
+    const Solids solids;
+    View view = sunnyView();
+    view.environment = true;
+    view.lights[0].direction = glm::normalize(vec3(0.9f, -0.6f, -0.5f)); // low: 0.5 of what comes from above
+    view.lights[0].color = {1, 0.5f, 0.25f};
+    view.lights[0].intensity = 2.5f;
+    const auto map = makeGround(sceneOf(solids), view);
+    ASSERT_TRUE(map);
+    const dvec3 toLight = -dvec3(view.lights[0].direction);
+    const auto luminance = [](const dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; };
+    const double lamp = luminance(view.lights[0].color) * 2.5 * toLight.y / std::numbers::pi;
+    const double sky = luminance(f32::cotan_environment(vec3(0, 1, 0), 1));
+    const Difference d = compared(*map, [&](const dvec3& p) {
+        return (lamp * lightTraced(solids, p, toLight, kSoftness) + sky * skyTraced(solids, p)) / (lamp + sky);
+    });
+    EXPECT_LT(d.mean, 0.01);
+    EXPECT_LT(d.most, 0.5);
+}
+
+// Around a box in the middle the sky is as dark on one side as on the other.
+TEST(Ground, darkeningLiesInItsPlaceAndFadesAtTheEdgesOfTheMap)
+{
+    Scene scene;
+    add(scene, makeCube(1, 1), placedAt({0, 0.5, 0}, dvec3(1)));
+    View view = sunnyView();
+    view.environment = true;
+    view.lights.clear();
+    const auto map = makeGround(scene, view);
+    ASSERT_TRUE(map);
+    vec2 apart(0), total(0);
+    constexpr int kPlaces = 60;
+    for (int i = 0; i < kPlaces; ++i)
+        for (int k = -kPlaces; k < kPlaces; ++k) {
+            const vec2 place(0.5f + 0.3f * (float(i) + 0.5f) / kPlaces, 0.8f * (float(k) + 0.5f) / kPlaces);
+            apart.x += groundShareAt(*map, place) - groundShareAt(*map, {-place.x, place.y});
+            apart.y += groundShareAt(*map, {place.y, place.x}) - groundShareAt(*map, {place.y, -place.x});
+            total += 1.0f;
+        }
+    EXPECT_NEAR(apart.x / total.x, 0, 0.004);
+    EXPECT_NEAR(apart.y / total.y, 0, 0.004);
+    const int side = map->shares.width;
+    for (int i = 0; i < side; ++i)
+        for (const int texel : {i, (side - 1) * side + i, i * side, i * side + side - 1})
+            EXPECT_NEAR(map->shares.floats()[4 * texel], 1, 1e-3f);
+}
+
 // The share of a pane's shadow in the middle below it.
-float shareUnder(const Material& material)
+float shareUnder(const Material& material, float vertexAlpha = 1)
 {
     Scene scene;
     add(scene, makePlane(1, 1, 1), placedAt({0, 0.2, 0}, dvec3(1)));
     scene.materials[0] = material;
+    if (vertexAlpha < 1)
+        scene.meshes[0].colors.assign(scene.meshes[0].vertexCount(), glm::vec4(1, 1, 1, vertexAlpha));
     View view = sunnyView();
     view.lights[0].direction = {0, -1, 0};
     GroundOptions floor;
@@ -105,8 +155,13 @@ TEST(Ground, masksThrowShadowsWhereTheyAreAndPanesNone)
     EXPECT_EQ(shareUnder(material), 0);
     material.alphaMode = AlphaMode::mask;
     EXPECT_EQ(shareUnder(material), 0);
+    EXPECT_EQ(shareUnder(material, 0.4f), 1);
+    EXPECT_EQ(shareUnder(material, 0.6f), 0);
     material.baseColor.w = 0.3f;
     EXPECT_EQ(shareUnder(material), 1);
+    material.alphaCutoff = 0.2f;
+    EXPECT_EQ(shareUnder(material), 0);
+    EXPECT_EQ(shareUnder(material, 0.6f), 1); // 0.18
     material.alphaMode = AlphaMode::blend;
     EXPECT_EQ(shareUnder(material), 1);
 }
@@ -130,6 +185,9 @@ TEST(Ground, everyScaleAndPlaceHasTheSameShadowAndNothingHasNone)
     EXPECT_FALSE(makeGround(Scene{}, view));
     View dark = view;
     dark.lights.clear();
+    EXPECT_FALSE(makeGround(sceneOf(solids), dark));
+    dark.lights.resize(1);
+    dark.lights[0].kind = LightKind::point; // has no shadow here
     EXPECT_FALSE(makeGround(sceneOf(solids), dark));
     Scene odd = sceneOf(solids);
     odd.meshes[0].positions[7] = vec3(std::nanf(""), 0, 1e38f);

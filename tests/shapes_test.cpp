@@ -147,6 +147,21 @@ TEST(Shapes, sphereIsClosedWithoutHandles)
     EXPECT_EQ(t.eulerCharacteristic(), 2);
 }
 
+// A triangle at a pole has a corner of its own there, in the middle of its columns.
+TEST(Shapes, polesHaveAVertexInTheMiddleOfEveryColumn)
+{
+    constexpr std::size_t kColumns = 8;
+    const Mesh mesh = cotan::makeSphere(1, kColumns);
+    std::vector<float> top, bottom;
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i)
+        if (std::abs(mesh.positions[i].y) == 1)
+            (mesh.positions[i].y > 0 ? top : bottom).push_back(mesh.texcoords[0][i].x);
+    ASSERT_EQ(top.size(), kColumns);
+    EXPECT_EQ(top, bottom);
+    for (std::size_t i = 0; i < kColumns; ++i)
+        EXPECT_FLOAT_EQ(top[i], (float(i) + 0.5f) / kColumns);
+}
+
 TEST(Shapes, torusIsClosedWithOneHandle)
 {
     const Topology t = topology(cotan::makeTorus(1, 0.25f, 24, 1, 1));

@@ -31,12 +31,12 @@ Cubic cubic(double t)
             {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t}};
 }
 
-// A patch is collapsed along a row if its four control points are one: there the pole of a
-// surface of revolution lies on the edge.
-bool collapsed(const teapot::Patch& patch, int row)
+// Whether the four control points of the first row are one: there the pole of a surface of revolution lies on the edge.
+// No patch ends in one.
+bool collapsed(const teapot::Patch& patch)
 {
     for (int column = 1; column < 4; ++column)
-        if (controlPoint(patch, row, column) != controlPoint(patch, row, 0))
+        if (controlPoint(patch, 0, column) != controlPoint(patch, 0, 0))
             return false;
     return true;
 }
@@ -56,10 +56,8 @@ SurfacePoint patchPoint(const teapot::Patch& patch, double u, double v)
         }
     // At a collapsed edge the derivative along it vanishes, and next to the edge it is
     // proportional to the mixed derivative: that gives the limit of the normal.
-    if (v == 0 && collapsed(patch, 0))
+    if (v == 0 && collapsed(patch))
         byColumn = byBoth;
-    if (v == 1 && collapsed(patch, 3))
-        byColumn = -byBoth;
     const glm::dvec3 n = glm::normalize(glm::cross(byColumn, byRow));
     // z up to y up
     return {glm::dvec3(p.x, p.z, -p.y) / kOriginalHeight, glm::dvec3(n.x, n.z, -n.y)};
@@ -73,7 +71,7 @@ Mesh makeTeapot(int segmentsPerPatch)
     Mesh mesh;
     mesh.name = "teapot";
     for (const teapot::Patch& patch : teapot::kPatches) {
-        const Grid grid{segments, segments, collapsed(patch, 0), collapsed(patch, 3)};
+        const Grid grid{segments, segments, collapsed(patch), false};
         appendGrid(mesh, grid, [&patch](double u, double v) { return patchPoint(patch, u, v); });
     }
     return mesh;
