@@ -295,18 +295,20 @@ TEST(Environment, theMiddleOfAPictureIsTowardsXAndItsTopUp)
     expectColor({0, -1, 0}, {0, 0, 0});
 }
 
-// A function that is linear in the direction is found everywhere, over the edges of the map, too: where it is folded.
+// Ramps across the planes x = 0 and z = 0, over which the map is folded below the horizon: there they are ramps, too.
 TEST(Environment, thereIsNoSeam)
 {
-    const auto linear = [](vec3 d) { return 1.0f + d; };
-    const EnvironmentMap map = makeEnvironment(linear, 2);
-    for (const float y : {-0.05f, -0.3f, -0.6f, -0.9f, -0.995f, 0.2f})
+    const auto ramps = [](vec3 d) {
+        return glm::clamp(0.5f + 50.0f * d, 0.0f, 1.0f);
+    }; // a texel is up to a quarter of it
+    const EnvironmentMap map = makeEnvironment(ramps, 2);
+    for (const float y : {-0.05f, -0.3f, -0.6f, -0.9f, 0.2f})
         for (const vec2 side : {vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -1)})
             for (const float off : {-0.004f, -0.001f, 0.001f, 0.004f}) {
                 const vec2 level = std::sqrt(1 - y * y) * side + off * vec2(side.y, side.x);
                 const vec3 d = glm::normalize(vec3(level.x, y, level.y));
-                for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(radianceAlong(map, d, 0)[c], 1 + d[c], 0.006f) << d.x << ' ' << d.y << ' ' << d.z;
+                for (const int c : {0, 2})
+                    EXPECT_NEAR(radianceAlong(map, d, 0)[c], ramps(d)[c], 0.02f) << d.x << ' ' << d.y << ' ' << d.z;
             }
 }
 
@@ -324,7 +326,7 @@ TEST(Environment, picturesAreReadBetweenTheirPixels)
     const auto map = environmentOfPicture(picture);
     ASSERT_TRUE(map) << map.error().message;
     for (double colatitude = 0.35; colatitude < 2.8; colatitude += 0.05)
-        for (double longitude = -kPi; longitude < kPi; longitude += 0.3) {
+        for (double longitude = 0.1 - kPi; longitude < kPi; longitude += 0.2) {
             const vec3 d(std::sin(colatitude) * std::cos(longitude), std::cos(colatitude),
                          std::sin(colatitude) * std::sin(longitude));
             const vec3 found = radianceAlong(*map, d, 0);
