@@ -29,7 +29,9 @@ TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
 }
 
 // A file of OpenEXR that has only a header: attributes of (name, type, size as stored, bytes).
-std::string exrHeader(const std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>>& attributes)
+using ExrAttributes = std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>>;
+
+std::string exrHeader(const ExrAttributes& attributes)
 {
     std::string header;
     for (const auto& [name, type, size, bytes] : attributes) {
@@ -41,17 +43,29 @@ std::string exrHeader(const std::vector<std::tuple<std::string, std::string, std
     return header + '\0';
 }
 
+// What every picture of one channel has. type: 1 halves, 2 floats.
+ExrAttributes exrAttributes(const std::string& window, std::uint32_t type, char compression, std::uint32_t sampling = 1)
+{
+    return {{"channels", "chlist", 19, std::string("R\0", 2) + words({type, 0, sampling, sampling}) + '\0'},
+            {"compression", "compression", 1, std::string(1, compression)},
+            {"dataWindow", "box2i", 16, window},
+            {"displayWindow", "box2i", 16, window},
+            {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
+            {"pixelAspectRatio", "float", 4, words({0x3f800000})},
+            {"screenWindowCenter", "v2f", 8, words({0, 0})},
+            {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+}
+
 TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
 {
     const std::string magic("\x76\x2f\x31\x01\2\0\0\0", 8);
     const std::string channels = std::string("R\0", 2) + words({1, 0, 1, 1}) + '\0';
     const auto refused = [&](std::uint32_t right, std::uint32_t bottom, char compression, const std::string& tiles) {
-        std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
-            {"channels", "chlist", 19, channels},
-            {"compression", "compression", 1, std::string(1, compression)},
-            {"dataWindow", "box2i", 16, words({0, 0, right, bottom})},
-            {"displayWindow", "box2i", 16, words({0, 0, right, bottom})},
-            {"lineOrder", "lineOrder", 1, std::string(1, '\0')}};
+        ExrAttributes attributes = {{"channels", "chlist", 19, channels},
+                                    {"compression", "compression", 1, std::string(1, compression)},
+                                    {"dataWindow", "box2i", 16, words({0, 0, right, bottom})},
+                                    {"displayWindow", "box2i", 16, words({0, 0, right, bottom})},
+                                    {"lineOrder", "lineOrder", 1, std::string(1, '\0')}};
         if (!tiles.empty())
             attributes.emplace_back("tiles", "tiledesc", 9, tiles);
         const std::string file = magic + exrHeader(attributes) + std::string(64, '\0');
@@ -68,15 +82,7 @@ TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
 // 2 x 2 of one channel of floats, in blocks of a row; or in one tile, level 0. Parts: two of the same.
 std::string makeExr(bool tiled, bool parts, char compression)
 {
-    std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
-        {"channels", "chlist", 19, std::string("R\0", 2) + words({2, 0, 1, 1}) + '\0'},
-        {"compression", "compression", 1, std::string(1, compression)},
-        {"dataWindow", "box2i", 16, words({0, 0, 1, 1})},
-        {"displayWindow", "box2i", 16, words({0, 0, 1, 1})},
-        {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
-        {"pixelAspectRatio", "float", 4, words({0x3f800000})},
-        {"screenWindowCenter", "v2f", 8, words({0, 0})},
-        {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+    ExrAttributes attributes = exrAttributes(words({0, 0, 1, 1}), 2, compression);
     if (tiled)
         attributes.emplace_back("tiles", "tiledesc", 9, words({2, 2}) + '\0');
     const std::uint32_t blocks = tiled ? 1 : 2;
@@ -174,15 +180,7 @@ std::string plainExr(std::uint32_t left, std::uint32_t top, std::uint32_t width,
                      std::uint32_t type, std::uint32_t tile)
 {
     const std::string window = words({left, top, left + width - 1, top + height - 1});
-    std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
-        {"channels", "chlist", 19, std::string("R\0", 2) + words({type, 0, 1, 1}) + '\0'},
-        {"compression", "compression", 1, std::string(1, '\0')},
-        {"dataWindow", "box2i", 16, window},
-        {"displayWindow", "box2i", 16, window},
-        {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
-        {"pixelAspectRatio", "float", 4, words({0x3f800000})},
-        {"screenWindowCenter", "v2f", 8, words({0, 0})},
-        {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+    ExrAttributes attributes = exrAttributes(window, type, '\0');
     if (tile > 0)
         attributes.emplace_back("tiles", "tiledesc", 9, words({tile, tile}) + '\0');
     const std::string start = words({0x01312f76, 2u | (tile > 0 ? 0x200u : 0u)}) + exrHeader(attributes);
@@ -233,15 +231,7 @@ TEST_F(PictureFile, exrOfAnyWindowTypeAndTilesHasItsValuesInTheirPlaces)
 TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
 {
     const auto file = [](std::uint32_t version, std::uint32_t sampling, const std::string& type, std::uint32_t bytes) {
-        std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>> attributes = {
-            {"channels", "chlist", 19, std::string("R\0", 2) + words({2, 0, sampling, sampling}) + '\0'},
-            {"compression", "compression", 1, std::string(1, '\0')},
-            {"dataWindow", "box2i", 16, words({0, 0, 1, 1})},
-            {"displayWindow", "box2i", 16, words({0, 0, 1, 1})},
-            {"lineOrder", "lineOrder", 1, std::string(1, '\0')},
-            {"pixelAspectRatio", "float", 4, words({0x3f800000})},
-            {"screenWindowCenter", "v2f", 8, words({0, 0})},
-            {"screenWindowWidth", "float", 4, words({0x3f800000})}};
+        ExrAttributes attributes = exrAttributes(words({0, 0, 1, 1}), 2, '\0', sampling);
         if (!type.empty()) {
             attributes.emplace_back("type", "string", std::uint32_t(type.size()), type);
             attributes.emplace_back("name", "string", 1, "a");

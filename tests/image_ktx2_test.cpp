@@ -2,14 +2,15 @@
 #include "cotan/image/file.hpp"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 #include <zstd.h>
 
+#include "deflate.hpp"
 #include "ktx2_maker.hpp"
 
 namespace cotan {
 namespace {
 
+using test::deflated;
 using test::Ktx2File;
 using test::little;
 using test::makeKtx2;
@@ -48,16 +49,6 @@ std::string zstd(const std::string& text)
 {
     std::string packed(ZSTD_compressBound(text.size()), '\0');
     packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
-    return packed;
-}
-
-std::string deflated(const std::string& text)
-{
-    uLongf size = compressBound(uLong(text.size()));
-    std::string packed(size, '\0');
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
-             uLong(text.size()));
-    packed.resize(size);
     return packed;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
+#include "deflate.hpp"
 #include "picture_file.hpp"
 #include "webp_maker.hpp" // little()
 
@@ -29,6 +29,19 @@ std::string tiffOf(const std::vector<std::array<std::uint64_t, 4>>& entries, con
         file += little(tag, 2) + little(type, 2) + little(count, word) + little(value, word);
     return file + little(0, word);
 }
+
+// What the directory of a picture in one strip, at 8, says. bytes: of the strip.
+struct OneStrip {
+    std::uint64_t width, height, bytes;
+    std::uint64_t bits = 8, compression = 1, photometric = 1, channels = 1;
+
+    std::vector<std::array<std::uint64_t, 4>> entries() const
+    {
+        return {{256, kLong, 1, width},        {257, kLong, 1, height},       {258, kShort, 1, bits},
+                {259, kShort, 1, compression}, {262, kShort, 1, photometric}, {273, kLong, 1, 8},
+                {277, kShort, 1, channels},    {278, kLong, 1, height},       {279, kLong, 1, bytes}};
+    }
+};
 
 TEST_F(PictureFile, tiffOfLargeOffsetsIsReadAndItsStripsAreHeldToTheirSize)
 {
@@ -61,15 +74,7 @@ TEST_F(PictureFile, tiffOfLargeOffsetsIsReadAndItsStripsAreHeldToTheirSize)
 TEST_F(PictureFile, tiffRowsOfOddBitsTakeWholeBytes)
 {
     const auto file = [](std::uint64_t bytes) {
-        return tiffOf({{256, kLong, 1, 9},
-                       {257, kLong, 1, 2},
-                       {258, kShort, 1, 1},
-                       {259, kShort, 1, 1},
-                       {262, kShort, 1, 1},
-                       {273, kLong, 1, 8},
-                       {277, kShort, 1, 1},
-                       {278, kLong, 1, 2},
-                       {279, kLong, 1, bytes}},
+        return tiffOf(OneStrip{.width = 9, .height = 2, .bytes = bytes, .bits = 1}.entries(),
                       std::string("\x80\x00\x00\x80", 4));
     };
     const auto image = decodeImage(bytesOf(file(4)), "a.tif");
@@ -83,41 +88,20 @@ TEST_F(PictureFile, tiffRowsOfOddBitsTakeWholeBytes)
 
 TEST_F(PictureFile, tiffOfPackedStripsThatGoOnBehindTheFileIsRefused)
 {
-    const std::string pixels(3 * 2, 'x');
-    std::string packed(100, '\0');
-    uLongf size = packed.size();
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()),
-             uLong(pixels.size()));
-    packed.resize(size);
+    const std::string packed = deflated(std::string(3 * 2, 'x'));
     const auto file = [&](std::uint64_t bytes) {
-        return tiffOf({{256, kLong, 1, 3},
-                       {257, kLong, 1, 2},
-                       {258, kShort, 1, 8},
-                       {259, kShort, 1, 8},
-                       {262, kShort, 1, 1},
-                       {273, kLong, 1, 8},
-                       {277, kShort, 1, 1},
-                       {278, kLong, 1, 2},
-                       {279, kLong, 1, bytes}},
-                      packed);
+        return tiffOf(OneStrip{.width = 3, .height = 2, .bytes = bytes, .compression = 8}.entries(), packed);
     };
-    EXPECT_TRUE(decodeImage(bytesOf(file(size)), "a.tif"));
+    EXPECT_TRUE(decodeImage(bytesOf(file(packed.size())), "a.tif"));
     EXPECT_NE(messageOf(decodeImage(bytesOf(file(5000)), "a.tif")).find("strip 0 takes 5000 bytes from 8, the file"),
               std::string::npos);
 }
 
 std::string tiffOfChannels(std::uint64_t channels)
 {
-    return tiffOf({{256, kLong, 1, 2},
-                   {257, kLong, 1, 2},
-                   {258, kShort, 1, 8},
-                   {259, kShort, 1, 1},
-                   {262, kShort, 1, channels < 3 ? 1u : 2u},
-                   {273, kLong, 1, 8},
-                   {277, kShort, 1, channels},
-                   {278, kLong, 1, 2},
-                   {279, kLong, 1, 4 * channels}},
-                  std::string(4 * channels, 'x'));
+    const OneStrip strip{
+        .width = 2, .height = 2, .bytes = 4 * channels, .photometric = channels < 3 ? 1u : 2u, .channels = channels};
+    return tiffOf(strip.entries(), std::string(4 * channels, 'x'));
 }
 
 TEST_F(PictureFile, rowsSayWhetherThereIsAlphaByTheNumberOfChannels)
@@ -163,17 +147,9 @@ TEST_F(PictureFile, tiffOfSharedColoursIsReadWholeAndByRows)
     std::string pixels;
     for (int block = 0; block < 4; ++block)
         pixels += little(0x40302010u + 0x01010101u * std::uint64_t(block), 4) + char(100) + char(150);
-    const std::string file = tiffOf({{256, kLong, 1, 4},
-                                     {257, kLong, 1, 4},
-                                     {258, kShort, 1, 8},
-                                     {259, kShort, 1, 1},
-                                     {262, kShort, 1, 6},
-                                     {273, kLong, 1, 8},
-                                     {277, kShort, 1, 3},
-                                     {278, kLong, 1, 4},
-                                     {279, kLong, 1, 24},
-                                     {530, kShort, 2, 0x00020002}},
-                                    pixels);
+    auto entries = OneStrip{.width = 4, .height = 4, .bytes = 24, .photometric = 6, .channels = 3}.entries();
+    entries.push_back({530, kShort, 2, 0x00020002});
+    const std::string file = tiffOf(entries, pixels);
     const auto image = decodeImage(bytesOf(file), "a.tif");
     ASSERT_TRUE(image) << image.error().message;
     const auto rows = byRows(write("a.tif", file), 1);

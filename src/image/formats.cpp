@@ -8,6 +8,7 @@
 #include "cotan/files/extension.hpp"
 #include "cotan/files/module.hpp"
 #include "cotan/not_built.hpp"
+#include "format_starts.hpp"
 
 namespace cotan {
 
@@ -52,12 +53,7 @@ Result<const ImageFormats*> imageFormats()
 
 bool knownImage(std::span<const std::byte> bytes, const std::string& name)
 {
-    using namespace std::string_view_literals;
-    constexpr std::array kStarts = {"\xff\xd8\xff"sv,     "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv,
-                                    "\x76\x2f\x31\x01"sv, "#?"sv,    "BM"sv,    "DDS "sv};
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4));
-    return std::ranges::any_of(kStarts, [&](auto start) { return head.starts_with(start); })
-        || (lowerExtension(name) == ".tga" && !bytes.empty());
+    return formatStart(bytes) || (lowerExtension(name) == ".tga" && !bytes.empty());
 }
 
 bool writableImage(const fs::path& file)

@@ -2,7 +2,6 @@
 #include "oiio.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include "cotan/files/extension.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/size.hpp"
+#include "format_starts.hpp"
 #include "formats.hpp"
 
 namespace cotan {
@@ -46,22 +46,8 @@ std::string oneLine(std::string text)
 
 std::string formatOf(std::span<const std::byte> bytes)
 {
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
-    if (head.starts_with("\xff\xd8\xff"))
-        return "jpeg";
-    using namespace std::string_view_literals;
-    if (head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv)
-        || head.starts_with("MM\0+"sv))
-        return "tiff";
-    if (head.starts_with("\x76\x2f\x31\x01"))
-        return "openexr";
-    if (head.starts_with("#?"))
-        return "hdr";
-    if (head.starts_with("BM"))
-        return "bmp";
-    if (head.starts_with("DDS "))
-        return "dds";
-    return "targa";
+    const FormatStart* const known = formatStart(bytes);
+    return known ? std::string(known->name) : "targa";
 }
 
 PixelType pixelType(OIIO::TypeDesc format)

@@ -12,6 +12,7 @@
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/file.hpp"
+#include "format_starts.hpp"
 #include "formats.hpp"
 #include "png.hpp"
 #include "png_rows.hpp"
@@ -95,16 +96,6 @@ private:
     std::unique_ptr<RowWriter> writer_;
 };
 
-bool rowFormat(std::span<const std::byte> bytes)
-{
-    using namespace std::string_view_literals;
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (const auto start : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv, "\x76\x2f\x31\x01"sv, "#?"sv})
-        if (head.starts_with(start))
-            return true;
-    return false;
-}
-
 } // namespace
 
 Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
@@ -120,7 +111,7 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
     if (isPng(head)) {
         if (auto rows = openPngRows(file, std::move(stream), limits))
             return *std::move(rows);
-    } else if (rowFormat(head)) {
+    } else if (const FormatStart* const known = formatStart(head); known && known->rows) {
         if (!limits.sandbox.program.empty())
             return openRowsSandboxed(file, limits);
         const auto formats = imageFormats();

@@ -71,7 +71,7 @@ Mesh makeTeapot(int segmentsPerPatch)
     Mesh mesh;
     mesh.name = "teapot";
     for (const teapot::Patch& patch : teapot::kPatches) {
-        const Grid grid{segments, segments, collapsed(patch), false};
+        const Grid grid{segments, segments, collapsed(patch)};
         appendGrid(mesh, grid, [&patch](double u, double v) { return patchPoint(patch, u, v); });
     }
     return mesh;
