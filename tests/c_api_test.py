@@ -114,7 +114,7 @@ listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M)
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
 exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 3 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 4 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
@@ -356,6 +356,18 @@ if lint_of(model) is not None:
     assert lint.primitives == lint.maps == 1 and abs(lint.orthonormal_degrees) < 0.01 and lint.distrust_stored == 0
     said = json.loads(take(report))
     assert said["recommendation"] == lint.recommendation.decode() and said["primitives"][0]["triangles"] == 2
+
+    # A check: options of the length of version 4.
+    class CheckOptions(Struct):
+        _fields_ = LintOptions._fields_ + [("limit", c.c_double), ("limit_area", c.c_double), ("frame", text)]
+
+    for limit, frame, passed in ((90, None, True), (1, None, False), (1, b"orthonormal", True), (0, None, None)):
+        check = CheckOptions(0, Progress(), None, limit, 0, frame)
+        call("cotan_lint_gltf", model, c.c_size_t(len(model)), c.byref(files), c.byref(check), None, c.byref(report))
+        found = json.loads(take(report))["check"]
+        assert (found and found["passed"]) == passed, (limit, frame, found)
+    wrong = CheckOptions(0, Progress(), None, 1, 0, b"tangent")
+    assert "options.frame" in call("cotan_lint_gltf", model, c.c_size_t(len(model)), c.byref(files), c.byref(wrong), None, None, expect=1)
 
     stop = ConvertOptions(None, None, 0, 0, 0, 1, Progress(lambda user, done: 1), None)
     convert, glb, how = ConvertResult(), c.c_void_p(), c.c_void_p()

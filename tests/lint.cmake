@@ -5,7 +5,7 @@ target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(lint_test cotan)
 # The parts of lint and convert by themselves: builds and runs in seconds.
 cotan_test(judgement_test BATCH 1
-  SOURCES lint_recommend_test.cpp lint_parts_test.cpp map_fit_test.cpp convert_parts_test.cpp
+  SOURCES lint_recommend_test.cpp lint_check_test.cpp lint_parts_test.cpp map_fit_test.cpp convert_parts_test.cpp
   LIBRARIES cotan_lint cotan_convert cotan_surface)
 target_include_directories(judgement_test PRIVATE ${PROJECT_SOURCE_DIR}/src/lint ${PROJECT_SOURCE_DIR}/src/convert)
 cotan_test(judgement_command_test

@@ -131,22 +131,70 @@ TEST(LintCommand, aCoatsMapIsJudgedToo)
     EXPECT_EQ(both["fits"][0]["cotangent"], both["fits"][1]["cotangent"]);
 }
 
-TEST(LintCommand, strictEndsWithFiveOverALimitAndZeroBelow)
+TEST(LintCommand, aLimitEndsWithFiveWhereSomethingIsOverIt)
 {
     COTAN_NEEDS("synthetic/uv_cases.gltf");
     const std::string model = shared("synthetic/uv_cases.gltf");
     TemporaryFolder folder;
-    const ToolRun over = runTool({"lint", model, "--strict", "--limit", "1", "--quiet"}, folder.path());
+    const ToolRun over = runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path());
     EXPECT_EQ(over.code, 5);
     EXPECT_EQ(lines(over.err), 1) << over.err;
     EXPECT_NE(over.err.find("limit 1"), std::string::npos) << over.err;
-    EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0);
-    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "60", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--quiet"}, folder.path()).code, 5);
+    EXPECT_EQ(runTool({"lint", model, "--limit", "60", "--quiet"}, folder.path()).code, 0);
     // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
-    EXPECT_EQ(
-        runTool({"lint", model, "--strict", "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code,
+    EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(runTool({"lint", model, "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
+    EXPECT_EQ(runTool({"lint", model, "--quiet"}, folder.path()).code, 0);
+}
+
+TEST(LintCommand, theReportOfACheckSaysWhatFailedAndByHowMuch)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const auto checked = [&](std::vector<std::string> words, int code) {
+        words.insert(words.begin(), {"lint", "quad.gltf", "--json", "-", "--quiet"});
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, code) << run.err;
+        return json::parse(run.out);
+    };
+    EXPECT_TRUE(checked({}, 0)["check"].is_null());
+    const json passed = checked({"--limit", "90"}, 0)["check"];
+    EXPECT_EQ(passed,
+              (json{{"passed", true},
+                    {"limit", 90.0},
+                    {"limit_area", nullptr},
+                    {"frame", "cotangent"},
+                    {"failures", json::array()}}));
+    const json failed = checked({"--limit", "1", "--limit-area", "3"}, 5)["check"];
+    EXPECT_FALSE(failed["passed"].get<bool>());
+    EXPECT_EQ(failed["limit_area"], 3.0);
+    ASSERT_EQ(failed["failures"].size(), 1u) << failed; // twice as wide as high: cotangent is off, the uv are sound
+    EXPECT_EQ(failed["failures"][0]["kind"], "reading");
+    EXPECT_GT(failed["failures"][0]["value"].get<double>(), 1);
+    EXPECT_EQ(failed["failures"][0]["limit"], 1.0);
+}
+
+TEST(LintCommand, greenThatPointsTheOtherWayIsAWarningAndFailsACheck)
+{
+    TemporaryFolder folder;
+    write(quad(1), folder.path());
+    ASSERT_EQ(runTool({"lint", "quad.gltf", "--limit", "5", "--quiet"}, folder.path()).code, 0);
+    ASSERT_EQ(
+        runTool({"map", "convert", "waves.png", "--from", "gltf", "--to", "directx", "-o", "down.png"}, folder.path())
+            .code,
         0);
-    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
+    std::filesystem::rename(folder.path() / "down.png", folder.path() / "waves.png");
+    const ToolRun plain = runTool({"lint", "quad.gltf", "--json", "-", "--quiet"}, folder.path());
+    EXPECT_EQ(plain.code, 0) << plain.err;
+    const json warnings = json::parse(plain.out)["warnings"];
+    ASSERT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_NE(warnings[0].get<std::string>().find("green points the other way"), std::string::npos) << warnings;
+    for (const char* limit : {"--limit", "--limit-area"}) {
+        const ToolRun run = runTool({"lint", "quad.gltf", limit, "50", "--quiet"}, folder.path());
+        EXPECT_EQ(run.code, 5) << limit;
+        EXPECT_NE(run.err.find("green points the other way"), std::string::npos) << run.err;
+    }
 }
 
 // The mean over the pixels of one view, in degrees, between MikkTSpace and another frame; nearest texels, since

@@ -77,19 +77,17 @@ Status run(const LintCommandOptions& o)
         return linted.error();
     const LintReport& report = *linted;
     const std::string command = commandFor(o, report);
-    const std::vector<std::string> over = overLimits(report, o.limits),
-                                   verdict = verdictLines(o.model, report, command);
+    const LintCheck check = checkLimits(report, o.limits);
+    const std::vector<std::string> verdict = verdictLines(o.model, report, command);
     for (const std::string& line : verdict)
         say(o, line);
     std::vector<std::string> details = detailLines(report);
     const std::vector<HotSpot> spots = report.primitives.empty() ? std::vector<HotSpot>() : hotSpots(*scene);
     for (const HotSpot& spot : spots)
         details.push_back(fmt::format("look: {}: --camera {}", spot.text, cameraWords(spot.camera)));
-    if (!over.empty())
-        say(o, "over the limit: {}{}", over.front(),
-            over.size() > 1 && !o.details ? fmt::format(" and {} more", over.size() - 1) : "");
-    for (std::size_t i = 1; o.details && i < over.size(); ++i)
-        say(o, "over the limit: " + over[i]);
+    if (o.limits.any())
+        for (const std::string& line : checkLines(check, o.details ? check.failures.size() : 1))
+            say(o, line);
     if (o.details)
         for (const std::string& line : details)
             say(o, line);
@@ -98,7 +96,7 @@ Status run(const LintCommandOptions& o)
 
     Json j = {{"command", "lint"},
               {"model", o.model},
-              {"warnings", scene->warnings},
+              {"warnings", warningsOf(report, scene->warnings)},
               {"distance", report.distance},
               {"verdict", verdict},
               {"recommendation", report.recommendation},
@@ -114,13 +112,15 @@ Status run(const LintCommandOptions& o)
                                   {"mesh", scene->meshes[spot.mesh].name},
                                   {"share", spot.share},
                                   {"camera", cameraWords(spot.camera)}});
-    j["over_limit"] = over;
+    j["check"] = toJson(check);
+    j["over_limit"] = Json::array();
+    for (const LintFailure& failure : check.failures)
+        j["over_limit"].push_back(failure.text);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
         return written;
-    if (o.strict && !over.empty())
-        return Error{ErrorKind::limit,
-                     over.size() == 1 ? over.front() : fmt::format("{} and {} more", over.front(), over.size() - 1)};
+    if (!check.passed())
+        return Error{ErrorKind::limit, summaryOf(check)};
     return Done{};
 }
 
@@ -136,19 +136,21 @@ void declare(Arguments& a, LintCommandOptions& o)
              "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "
              "fills it")
         .in("D");
-    a.flag("--strict", o.strict, "exit code 5 if something is over a limit, or a normal map could not be judged");
-    a.option("--limit", o.limits.degrees,
-             "exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area")
+    a.option(
+         "--limit", o.limits.degrees,
+         "a check: exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area, "
+         "a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault();
     a.option("--limit-area", o.limits.area,
-             "exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv exceed this "
-             "% of a primitive's area")
+             "a check: exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv "
+             "exceed this % of a primitive's area, or a map's green points the other way")
         .in("PERCENT")
         .withoutDefault();
+    a.flag("--strict", o.strict, "ask for --limit or --limit-area: without either it is an error of usage");
     a.option("--frame", o.limits.frame,
              "frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored")
-        .from({"cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"})
+        .from(readingNames())
         .in("NAME");
 }
 
@@ -160,7 +162,8 @@ void addLintCommand(Arguments& tool)
                                    {"lint",
                                     "how far off a model's normal maps will be without stored tangents, in degrees",
                                     "",
-                                    {"cotan lint model.glb", "cotan lint model.glb --distance 3 --json report.json"}},
+                                    {"cotan lint model.glb", "cotan lint model.glb --limit 2",
+                                     "cotan lint model.glb --distance 3 --json report.json"}},
                                    declare, run);
 }
 

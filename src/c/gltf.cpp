@@ -30,7 +30,7 @@ double worst(const LintReport& report, Spread MapFit::*frame)
     return degrees;
 }
 
-Json lintJson(const LintReport& report, const Scene& scene)
+Json lintJson(const LintReport& report, const Scene& scene, const LintLimits& limits)
 {
     Json json = {{"recommendation", report.recommendation},
                  {"advice", adviceOf(report)},
@@ -40,7 +40,8 @@ Json lintJson(const LintReport& report, const Scene& scene)
                  {"drops_tangents", report.dropsTangents},
                  {"distrust_stored", report.distrustStored}};
     json.update(listsOf(report));
-    json["warnings"] = scene.warnings;
+    json["check"] = toJson(checkLimits(report, limits));
+    json["warnings"] = warningsOf(report, scene.warnings);
     return json;
 }
 
@@ -63,15 +64,32 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
 {
     const cotan_lint_options o = optionsOf(options, "options");
     require(o.distance >= 0, "options.distance: expected 0 or more");
+    require(o.limit >= 0 && o.limit <= 180, "options.limit: expected degrees from 0 to 180");
+    const auto& frames = readingNames();
+    require(!o.frame || std::ranges::find(frames, o.frame) != frames.end(),
+            "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
+    require(o.limit_area >= 0 && o.limit_area <= 100, "options.limit_area: expected percent from 0 to 100");
     if (result)
         checked(result, "result");
     return o;
 }
 
+LintLimits limitsOf(const cotan_lint_options& o)
+{
+    LintLimits limits;
+    if (o.limit > 0)
+        limits.degrees = o.limit;
+    if (o.limit_area > 0)
+        limits.area = o.limit_area;
+    if (o.frame)
+        limits.frame = o.frame;
+    return limits;
+}
+
 void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
     const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
-    giveText(lintJson(report, scene), json);
+    giveText(lintJson(report, scene, limitsOf(o)), json);
     if (result)
         fill(report, *result);
 }

@@ -4,32 +4,91 @@
 
 namespace cotan {
 
-std::vector<std::string> overLimits(const LintReport& report, const LintLimits& limits)
+namespace {
+
+std::string nameOf(const GreenEvidence& map)
+{
+    return map.name.empty() ? fmt::format("image {}", map.image) : map.name;
+}
+
+// "normal map bumps: green points the other way than the file says (certain)"
+std::string otherGreen(const GreenEvidence& map)
+{
+    return fmt::format("normal map {}: green points the other way than the file says ({})", nameOf(map),
+                       maps::name(map.verdict.confidence));
+}
+
+class Checker {
+public:
+    Checker(const LintReport& report, const LintLimits& limits) : report_(report), check_{limits, {}} {}
+
+    LintCheck run()
+    {
+        for (std::size_t i = 0; i < report_.primitives.size(); ++i)
+            checkPrimitive(report_.primitives[i], cotan::nameOf(report_.primitives[i], i));
+        for (const GreenEvidence& map : report_.maps)
+            if (!map.asDeclared())
+                check_.failures.push_back({"reversed_green", nameOf(map), 0, -1, otherGreen(map)});
+        bool anyMap = false, anyJudged = false;
+        for (const PrimitiveLint& p : report_.primitives) {
+            anyMap = anyMap || p.image >= 0;
+            anyJudged = anyJudged || (p.image >= 0 && p.notJudged.empty());
+        }
+        if (check_.limits.degrees >= 0 && anyMap && !anyJudged && check_.passed())
+            check_.failures.push_back({"not_judged", "", 0, -1, "no normal map could be judged"});
+        return std::move(check_);
+    }
+
+private:
+    void checkPrimitive(const PrimitiveLint& p, const std::string& where)
+    {
+        const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
+            if (limit >= 0 && value > limit)
+                check_.failures.push_back(
+                    {kind, where, value, limit,
+                     fmt::format("{}: {} {:.3g} {}, limit {:.3g}", where, what, value, unit, limit)});
+        };
+        const double degrees = check_.limits.degrees, area = check_.limits.area;
+        if (degrees >= 0 && p.unread)
+            check_.failures.push_back(
+                {"not_judged", where, 0, -1, fmt::format("{}: not judged, {}", where, p.notJudged)});
+        for (const Reading& r : p.readings)
+            if (r.name == check_.limits.frame)
+                over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name,
+                     "degrees");
+        if (p.image >= 0)
+            over("rounding", p.precision, degrees, "rounding", "degrees");
+        const char* const percent = "% of the area";
+        over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
+        over("mirrored_overlap", 100 * p.uv.overlappingMirrored, area, "uv overlapping in both orientations on",
+             percent);
+        over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w against the uv on", percent);
+        over("turned_tangents", 100 * p.stored.turned, area, "stored tangents turned on", percent);
+    }
+
+    const LintReport& report_;
+    LintCheck check_;
+};
+
+} // namespace
+
+LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
+{
+    return limits.any() ? Checker(report, limits).run() : LintCheck{limits, {}};
+}
+
+const std::vector<std::string>& readingNames()
+{
+    static const std::vector<std::string> names = {"cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"};
+    return names;
+}
+
+std::vector<std::string> lintWarnings(const LintReport& report)
 {
     std::vector<std::string> lines;
-    bool anyMap = false, anyJudged = false;
-    for (std::size_t i = 0; i < report.primitives.size(); ++i) {
-        const PrimitiveLint& p = report.primitives[i];
-        auto check = [&](double value, double limit, const std::string& what, const char* unit) {
-            if (limit >= 0 && value > limit)
-                lines.push_back(fmt::format("{}: {} {:.3g} {}, limit {:.3g}", nameOf(p, i), what, value, unit, limit));
-        };
-        anyMap = anyMap || p.image >= 0;
-        anyJudged = anyJudged || (p.image >= 0 && p.notJudged.empty());
-        if (limits.degrees >= 0 && p.unread)
-            lines.push_back(fmt::format("{}: not judged, {}; limit {:.3g}", nameOf(p, i), p.notJudged, limits.degrees));
-        for (const Reading& r : p.readings)
-            if (r.name == limits.frame)
-                check(r.error.percentile95, limits.degrees, "95 % of the error of reading with " + r.name, "degrees");
-        if (p.image >= 0)
-            check(p.precision, limits.degrees, "rounding", "degrees");
-        check(100 * p.uv.degenerate, limits.area, "degenerate uv on", "% of the area");
-        check(100 * p.uv.overlappingMirrored, limits.area, "uv overlapping in both orientations on", "% of the area");
-        check(100 * p.stored.reversedW, limits.area, "TANGENT.w against the uv on", "% of the area");
-        check(100 * p.stored.turned, limits.area, "stored tangents turned on", "% of the area");
-    }
-    if (limits.degrees >= 0 && anyMap && !anyJudged && lines.empty())
-        lines.push_back(fmt::format("no normal map could be judged, limit {:.3g}", limits.degrees));
+    for (const GreenEvidence& map : report.maps)
+        if (!map.asDeclared())
+            lines.push_back(otherGreen(map));
     return lines;
 }
 

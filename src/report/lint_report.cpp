@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/lint/limits.hpp"
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/report/words.hpp"
 
@@ -174,6 +173,54 @@ std::vector<std::string> detailLines(const LintReport& report)
                                     f.name.empty() ? "" : " " + f.name, toText(f.orthonormal), toText(f.cotangent),
                                     toText(f.smooth)));
     return lines;
+}
+
+std::vector<std::string> checkLines(const LintCheck& check, std::size_t most)
+{
+    if (check.passed())
+        return {"check: passed"};
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < std::min(most, check.failures.size()); ++i)
+        lines.push_back("check: failed: " + check.failures[i].text);
+    if (lines.size() < check.failures.size())
+        lines.back() += fmt::format(" and {} more", check.failures.size() - lines.size());
+    return lines;
+}
+
+std::string summaryOf(const LintCheck& check)
+{
+    if (check.passed())
+        return {};
+    const std::string& first = check.failures.front().text;
+    return check.failures.size() == 1 ? first : fmt::format("{} and {} more", first, check.failures.size() - 1);
+}
+
+Json toJson(const LintCheck& check)
+{
+    if (!check.limits.any())
+        return nullptr;
+    const auto limit = [](double value) { return value >= 0 ? Json(value) : Json(nullptr); };
+    Json j = {{"passed", check.passed()},
+              {"limit", limit(check.limits.degrees)},
+              {"limit_area", limit(check.limits.area)},
+              {"frame", check.limits.frame},
+              {"failures", Json::array()}};
+    for (const LintFailure& f : check.failures) {
+        const bool measured = f.limit >= 0;
+        j["failures"].push_back({{"kind", f.kind},
+                                 {"where", f.where},
+                                 {"value", measured ? Json(f.value) : Json(nullptr)},
+                                 {"limit", limit(f.limit)},
+                                 {"text", f.text}});
+    }
+    return j;
+}
+
+std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::string> ofFile)
+{
+    for (std::string& line : lintWarnings(report))
+        ofFile.push_back(std::move(line));
+    return ofFile;
 }
 
 Json listsOf(const LintReport& report)

@@ -39,6 +39,15 @@ def test_lint_says_what_the_command_line_says(model, command):
     assert far.report["distance"] == 5
 
 
+def test_a_limit_makes_lint_a_check(model):
+    assert cotan.lint(model).passed is None
+    assert cotan.lint(model, limit=OFF + 1).passed is True
+    found = cotan.lint(model, limit=OFF - 1)
+    assert found.passed is False
+    assert [f["kind"] for f in found.report["check"]["failures"]] == ["reading"]
+    assert cotan.lint(model, limit=OFF - 1, frame="orthonormal").passed is True
+
+
 def test_lint_judges_files_bytes_and_loaded_models_alike(model, tmp_path):
     texel = (tmp_path / "the map.png").read_bytes()
     beside = {"plane.bin": (tmp_path / "plane.bin").read_bytes(), "the map.png": texel}

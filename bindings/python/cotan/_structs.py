@@ -95,7 +95,9 @@ class ModelFiles(Struct):
 
 
 class LintOptions(Struct):
-    _fields_ = _fields((double, "distance"), (Progress, "progress"), (pointer, "user"))
+    _fields_ = _fields(
+        (double, "distance"), (Progress, "progress"), (pointer, "user"), (double, "limit limit_area"), (text, "frame")
+    )
 
 
 class LintResult(Struct):

@@ -78,7 +78,9 @@ class Lint:
         orthonormal_degrees, cotangent_degrees, smooth_degrees: how far maps for MikkTSpace are off when they are read
             with that frame: the mean over the surface, of the worst of the maps; None where nothing was judged.
         recommendation: in sentences.
-        report: the figures of every primitive and map, and `warnings`, as `cotan lint --json` has them.
+        report: the figures of every primitive and map, `warnings`, and `check`, as `cotan lint --json` has them.
+        passed: whether the check passed; None where neither `limit` nor `limit_area` was given. What failed is in
+            `report["check"]["failures"]`.
     """
 
     primitives: int
@@ -92,6 +94,7 @@ class Lint:
     smooth_degrees: Optional[float]
     recommendation: str
     report: dict = dataclasses.field(repr=False)
+    passed: Optional[bool] = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -210,12 +213,20 @@ def _degrees(value):
     return None if value < 0 else value
 
 
+# 0 is none to the library, and what allows nothing is a little more.
+def _limit(value, name):
+    return 0.0 if value is None else max(arrays.number(value, name), 1e-9)
+
+
 def lint(
     model: Union[Path, Bytes, Model],
     distance: float = 0.0,
     memory: int = 640,
     progress: Optional[Progress] = None,
     beside: Optional[Mapping[str, bytes]] = None,
+    limit: Optional[float] = None,
+    limit_area: Optional[float] = None,
+    frame: str = "cotangent",
 ) -> Lint:
     """What to expect of a model whose normal maps are read without stored tangents, before anything is drawn.
 
@@ -225,6 +236,10 @@ def lint(
         memory: of the largest picture, in MiB, for a path.
         progress: called on this thread with the share that is done, 0 to 1; False stops. Ctrl-C stops, too.
         beside: files that a model in bytes names, by their URIs.
+        limit, limit_area: make it a check, whose verdict is `passed`: degrees that the error with `frame` may exceed
+            on 5 % of the area, and % of a primitive's area with wrong uv or tangents. Green that points the other way
+            fails it; maps that could not be judged fail `limit`.
+        frame: that `limit` judges: cotangent, orthonormal, smooth, exact, triangle or stored.
 
     Raises InputError for a broken or missing file, StoppedError where `progress` stopped it.
     """
@@ -232,7 +247,13 @@ def lint(
     source = None if is_path(model) or isinstance(model, Model) else Source(model, beside)
 
     def work(told):
-        options = structs.LintOptions(distance=arrays.number(distance, "distance"), progress=told)
+        options = structs.LintOptions(
+            distance=arrays.number(distance, "distance"),
+            progress=told,
+            limit=_limit(limit, "limit"),
+            limit_area=_limit(limit_area, "limit_area"),
+            frame=arrays.encoded(frame, "frame"),
+        )
         if source is not None:
             source.call("cotan_lint_gltf", options, result, text)
             return
@@ -240,6 +261,7 @@ def lint(
         call("cotan_lint_model", opened._handle, options, result, text)
 
     long_call(work, progress)
+    report = json.loads(taken(text))
     return Lint(
         primitives=result.primitives,
         maps=result.maps,
@@ -251,7 +273,8 @@ def lint(
         cotangent_degrees=_degrees(result.cotangent_degrees),
         smooth_degrees=_degrees(result.smooth_degrees),
         recommendation=result.recommendation.decode("utf-8", "replace"),
-        report=json.loads(taken(text)),
+        report=report,
+        passed=report["check"] and report["check"]["passed"],
     )
 
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cotan/lint/limits.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/report/json.hpp"
 
@@ -15,6 +16,19 @@ std::vector<std::string> verdictLines(const std::string& model, const LintReport
 
 // All that was measured: a few lines for each primitive, one for each map.
 std::vector<std::string> detailLines(const LintReport& report);
+
+// "passed" or what failed: the first `most` failures, one line each, the last with the number of those left out.
+std::vector<std::string> checkLines(const LintCheck& check, std::size_t most);
+
+// The first failure and how many more there are, without a line's beginning; empty where the check passed.
+std::string summaryOf(const LintCheck& check);
+
+// {"passed", "limit", "limit_area", "frame", "failures": [{"kind", "where", "value", "limit", "text"}]}; null where no
+// limit was set, limits that were not set are null.
+Json toJson(const LintCheck& check);
+
+// Those of the file as it was read, then lintWarnings.
+std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::string> ofFile);
 
 // The figures of every primitive, map and fit: an object of three lists.
 Json listsOf(const LintReport& report);

@@ -1,0 +1,133 @@
+// The verdict of a check: what fails it, on reports made by hand, each limit from both sides.
+#include <gtest/gtest.h>
+
+#include "cotan/lint/limits.hpp"
+
+namespace cotan {
+namespace {
+
+Spread spreadAt(double percentile95) { return {100, percentile95 / 2, percentile95, 2 * percentile95}; }
+
+// A primitive whose map was judged, with nothing wrong.
+PrimitiveLint sound()
+{
+    PrimitiveLint p;
+    p.mesh = "door";
+    p.image = 0;
+    p.triangles = 2;
+    p.hasUv = true;
+    p.uv.area = 1;
+    p.readings = {{"cotangent", spreadAt(1)}, {"orthonormal", spreadAt(3)}};
+    return p;
+}
+
+GreenEvidence greenAs(maps::Green green)
+{
+    GreenEvidence g{0, "bumps", true, {}};
+    g.verdict.green = green;
+    g.verdict.confidence = maps::Confidence::certain;
+    return g;
+}
+
+LintReport reportOf(PrimitiveLint p, maps::Green green = maps::Green::up)
+{
+    LintReport report;
+    report.primitives = {std::move(p)};
+    report.maps = {greenAs(green)};
+    return report;
+}
+
+std::vector<std::string> kindsOf(const LintCheck& check)
+{
+    std::vector<std::string> kinds;
+    for (const LintFailure& f : check.failures)
+        kinds.push_back(f.kind);
+    return kinds;
+}
+
+using Kinds = std::vector<std::string>;
+
+TEST(LintCheck, withoutALimitNothingIsChecked)
+{
+    PrimitiveLint p = sound();
+    p.unread = true;
+    const LintCheck check = checkLimits(reportOf(p, maps::Green::down), {});
+    EXPECT_FALSE(check.limits.any());
+    EXPECT_TRUE(check.passed());
+}
+
+TEST(LintCheck, degreesAreThoseOf95PercentWithTheFrameThatIsAskedFor)
+{
+    const LintReport report = reportOf(sound());
+    EXPECT_TRUE(checkLimits(report, {.degrees = 1.01}).passed());
+    EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 0.99})), Kinds{"reading"});
+    EXPECT_TRUE(checkLimits(report, {.degrees = 3.01, .frame = "orthonormal"}).passed());
+    const LintCheck over = checkLimits(report, {.degrees = 2.99, .frame = "orthonormal"});
+    ASSERT_EQ(kindsOf(over), Kinds{"reading"});
+    EXPECT_EQ(over.failures[0].where, "door");
+    EXPECT_EQ(over.failures[0].value, 3);
+    EXPECT_EQ(over.failures[0].limit, 2.99);
+    EXPECT_EQ(over.failures[0].text, "door: 95 % of the error of reading with orthonormal 3 degrees, limit 2.99");
+}
+
+TEST(LintCheck, areasAreHeldAgainstTheLimitInPercent)
+{
+    PrimitiveLint p = sound();
+    p.uv.degenerate = 0.02;
+    p.uv.overlappingMirrored = 0.03;
+    p.stored.reversedW = 0.04;
+    p.stored.turned = 0.05;
+    EXPECT_TRUE(checkLimits(reportOf(p), {.area = 5}).passed());
+    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 1})),
+              (Kinds{"degenerate_uv", "mirrored_overlap", "reversed_w", "turned_tangents"}));
+    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 4.5})), Kinds{"turned_tangents"});
+    EXPECT_TRUE(checkLimits(reportOf(p), {.degrees = 10}).passed());
+}
+
+TEST(LintCheck, reversedGreenFailsWhicheverLimitThereIs)
+{
+    const LintReport report = reportOf(sound(), maps::Green::down);
+    for (const LintLimits& limits : {LintLimits{.degrees = 180}, LintLimits{.area = 100}}) {
+        const LintCheck check = checkLimits(report, limits);
+        ASSERT_EQ(kindsOf(check), Kinds{"reversed_green"});
+        EXPECT_EQ(check.failures[0].where, "bumps");
+        EXPECT_LT(check.failures[0].limit, 0);
+    }
+    EXPECT_TRUE(checkLimits(reportOf(sound(), maps::Green::undecidable), {.degrees = 180}).passed());
+    EXPECT_EQ(lintWarnings(report),
+              std::vector<std::string>{"normal map bumps: green points the other way than the file says (certain)"});
+    EXPECT_TRUE(lintWarnings(reportOf(sound())).empty());
+}
+
+TEST(LintCheck, aMapThatWasNotReadFailsBesideOnesThatWere)
+{
+    PrimitiveLint p = sound();
+    p.unread = true;
+    p.notJudged = "door.ktx2 was not read";
+    p.readings.clear();
+    LintReport report = reportOf(sound());
+    report.primitives.push_back(p);
+    EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 180})), Kinds{"not_judged"});
+    EXPECT_TRUE(checkLimits(report, {.area = 100}).passed()); // uv and tangents were judged
+}
+
+// uv without area on one primitive of several is nothing that a limit in degrees speaks of; on all it is no check.
+TEST(LintCheck, mapsOfWhichNoneWasJudgedDoNotPass)
+{
+    PrimitiveLint p = sound();
+    p.notJudged = "no uv";
+    p.readings.clear();
+    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.degrees = 180})), Kinds{"not_judged"});
+    LintReport both = reportOf(sound());
+    both.primitives.push_back(p);
+    EXPECT_TRUE(checkLimits(both, {.degrees = 180}).passed());
+    PrimitiveLint bare = sound();
+    bare.image = -1;
+    bare.readings.clear();
+    LintReport unmapped = reportOf(bare);
+    unmapped.maps.clear();
+    EXPECT_TRUE(checkLimits(unmapped, {.degrees = 180}).passed()); // there is no map to judge
+}
+
+} // namespace
+} // namespace cotan
