@@ -218,7 +218,7 @@ std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, 
         for (const convert::Place& p : texels[x])
             if (p.covers) {
                 EXPECT_EQ(p.use, 7u);
-                uv[x].push_back(atPoint(use.surface.uv, p.triangle, p.barycentric));
+                uv[x].push_back(uvAt(use.surface, p.triangle, p.barycentric));
             }
     return uv;
 }
@@ -395,12 +395,24 @@ TEST(Reencode, paddingTakesTheNearestPlaceAndEmptyTexelsStay)
     EXPECT_EQ(r.padded, 64u - 12u - 8u);
 }
 
-TEST(Reencode, copiesAreCountedByTheBoxesOfTriangles)
+TEST(Copies, areCountedByTheAreaOfBoxesWhateverTheNumberOfTriangles)
 {
-    const MapUse one = unormUse(rectangle({0, 0}, {1, 1}, {0.25f, 0.25f}, {0.75f, 0.75f})),
-                 wide = unormUse(rectangle({0, 0}, {1, 1}, {0.5f, 0}, {3.5f, 2}));
-    EXPECT_EQ(copiesOf({&one, 1}), 2); // one for each triangle
-    EXPECT_EQ(copiesOf({&wide, 1}), 2 * 4 * 2);
+    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0.25f, 0.25f}, {0.75f, 0.75f}))), 2 * 0.25);
+    std::vector<Corner> fine;
+    for (int i = 0; i < 64; ++i)
+        for (int k = 0; k < 64; ++k)
+            fine = fine
+                + rectangle({i, k}, {1, 1}, {float(i) / 64, float(k) / 64}, {float(i + 1) / 64, float(k + 1) / 64});
+    EXPECT_EQ(copiesUnder(surfaceOf(fine)), 2); // 8,192 triangles on one chart
+}
+
+TEST(Copies, areThoseThatATriangleTouchesWhereItIsNarrow)
+{
+    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {4, 2}))), 2 * 8);
+    // 3 by 2 in area; 4 by 2 are touched, 7 more than one.
+    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0.5f, 0}, {3.5f, 2}))), 2 * 7);
+    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0.5f}, {1000, 0.5f}))), 2 * 999);
+    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {2e6f, 1}))), 0); // not drawn
 }
 
 } // namespace

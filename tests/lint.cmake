@@ -1,5 +1,5 @@
 cotan_test(lint_test
-  SOURCES lint_test.cpp lint_command_test.cpp
+  SOURCES lint_test.cpp lint_command_test.cpp scale_test.cpp
   LIBRARIES cotan_lint cotan_model cotan_shapes cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(lint_test cotan)

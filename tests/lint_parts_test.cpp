@@ -251,7 +251,8 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     material.normalMap.image = 0;
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const Image map = floatMap(4, 4, [&](int, int) { return m; });
-    const auto read = lint::readings(tall(2), material, map);
+    const auto readBy = [&] { return lint::readings(tall(2), pointsOver(tall(2), kPointsOfSurface), material, map); };
+    const auto read = readBy();
     ASSERT_EQ(read.size(), 5u);
     EXPECT_EQ(read[0].name, "cotangent");
     EXPECT_NEAR(read[0].error.mean, angleBetween(m, {0.4, 0.15, 1}), 1e-4);
@@ -261,7 +262,7 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     EXPECT_NEAR(read[1].error.maximum, 0, 1e-4);
     EXPECT_EQ(read[1].error.count, 4096u);
     material.normalScale = 2; // the slopes that are read
-    EXPECT_NEAR(lint::readings(tall(2), material, map)[0].error.mean, angleBetween({0.8, 0.6, 1}, {0.8, 0.3, 1}), 1e-4);
+    EXPECT_NEAR(readBy()[0].error.mean, angleBetween({0.8, 0.6, 1}, {0.8, 0.3, 1}), 1e-4);
 }
 
 TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
@@ -270,7 +271,8 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1)); // green the other way
     Material material;
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
-    const auto read = lint::readings(makeSurface(mesh, Texture{}), material,
+    const MappedSurface surface = makeSurface(mesh, Texture{});
+    const auto read = lint::readings(surface, pointsOver(surface, kPointsOfSurface), material,
                                      floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
     ASSERT_EQ(read.size(), 6u);
     EXPECT_EQ(read[5].name, "stored");

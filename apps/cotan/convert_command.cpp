@@ -110,6 +110,7 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
                              .bits = o.bits,
                              .keepTangents = o.keepTangents,
                              .threads = o.threads,
+                             .memory = std::size_t(o.memory) << 20,
                              .limits = limitsFor(o.memory),
                              .progress = std::move(progress),
                              .mapDone = mapDone});

@@ -71,10 +71,10 @@ Status run(const LintCommandOptions& o)
         warn(o, line);
     const double loadSeconds = watch.lap();
     const auto linted = withProgress(o, 1, "measuring " + o.model, [&](const Progress& progress) {
-        return lintScene(*scene, {o.distance}, progress);
+        return lintScene(*scene, {.distance = o.distance, .memory = std::size_t(o.memory) << 20}, progress);
     });
     if (!linted)
-        return linted.error();
+        return inWords(linted.error());
     const LintReport& report = *linted;
     const std::string command = commandFor(o, report);
     const LintCheck check = checkLimits(report, o.limits);

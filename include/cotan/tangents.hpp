@@ -75,6 +75,10 @@ struct Cotangents {
 // triangle gets zero, which the frame turns into the plain normal.
 Cotangents smoothCotangents(const MeshView& mesh);
 
+// For every vertex the first one that counts as the same. Arrays of other sizes, or an index out of range, give an
+// empty result.
+std::vector<std::uint32_t> firstEqualVertices(const MeshView& mesh);
+
 // The same triangles over more vertices: the old ones in their order, then copies.
 struct VertexSplit {
     std::vector<std::uint32_t> sources; // per new vertex: the old vertex whose attributes it copies

@@ -34,6 +34,8 @@ public:
                 "{}: a normal map in {} is not read here; it stays as it is, and so do the tangents that it "
                 "needs: {}",
                 map.name, map.format, map.advice));
+        if (Status fits = checkMemory(*jobs); !fits)
+            return fits;
         if (jobs->empty())
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
@@ -63,11 +65,25 @@ public:
     ConvertModelReport& report() { return report_; }
 
 private:
+    std::string fieldOf(const MapJob& job) const
+    {
+        const std::filesystem::path& file = gltfPath(document_);
+        return file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
+    }
+
+    Status checkMemory(const std::vector<MapJob>& jobs) const
+    {
+        for (const MapJob& job : jobs)
+            if (const std::size_t bytes = bytesOf(job, options_.frames); options_.memory > 0 && bytes > options_.memory)
+                return inputError(fmt::format("{}: the triangles that read it take {} MiB, the limit is {} MiB",
+                                              fieldOf(job), bytes >> 20, options_.memory >> 20));
+        return Done{};
+    }
+
     // Converts one image and puts it back.
     Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
     {
-        const std::filesystem::path& file = gltfPath(document_);
-        const std::string field = file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
+        const std::string field = fieldOf(job);
         const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
         if (!bytes)
             return bytes.error();
@@ -75,20 +91,23 @@ private:
         if (!map)
             return map.error();
         completeNormals(*map);
-        ConvertedMap done{job.image, job.name, job.uses.size(), map->width, map->height};
+        ConvertedMap done{job.image, job.name, surfacesOf(job), map->width, map->height};
+        const auto uses = usesOf(document_, job, options_.frames);
+        if (!uses)
+            return uses.error();
         done.alsoElsewhere = job.alsoElsewhere;
         done.bytesBefore = done.bytesAfter = bytes->size();
         // Where the old map serves as well as a rounded new one, it stays, byte for byte.
-        done.figures.unconverted = errorAsItIs(*map, job);
+        done.figures.unconverted = errorAsItIs(*map, *uses);
         done.kept = done.figures.unconverted.count == 0 || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
         if (done.kept)
             return done;
-        if (const double copies = copiesOf(job.uses); !(copies <= kMostCopies))
+        if (const double copies = copiesOf(job); !(copies <= kMostCopies))
             return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}",
                                           field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
-        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
+        const Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows);
         if (rows.stopped())
             return stoppedError();
         auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
@@ -102,12 +121,21 @@ private:
     }
 
     // How far the old map is off when it is read with the new frame.
-    Spread errorAsItIs(const Image& map, const MapJob& job) const
+    Spread errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
     {
-        std::vector<const MapUse*> uses;
-        for (const MapUse& use : job.uses)
-            uses.push_back(&use);
-        return mapError(map, map, uses, options_.frames);
+        std::vector<const MapUse*> all;
+        for (const MapUse& use : uses)
+            all.push_back(&use);
+        return mapError(map, map, all, options_.frames);
+    }
+
+    // Of the image under all triangles together.
+    static double copiesOf(const MapJob& job)
+    {
+        double copies = 0;
+        for (const MapReader& reader : job.readers)
+            copies += reader.copies * double(reader.placed.size());
+        return copies;
     }
 
     void noteWhatStaysOff(const ConvertedMap& map)

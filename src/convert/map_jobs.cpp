@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
@@ -88,6 +89,15 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
     return mesh;
 }
 
+// The surface on which a map is read; slot: which the mesh is for (meshFor).
+MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slot, const FrameSet& frames)
+{
+    const glm::dmat3 asItStands(1);
+    return slot == NormalSlot::coat
+        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, asItStands, frames)
+        : makeSurface(mesh, Texture{}, asItStands, frames);
+}
+
 // One primitive with one of its materials, added to the job of a normal map of that material.
 // document: with the material in the primitive's place, for its uv.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, bool foreign,
@@ -120,16 +130,19 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
     job.name = imageName(root, image);
     if (std::ranges::find(job.places, place) == job.places.end())
         job.places.push_back(place);
-    for (const glm::dmat3& linear : placed) {
-        MapUse use;
-        use.surface = place.slot == NormalSlot::coat
-            ? makeCoatSurface(*mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, linear)
-            : makeSurface(*mesh, Texture{}, linear);
-        use.strength = strengthOf(root["materials"][place.material], map, place.slot);
-        use.wrapU = sampler.wrapU;
-        use.wrapV = sampler.wrapV;
-        job.uses.push_back(std::move(use));
-    }
+    MapReader& reader = job.readers.emplace_back();
+    reader.mesh = m;
+    reader.primitive = p;
+    reader.place = place;
+    reader.strength = strengthOf(root["materials"][place.material], map, place.slot);
+    reader.wrapU = sampler.wrapU;
+    reader.wrapV = sampler.wrapV;
+    reader.placed = placed;
+    reader.vertices = mesh->vertexCount();
+    reader.triangles = mesh->triangleCount();
+    reader.stored = !mesh->tangents.empty();
+    const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &*mesh);
+    reader.copies = copiesUnder(surfaceFor(held, place.slot, {}));
     return Done{};
 }
 
@@ -223,6 +236,48 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
         result.push_back(std::move(job));
     }
     return result;
+}
+
+std::size_t surfacesOf(const MapJob& job)
+{
+    std::size_t count = 0;
+    for (const MapReader& reader : job.readers)
+        count += reader.placed.size();
+    return count;
+}
+
+Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames)
+{
+    GltfDocument seen = document; // each primitive with the material it is seen with
+    std::vector<MapUse> uses;
+    for (const MapReader& r : job.readers) {
+        seen.root["meshes"][r.mesh]["primitives"][r.primitive]["material"] = r.place.material;
+        std::string why;
+        auto mesh = meshFor(seen, r.mesh, r.primitive, r.place.slot, why);
+        if (!mesh)
+            return mesh.error();
+        const MappedSurface surface =
+            surfaceFor(std::make_shared<const Mesh>(*std::move(mesh)), r.place.slot, framesRead(frames, r.stored));
+        for (const glm::dmat3& linear : r.placed)
+            uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
+    }
+    return uses;
+}
+
+std::size_t bytesOf(const MapJob& job, const FramePair& frames)
+{
+    constexpr std::size_t kVertex = sizeof(glm::vec3) * 2 + sizeof(glm::vec2);
+    std::size_t kept = 0, most = 0;
+    for (const MapReader& r : job.readers) {
+        const SurfaceBytes bytes = surfaceBytes(r.vertices, r.triangles, framesRead(frames, r.stored));
+        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
+        kept += bytes.kept;
+        most = std::max(most, bytes.making);
+    }
+    std::size_t rasters = 0; // once all surfaces are made
+    for (const MapReader& r : job.readers)
+        rasters += kRasterBytes * r.triangles * r.placed.size();
+    return kept + std::max(most, rasters);
 }
 
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes)

@@ -275,17 +275,4 @@ Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePa
     return result;
 }
 
-double copiesOf(std::span<const MapUse> uses)
-{
-    double copies = 0;
-    for (const MapUse& use : uses)
-        for (std::size_t i = 0; i + 2 < use.surface.uv.size(); i += 3) {
-            const glm::dvec2 &a = use.surface.uv[i], &b = use.surface.uv[i + 1], &c = use.surface.uv[i + 2];
-            const glm::dvec2 low = glm::floor(glm::min(a, glm::min(b, c)));
-            const glm::dvec2 high = glm::max(glm::ceil(glm::max(a, glm::max(b, c))), low + 1.0);
-            copies += (high.x - low.x) * (high.y - low.y);
-        }
-    return copies;
-}
-
 } // namespace cotan

@@ -1,5 +1,6 @@
 #include "cotan/convert/tangents.hpp"
 
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,10 +22,12 @@ Result<Spread> turnOf(const GltfDocument& document, std::size_t m, std::size_t p
     auto geometry = gltfGeometry(document, m, p);
     if (!geometry)
         return geometry.error();
-    const Mesh mesh = gltfMesh(std::move(*geometry));
+    const auto mesh = std::make_shared<const Mesh>(gltfMesh(std::move(*geometry)));
+    const MappedSurface surface =
+        makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
     Spread worst;
     for (const glm::dmat3& linear : placed) {
-        const Spread turn = directionTurn(makeSurface(mesh, Texture{}, linear), frames);
+        const Spread turn = directionTurn(placedBy(surface, linear), frames);
         if (turn.count == 0)
             return turn;
         if (worst.count == 0 || turn.percentile95 > worst.percentile95)

@@ -29,7 +29,7 @@ bool UseRaster::clampedAway(const Place& p) const
 {
     if (use_->wrapU != Wrap::clamp && use_->wrapV != Wrap::clamp)
         return false;
-    const glm::dvec2 uv = atPoint(use_->surface.uv, p.triangle, p.barycentric);
+    const glm::dvec2 uv = uvAt(use_->surface, p.triangle, p.barycentric);
     const bool u = use_->wrapU == Wrap::clamp && (uv.x < 0 || uv.x > 1);
     return u || (use_->wrapV == Wrap::clamp && (uv.y < 0 || uv.y > 1));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "corner_groups.hpp"
 #include "tangents_mesh.hpp"
@@ -66,6 +67,14 @@ Cotangents smoothCotangents(const MeshView& mesh)
     return out;
 }
 
+std::vector<std::uint32_t> firstEqualVertices(const MeshView& mesh)
+{
+    if (!tangents::usable(mesh))
+        return {};
+    const LargeArray<std::uint32_t> first = tangents::weld(mesh);
+    return {first.get(), first.get() + mesh.positions.size()};
+}
+
 VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
                           std::span<const glm::vec4> corners)
 {
@@ -97,18 +106,33 @@ VertexSplit splitMirrored(const MeshView& mesh)
 {
     if (!tangents::usable(mesh))
         return {};
+    const std::size_t count = mesh.positions.size();
     const std::vector<Side> sides = tangents::cornerSides(mesh);
-    std::vector<std::array<bool, 2>> used(mesh.positions.size(), {false, false});
+    std::vector<bool> unmirrored(count);
     for (std::size_t c = 0; c < sides.size(); ++c)
-        if (sides[c] != Side::none)
-            used[mesh.indices[c]][std::size_t(sides[c])] = true;
-    std::vector<glm::vec4> values(sides.size(), glm::vec4(0));
+        if (sides[c] == Side::unmirrored)
+            unmirrored[mesh.indices[c]] = true;
+    VertexSplit split{std::vector<std::uint32_t>(count), {mesh.indices.begin(), mesh.indices.end()}};
+    std::iota(split.sources.begin(), split.sources.end(), 0u);
+    std::vector<Side> owner(count, Side::none); // the side met first keeps the vertex
+    std::vector<std::uint32_t> copies;          // per vertex, that of the other side
     for (std::size_t c = 0; c < sides.size(); ++c) {
-        const bool unmirrored = used[mesh.indices[c]][0];
-        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !unmirrored);
-        values[c].x = mirrored ? 1.0f : 0.0f;
+        const std::uint32_t vertex = mesh.indices[c];
+        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !unmirrored[vertex]);
+        const Side side = mirrored ? Side::mirrored : Side::unmirrored;
+        if (owner[vertex] == Side::none)
+            owner[vertex] = side;
+        if (owner[vertex] == side)
+            continue;
+        if (copies.empty())
+            copies.assign(count, tangents::kNone);
+        if (copies[vertex] == tangents::kNone) {
+            copies[vertex] = static_cast<std::uint32_t>(split.sources.size());
+            split.sources.push_back(vertex);
+        }
+        split.indices[c] = copies[vertex];
     }
-    return splitVertices(mesh.positions.size(), mesh.indices, values);
+    return split;
 }
 
 std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads)
@@ -121,6 +145,10 @@ std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int t
 SplitCotangents splitSmoothCotangents(const MeshView& mesh)
 {
     SplitCotangents made{splitMirrored(mesh), {}};
+    if (made.split.sources.size() == mesh.positions.size()) { // none has both sides
+        made.cotangents = smoothCotangents(mesh);
+        return made;
+    }
     const auto positions = gathered(mesh.positions, made.split);
     const auto normals = gathered(mesh.normals, made.split);
     const auto texcoords = gathered(mesh.texcoords, made.split);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -124,8 +125,10 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
         if (instance == scene.instances.end())
             continue;
         const Material& material = scene.materials[std::size_t(mesh.material)];
-        const MappedSurface surface = makeSurface(mesh, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)));
-        if (surface.uv.empty())
+        const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
+        const MappedSurface surface =
+            makeSurface(held, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)), {});
+        if (!surface.hasUv())
             continue;
         const Found found = findOn(surface);
         for (std::size_t k = 0; k < found.worst.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -114,9 +115,10 @@ Values degreesOf(const Scene& scene, Inspection inspection)
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         const Material& material = scene.materials[std::size_t(mesh.material)];
-        const MappedSurface surface = makeSurface(mesh, mapOf(material), linearOf(scene, m));
+        const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
+        const MappedSurface surface = makeSurface(held, mapOf(material), linearOf(scene, m), {});
         values[m].assign(mesh.triangleCount(), kNone);
-        for (std::size_t i = 0; !surface.uv.empty() && i < mesh.triangleCount(); ++i) {
+        for (std::size_t i = 0; surface.hasUv() && i < mesh.triangleCount(); ++i) {
             const TriangleUv t = triangleUv(surface, i);
             if (!t.usable || t.degenerate)
                 continue;

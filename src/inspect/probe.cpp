@@ -30,11 +30,11 @@ Probed Prober::at(const Scene& scene, std::uint64_t number, const Hit& hit, Fram
         instance_ = hit.instance;
     }
     Probed p;
-    p.normal = unitOrZero(atPoint(surface_.normals, hit.triangle, hit.barycentric));
-    p.hasUv = !surface_.uv.empty();
+    p.normal = unitOrZero(normalAt(surface_, hit.triangle, hit.barycentric));
+    p.hasUv = surface_.hasUv();
     if (!p.hasUv)
         return p;
-    p.uv = glm::vec2(atPoint(surface_.uv, hit.triangle, hit.barycentric));
+    p.uv = glm::vec2(uvAt(surface_, hit.triangle, hit.barycentric));
     if (map.present()) {
         const Image& image = scene.images[std::size_t(map.image)];
         const glm::vec2 inside = p.uv - glm::vec2(std::floor(p.uv.x), std::floor(p.uv.y));
@@ -47,8 +47,8 @@ Probed Prober::at(const Scene& scene, std::uint64_t number, const Hit& hit, Fram
     p.b = glm::vec3(f.b);
     const double side = glm::dot(glm::cross(glm::dvec3(p.normal), glm::dvec3(f.t)), glm::dvec3(f.b));
     p.w = side < 0 ? 1 : side > 0 ? -1 : 0;
-    if (!surface_.stored.empty())
-        p.storedTangent = unitOrZero(glm::dvec3(atPoint(surface_.stored, hit.triangle, hit.barycentric)));
+    if (surface_.hasStored())
+        p.storedTangent = unitOrZero(glm::dvec3(storedAt(surface_, hit.triangle, hit.barycentric)));
     return p;
 }
 

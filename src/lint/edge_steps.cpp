@@ -2,69 +2,82 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "cotan/angle.hpp"
+#include "cotan/tangents.hpp"
 #include "parts.hpp"
 
 namespace cotan::lint {
 
 namespace {
 
-using Key = std::array<double, 8>;
-
-Key keyOf(const MappedSurface& s, std::size_t corner)
-{
-    const glm::dvec3 p = s.positions[corner], n = s.normals[corner];
-    const glm::dvec2 uv = s.uv[corner];
-    Key key{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
-    for (double& x : key)
-        x = std::isfinite(x) ? x + 0.0 : 0.0; // -0 becomes +0
-    return key;
-}
-
-// Per corner the number of its vertex: corners with equal position, normal and uv have the same.
-std::vector<std::uint32_t> weld(const MappedSurface& s)
-{
-    std::vector<Key> keys(s.positions.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        keys[i] = keyOf(s, i);
-    std::vector<std::uint32_t> order(keys.size()), vertex(keys.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && keys[order[i]] != keys[order[i - 1]])
-            ++next;
-        vertex[order[i]] = next;
-    }
-    return vertex;
-}
-
+// One triangle's side of an edge between welded vertices.
 struct Side {
-    std::uint32_t low = 0, high = 0; // welded vertices
-    std::uint32_t corner = 0;        // the edge's first corner in its triangle
+    std::uint32_t high = 0;   // the edge's vertex with the larger number
+    std::uint32_t corner = 0; // the edge's first corner in its triangle
     std::size_t triangle() const { return corner / 3; }
 };
 
-std::vector<Side> sidesOf(const MappedSurface& s)
-{
-    const std::vector<std::uint32_t> vertex = weld(s);
-    std::vector<Side> sides;
-    sides.reserve(vertex.size());
-    for (std::uint32_t c = 0; c < vertex.size(); ++c) {
-        const std::uint32_t a = vertex[c], b = vertex[c / 3 * 3 + (c + 1) % 3];
-        if (a != b)
-            sides.push_back({std::min(a, b), std::max(a, b), c});
+// The sides of edges, listed by the edge's vertex with the smaller number.
+class SidesByVertex {
+public:
+    explicit SidesByVertex(const MappedSurface& s) : indices_(s.shared->mesh->indices)
+    {
+        const Mesh& mesh = *s.shared->mesh;
+        first_ = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
+        if (first_.empty())
+            return;
+        begin_.assign(first_.size() + 1, 0);
+        eachSide([&](std::uint32_t low, std::uint32_t) { ++begin_[low + 1]; });
+        for (std::size_t v = 1; v < begin_.size(); ++v)
+            begin_[v] += begin_[v - 1];
+        corners_.resize(begin_.back());
+        eachSide([&](std::uint32_t low, std::uint32_t corner) { corners_[begin_[low]++] = corner; });
+        // Every vertex's beginning has become its end, which is the next one's beginning.
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::array{a.low, a.high, a.corner} < std::array{b.low, b.high, b.corner};
-    });
-    return sides;
-}
+
+    // Calls use(a, b) for every edge that exactly two triangles share.
+    template<class Use> void eachPair(const Use& use) const
+    {
+        std::vector<Side> sides;
+        std::uint32_t from = 0;
+        for (std::size_t low = 0; low < first_.size(); ++low) {
+            sides.clear();
+            for (std::uint32_t i = from; i < begin_[low]; ++i)
+                sides.push_back({higher(corners_[i]), corners_[i]});
+            from = begin_[low];
+            std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+                return std::array{a.high, a.corner} < std::array{b.high, b.corner};
+            });
+            for (std::size_t i = 0; i < sides.size();) {
+                std::size_t end = i + 1;
+                while (end < sides.size() && sides[end].high == sides[i].high)
+                    ++end;
+                if (end == i + 2)
+                    use(sides[i], sides[i + 1]);
+                i = end;
+            }
+        }
+    }
+
+private:
+    std::uint32_t vertexOf(std::uint32_t corner) const { return first_[indices_[corner]]; }
+    static std::uint32_t following(std::uint32_t corner) { return corner / 3 * 3 + (corner + 1) % 3; }
+    std::uint32_t higher(std::uint32_t corner) const { return std::max(vertexOf(corner), vertexOf(following(corner))); }
+
+    template<class Use> void eachSide(const Use& use) const
+    {
+        for (std::uint32_t c = 0; c < indices_.size(); ++c)
+            if (const std::uint32_t a = vertexOf(c), b = vertexOf(following(c)); a != b)
+                use(std::min(a, b), c);
+    }
+
+    const std::vector<std::uint32_t>& indices_;
+    std::vector<std::uint32_t> first_, begin_, corners_;
+};
 
 // The middle of an edge in its triangle.
 glm::dvec3 middle(const Side& side)
@@ -75,19 +88,28 @@ glm::dvec3 middle(const Side& side)
     return weights;
 }
 
-void addSteps(const MappedSurface& s, Frame frame, const Side& a, const Side& b,
-              std::vector<std::pair<double, double>>& steps)
+constexpr int kDirections = 8;
+
+// Texels tilted by kTestTilt.
+const std::array<glm::dvec3, kDirections>& tilted()
 {
-    constexpr int kDirections = 8;
-    const f64::cotan_frame fa = frameAt(s, frame, TangentOrigin::generated, a.triangle(), middle(a));
-    const f64::cotan_frame fb = frameAt(s, frame, TangentOrigin::generated, b.triangle(), middle(b));
-    const double tilt = glm::radians(kTestTilt);
-    const double weight = (areaOf(s, a.triangle()) + areaOf(s, b.triangle())) / (3.0 * kDirections);
-    for (int k = 0; k < kDirections; ++k) {
-        const double azimuth = 2 * std::numbers::pi * k / kDirections;
-        const glm::dvec3 m(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
-        steps.emplace_back(degreesBetween(f64::cotan_apply(fa, m), f64::cotan_apply(fb, m)), weight);
-    }
+    static const auto texels = [] {
+        std::array<glm::dvec3, kDirections> made;
+        const double tilt = glm::radians(kTestTilt);
+        for (int k = 0; k < kDirections; ++k) {
+            const double azimuth = 2 * std::numbers::pi * k / kDirections;
+            made[std::size_t(k)] = {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
+                                    std::cos(tilt)};
+        }
+        return made;
+    }();
+    return texels;
+}
+
+void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weight, SpreadCounter& steps)
+{
+    for (const glm::dvec3& m : tilted())
+        steps.add(degreesBetween(f64::cotan_apply(a, m), f64::cotan_apply(b, m)), weight);
 }
 
 } // namespace
@@ -97,24 +119,21 @@ double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBet
 EdgeSteps edgeSteps(const MappedSurface& s)
 {
     EdgeSteps result;
-    if (s.uv.empty())
+    if (!s.hasUv())
         return result;
-    const std::vector<Side> sides = sidesOf(s);
-    std::vector<std::pair<double, double>> cotangent, orthonormal;
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
-            ++end;
-        const int orientation = orientationOf(s, sides[i].triangle());
-        if (end == i + 2 && orientation != 0 && orientation == orientationOf(s, sides[i + 1].triangle())) {
-            ++result.edges;
-            addSteps(s, Frame::cotangent, sides[i], sides[i + 1], cotangent);
-            addSteps(s, Frame::orthonormal, sides[i], sides[i + 1], orthonormal);
-        }
-        i = end;
-    }
-    result.cotangent = spreadOf(std::move(cotangent));
-    result.orthonormal = spreadOf(std::move(orthonormal));
+    SpreadCounter cotangent, orthonormal;
+    SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
+        const int orientation = orientationOf(s, a.triangle());
+        if (orientation == 0 || orientation != orientationOf(s, b.triangle()))
+            return;
+        ++result.edges;
+        const double weight = (areaOf(s, a.triangle()) + areaOf(s, b.triangle())) / (3.0 * kDirections);
+        const SurfaceSpot atA = spotAt(s, a.triangle(), middle(a)), atB = spotAt(s, b.triangle(), middle(b));
+        addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);
+        addSteps(frameOf(atA, Frame::orthonormal), frameOf(atB, Frame::orthonormal), weight, orthonormal);
+    });
+    result.cotangent = cotangent.spread();
+    result.orthonormal = orthonormal.spread();
     return result;
 }
 

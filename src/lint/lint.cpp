@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -71,6 +73,13 @@ template<class Make> void eachAdvised(FrameSpreads& spreads, const Make& make)
     spreads.smooth = make(Frame::smooth);
 }
 
+// What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
+const FrameSet& framesOfLint()
+{
+    static const FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
+    return frames;
+}
+
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -78,16 +87,18 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
+    const std::vector<SurfacePoint> points = pointsOver(surface, kPointsOfSurface);
     if (!p.tangentsFor.empty())
-        eachAdvised(p.turned,
-                    [&](Frame frame) { return directionTurn(surface, {.from = Frame::mikktspace, .to = frame}); });
+        eachAdvised(p.turned, [&](Frame frame) {
+            return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
+        });
     const Texture& coat = material.coat.normalMap;
     if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
         p.tangentsFor = "KHR_materials_clearcoat";
         p.turned = {};
     }
     p.triangles = mesh.triangleCount();
-    p.hasUv = !surface.uv.empty();
+    p.hasUv = surface.hasUv();
     p.uv = lint::uvQuality(surface);
     p.steps = lint::edgeSteps(surface);
     p.stored = lint::storedTangents(surface);
@@ -96,7 +107,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
         p.image = image;
         if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
-            p.readings = lint::readings(surface, material, scene.images[std::size_t(image)]);
+            p.readings = lint::readings(surface, points, material, scene.images[std::size_t(image)]);
         p.unread = !hasPixels(scene.images[std::size_t(image)]);
         p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
@@ -163,18 +174,39 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
         MapFit fit{{}, image, map.name};
         std::vector<const MapUse*> shown;
         std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
-                     [](const MapUse* u) { return !u->surface.uv.empty(); });
-        if (hasPixels(map))
-            eachAdvised(fit, [&](Frame frame) {
-                return mapError(map, map, shown, {Frame::mikktspace, frame, from, TangentOrigin::generated});
+                     [](const MapUse* u) { return u->surface.hasUv(); });
+        if (hasPixels(map)) {
+            std::vector<FramePair> pairs;
+            FrameSpreads order; // of the frames, as eachAdvised has it
+            eachAdvised(order, [&](Frame frame) {
+                pairs.push_back({Frame::mikktspace, frame, from, TangentOrigin::generated});
+                return Spread{};
             });
+            const std::vector<Spread> errors = mapErrors(map, map, shown, pairs);
+            std::size_t next = 0;
+            eachAdvised(fit, [&](Frame) { return errors[next++]; });
+        }
         report.fits.push_back(std::move(fit));
     }
 }
 
 } // namespace
 
-LintReport lintScene(const Scene& scene, const LintOptions& options) { return *lintScene(scene, options, {}); }
+std::size_t lintBytes(const Scene& scene)
+{
+    std::size_t kept = 0, most = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        const SurfaceBytes bytes = surfaceBytes(mesh.vertexCount(), mesh.triangleCount(), framesOfLint());
+        kept += bytes.kept + kRasterBytes * mesh.triangleCount();
+        most = std::max(most, bytes.making);
+    }
+    return kept + most;
+}
+
+LintReport lintScene(const Scene& scene, const LintOptions& options)
+{
+    return *lintScene(scene, {.distance = options.distance}, {});
+}
 
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
 {
@@ -183,6 +215,9 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         report.recommendation = report.defects = "Nothing was looked at: " + sound.error().message + ".";
         return report;
     }
+    if (const std::size_t bytes = lintBytes(scene); options.memory > 0 && bytes > options.memory)
+        return inputError(fmt::format("{}: its triangles take {} MiB to judge, the limit is {} MiB", scene.name,
+                                      bytes >> 20, options.memory >> 20));
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
     std::vector<CoatUse> coats;
@@ -194,17 +229,23 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const Sampler& sampler = material.normalMap.sampler;
+        const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
+        const glm::dmat3 asItStands(1);
+        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint());
+        MappedSurface ofCoat;
+        if (material.coat.normalMap.present())
+            ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint());
         for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
-            uses.push_back({makeSurface(mesh, material.normalMap, placed[i][k]), material.normalFormat,
-                            double(material.normalScale), sampler.wrapU, sampler.wrapV});
+            uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
+                            sampler.wrapU, sampler.wrapV});
             PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance);
             p.placing = k;
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
             if (const Texture& coat = material.coat.normalMap; coat.present())
                 coats.push_back({coat.image,
-                                 {makeCoatSurface(mesh, material.normalMap, coat, placed[i][k]), Convention{},
-                                  double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
+                                 {placedBy(ofCoat, placed[i][k]), Convention{}, double(material.coat.normalScale),
+                                  coat.sampler.wrapU, coat.sampler.wrapV}});
         }
         done += mesh.triangleCount();
         if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))

@@ -12,46 +12,52 @@ namespace cotan {
 namespace {
 
 constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each has kLeast
-constexpr std::size_t kMost = 4096, kLeast = 64;
+constexpr std::size_t kMost = kPointsOfSurface, kLeast = 64;
 
 // The normal that a frame makes of a map at a place.
-glm::dvec3 normalAt(const Image& map, const MapUse& use, Frame frame, TangentOrigin tangents, const SurfacePoint& p)
+glm::dvec3 normalOf(const Image& map, const MapUse& use, Frame frame, TangentOrigin tangents, const SurfacePoint& p)
 {
     Texture texture;
     texture.sampler.wrapU = use.wrapU;
     texture.sampler.wrapV = use.wrapV;
     const auto format = toFormat<f64::cotan_normal_format>(use.stored, map.type, use.strength);
-    const glm::dvec3 m = decodedAt(map, texture, format, atPoint(use.surface.uv, p.triangle, p.barycentric));
+    const glm::dvec3 m = decodedAt(map, texture, format, uvAt(use.surface, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
 }
 
-// Of the triangles that have area in uv.
-double mappedArea(const MappedSurface& s)
+double mappedArea(const MappedSurface& s, std::size_t triangle)
 {
-    double area = 0;
-    for (std::size_t i = 0; i < s.triangleCount(); ++i)
-        area += orientationOf(s, i) != 0 ? areaOf(s, i) : 0;
-    return area;
+    return orientationOf(s, triangle) != 0 ? areaOf(s, triangle) : 0;
+}
+
+// A generated frame that is read at the vertices.
+void addGenerated(FrameSet& set, Frame frame, TangentOrigin tangents, bool stored)
+{
+    const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
+    if (readsVertices(frame) && !ofFile)
+        set.set(std::size_t(frame));
 }
 
 } // namespace
 
 // In the triangles by the sequence of the plastic number (R2).
-std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count)
+std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count, double* area)
 {
-    std::vector<double> upTo;
     double total = 0;
     for (std::size_t i = 0; i < s.triangleCount(); ++i)
-        upTo.push_back(total += orientationOf(s, i) != 0 ? areaOf(s, i) : 0);
+        total += mappedArea(s, i);
+    if (area)
+        *area = total;
     std::vector<SurfacePoint> points;
     if (!(total > 0))
         return points;
     std::size_t triangle = 0;
+    double upTo = mappedArea(s, 0); // of this triangle and all before it
     for (std::size_t k = 0; k < count; ++k) {
         const double at = (double(k) + 0.5) / double(count) * total;
-        while (triangle + 1 < upTo.size() && upTo[triangle] <= at)
-            ++triangle;
+        while (triangle + 1 < s.triangleCount() && upTo <= at)
+            upTo += mappedArea(s, ++triangle);
         double a = std::fmod(0.5 + 0.7548776662466927 * double(k), 1.0);
         double b = std::fmod(0.5 + 0.5698402909980532 * double(k), 1.0);
         if (a + b > 1) {
@@ -63,28 +69,39 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count)
     return points;
 }
 
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames)
+std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                              std::span<const FramePair> frames)
 {
     const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
-    std::vector<std::pair<double, double>> errors;
+    std::vector<std::vector<std::pair<double, double>>> errors(frames.size());
     for (const MapUse* use : uses) {
         if (!(std::abs(use->strength) > kFlattened))
             continue;
-        const std::vector<SurfacePoint> points = pointsOver(use->surface, count);
-        const double weight = mappedArea(use->surface) / double(count);
+        double area = 0;
+        const std::vector<SurfacePoint> points = pointsOver(use->surface, count, &area);
         for (const SurfacePoint& p : points)
-            errors.emplace_back(lint::degreesBetween(normalAt(before, *use, frames.from, frames.fromTangents, p),
-                                                     normalAt(after, *use, frames.to, frames.toTangents, p)),
-                                weight);
+            for (std::size_t i = 0; i < frames.size(); ++i)
+                errors[i].emplace_back(
+                    lint::degreesBetween(normalOf(before, *use, frames[i].from, frames[i].fromTangents, p),
+                                         normalOf(after, *use, frames[i].to, frames[i].toTangents, p)),
+                    area / double(count));
     }
-    return spreadOf(std::move(errors));
+    std::vector<Spread> spreads;
+    for (auto& of : errors)
+        spreads.push_back(spreadOf(std::move(of)));
+    return spreads;
 }
 
-Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames)
+{
+    return mapErrors(before, after, uses, {&frames, 1}).front();
+}
+
+Spread directionTurn(const MappedSurface& surface, const std::vector<SurfacePoint>& points, const FramePair& frames)
 {
     std::vector<std::pair<double, double>> turns;
-    for (const SurfacePoint& p : pointsOver(surface, kMost)) {
+    for (const SurfacePoint& p : points) {
         const auto way = [&](Frame frame, TangentOrigin tangents) {
             const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
             const glm::dvec3 n = f64::cotan_normalize_or(f.n, glm::dvec3(0));
@@ -96,6 +113,19 @@ Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
         turns.emplace_back(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to), 1);
     }
     return spreadOf(std::move(turns));
+}
+
+Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
+{
+    return directionTurn(surface, pointsOver(surface, kPointsOfSurface), frames);
+}
+
+FrameSet framesRead(const FramePair& frames, bool stored)
+{
+    FrameSet set;
+    addGenerated(set, frames.from, frames.fromTangents, stored);
+    addGenerated(set, frames.to, frames.toTangents, stored);
+    return set;
 }
 
 bool directionStays(const Spread& turn) { return turn.percentile95 <= kTurnedDirection; }

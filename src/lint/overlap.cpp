@@ -10,33 +10,16 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr double kFarthest = 1e6;   // uv beyond are not drawn, as UvRaster has it
 constexpr double kMostCopies = 2e6; // of the image under all triangles together
-
-// How often the image is repeated under the triangles' boxes.
-double copiesUnder(const MappedSurface& s)
-{
-    double copies = 0;
-    for (std::size_t i = 0; i + 2 < s.uv.size(); i += 3) {
-        const glm::dvec2 low = glm::min(s.uv[i], glm::min(s.uv[i + 1], s.uv[i + 2]));
-        const glm::dvec2 high = glm::max(s.uv[i], glm::max(s.uv[i + 1], s.uv[i + 2]));
-        if (low.x < -kFarthest || low.y < -kFarthest || high.x > kFarthest || high.y > kFarthest)
-            continue;
-        const glm::dvec2 tiles = glm::max(glm::ceil(high) - glm::floor(low), 1.0);
-        copies += tiles.x * tiles.y;
-    }
-    return copies;
-}
 
 // Calls use(texel, triangle) for every texel whose centre a triangle covers; uv repeat the image.
 template<class Use> void forEachTexel(const UvRaster& raster, const Use& use)
 {
-    UvRow row;
-    for (int y = 0; y < raster.height(); ++y) {
-        raster.row(y, UvReach::centres, row);
-        for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
-            for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
-                use(std::size_t(y) * std::size_t(raster.width()) + x, std::size_t(row.places[i].triangle));
+    std::vector<std::pair<glm::ivec2, UvPlace>> covered;
+    for (int block = 0; block < raster.blocks(); ++block) {
+        raster.centres(block, covered);
+        for (const auto& [texel, place] : covered)
+            use(std::size_t(texel.y) * std::size_t(raster.width()) + std::size_t(texel.x), std::size_t(place.triangle));
     }
 }
 
@@ -46,7 +29,7 @@ struct Uses {
 };
 
 struct Covered {
-    std::size_t texels = 0, shared = 0, turned = 0;
+    std::uint32_t texels = 0, shared = 0, turned = 0;
 };
 
 void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, UvQuality& q)
@@ -69,7 +52,7 @@ void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, 
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side)
 {
-    if (std::ranges::all_of(surfaces, [](const MappedSurface* s) { return s->uv.empty(); }))
+    if (std::ranges::all_of(surfaces, [](const MappedSurface* s) { return !s->hasUv(); }))
         return;
     double copies = 0;
     for (const MappedSurface* s : surfaces)

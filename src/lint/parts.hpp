@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cotan/lint/lint.hpp"
+#include "cotan/lint/map_fit.hpp"
 
 namespace cotan::lint {
 
@@ -18,9 +19,9 @@ EdgeSteps edgeSteps(const MappedSurface& surface);
 
 StoredTangents storedTangents(const MappedSurface& surface);
 
-// Points spread evenly over the area, decoded there and read with each frame. Angles to MikkTSpace
-// with generated tangents.
-std::vector<Reading> readings(const MappedSurface& surface, const Material& material, const Image& map);
+// The map decoded at the points (pointsOver) and read with each frame. Angles to MikkTSpace with generated tangents.
+std::vector<Reading> readings(const MappedSurface& surface, const std::vector<SurfacePoint>& points,
+                              const Material& material, const Image& map);
 
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.
 bool distrustStored(const LintReport& report);

@@ -4,13 +4,8 @@
 
 namespace cotan::lint {
 
-namespace {
-
-constexpr std::size_t kSamples = 4096;
-
-} // namespace
-
-std::vector<Reading> readings(const MappedSurface& s, const Material& material, const Image& map)
+std::vector<Reading> readings(const MappedSurface& s, const std::vector<SurfacePoint>& points, const Material& material,
+                              const Image& map)
 {
     struct Reader {
         std::string name;
@@ -21,12 +16,12 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
     std::vector<Reader> readers;
     for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact, Frame::triangle})
         readers.push_back({std::string(name(f)), f, TangentOrigin::generated, {}});
-    if (!s.stored.empty())
+    if (s.hasStored())
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
     const f64::cotan_normal_format format = formatOf(material, map.type);
-    for (const SurfacePoint& p : pointsOver(s, kSamples)) {
-        const glm::dvec3 m = decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
+    for (const SurfacePoint& p : points) {
+        const glm::dvec3 m = decodedAt(map, material.normalMap, format, uvAt(s, p.triangle, p.barycentric));
         const glm::dvec3 truth =
             f64::cotan_apply(frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric), m);
         for (Reader& r : readers)

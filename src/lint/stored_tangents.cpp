@@ -10,7 +10,7 @@ namespace cotan {
 StoredCorner storedCorner(const MappedSurface& s, std::size_t triangle, std::size_t corner)
 {
     StoredCorner result;
-    if (s.stored.empty() || orientationOf(s, triangle) == 0)
+    if (!s.hasStored() || orientationOf(s, triangle) == 0)
         return result;
     glm::dvec3 at(0);
     at[int(corner)] = 1;
@@ -18,7 +18,7 @@ StoredCorner storedCorner(const MappedSurface& s, std::size_t triangle, std::siz
     const f64::cotan_frame f = frameAt(s, Frame::orthonormal, TangentOrigin::generated, triangle, at);
     if (f.t == glm::dvec3(0))
         return result;
-    const glm::dvec4 stored = s.stored[3 * triangle + corner];
+    const glm::dvec4 stored = s.stored(3 * triangle + corner);
     const glm::dvec3 t =
         f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
     const double expected = glm::dot(glm::cross(f.n, f.t), f.b) < 0 ? -1 : 1;
@@ -35,11 +35,11 @@ namespace cotan::lint {
 StoredTangents storedTangents(const MappedSurface& s)
 {
     StoredTangents result;
-    result.present = !s.stored.empty();
-    if (!result.present || s.uv.empty())
+    result.present = s.hasStored();
+    if (!result.present || !s.hasUv())
         return result;
     double compared = 0;
-    std::vector<std::pair<double, double>> angles;
+    SpreadCounter angles;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
         const double third = areaOf(s, i) / 3;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -49,12 +49,12 @@ StoredTangents storedTangents(const MappedSurface& s)
             compared += third;
             result.reversedW += corner.reversed ? third : 0;
             result.turned += corner.degrees > kTurned ? third : 0;
-            angles.emplace_back(corner.degrees, third);
+            angles.add(corner.degrees, third);
         }
     }
     result.reversedW /= compared; // of nothing: NaN
     result.turned /= compared;
-    result.angle = spreadOf(std::move(angles));
+    result.angle = angles.spread();
     return result;
 }
 

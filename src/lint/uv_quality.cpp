@@ -80,14 +80,14 @@ namespace cotan::lint {
 UvQuality uvQuality(const MappedSurface& s)
 {
     UvQuality q;
-    std::vector<std::pair<double, double>> stretch, shear, gradient;
+    SpreadCounter stretch, shear, gradient;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
         const double area = areaOf(s, i);
         q.area += area;
-        if (s.uv.empty())
+        if (!s.hasUv())
             continue;
         for (std::size_t k = 0; k < 3; ++k)
-            q.largestUv = std::max({q.largestUv, std::abs(s.uv[3 * i + k].x), std::abs(s.uv[3 * i + k].y)});
+            q.largestUv = std::max({q.largestUv, std::abs(s.uv(3 * i + k).x), std::abs(s.uv(3 * i + k).y)});
         const TriangleUv t = triangleUv(s, i);
         if (!t.usable)
             continue;
@@ -98,22 +98,18 @@ UvQuality uvQuality(const MappedSurface& s)
         q.mirrored += t.orientation < 0 ? area : 0;
         q.stretched += t.stretch > kStretched ? area : 0;
         q.sheared += t.shear > kSheared ? area : 0;
-        stretch.emplace_back(t.stretch, area);
-        shear.emplace_back(t.shear, area);
-        gradient.emplace_back(t.gradient, area);
+        stretch.add(t.stretch, area);
+        shear.add(t.shear, area);
+        gradient.add(t.gradient, 1);
     }
     const double whole = q.area > 0 ? q.area : std::numeric_limits<double>::quiet_NaN();
     q.degenerate /= whole;
     q.mirrored /= whole;
     q.stretched /= whole;
     q.sheared /= whole;
-    q.stretch = spreadOf(std::move(stretch));
-    q.shear = spreadOf(std::move(shear));
-    if (!gradient.empty()) {
-        auto middle = gradient.begin() + std::ptrdiff_t(gradient.size() / 2);
-        std::nth_element(gradient.begin(), middle, gradient.end());
-        q.gradient = middle->first;
-    }
+    q.stretch = stretch.spread();
+    q.shear = shear.spread();
+    q.gradient = gradient.middle();
     return q;
 }
 

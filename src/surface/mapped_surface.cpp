@@ -1,17 +1,20 @@
 #include "cotan/surface/mapped_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstring>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "cotan/covector.hpp"
 #include "cotan/scene/texture_uv.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
 
 namespace {
+
+constexpr double kFarthestShown = 1e6; // uv beyond are not drawn, as UvRaster has it
 
 double finiteOrZero(double x) { return std::abs(x) <= 1e30 ? x : 0; }
 
@@ -33,136 +36,314 @@ glm::dvec4 moved(const LinearMap<double>& m, glm::vec4 gltf)
     return {direction, double(t.w) * (m.determinant() < 0 ? -1 : 1)};
 }
 
-std::vector<glm::dvec4> moved(const LinearMap<double>& m, const std::vector<glm::vec4>& corners)
-{
-    std::vector<glm::dvec4> result;
-    result.reserve(corners.size());
-    for (const glm::vec4& c : corners)
-        result.push_back(moved(m, c));
-    return result;
-}
-
 glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
 {
     return m.planeImage(Covector3d(glm::dvec3(c))).raw();
 }
 
-// Cotangents per corner, mirrored and unmirrored triangles apart.
-void addCotangents(MappedSurface& surface, const MeshView& mesh, const LinearMap<double>& m)
+// The values of corners, once for the corners of a vertex that have the same bits. Further values of a vertex come
+// after the first values of all vertices.
+CornerValues<glm::vec4> gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
+                                 const std::vector<glm::vec4>& corners)
 {
-    const SplitCotangents made = splitSmoothCotangents(mesh);
-    if (made.cotangents.u.empty())
-        return;
-    for (std::uint32_t i : made.split.indices) {
-        surface.cotangentsU.push_back(movedCovector(m, made.cotangents.u[i]));
-        surface.cotangentsV.push_back(movedCovector(m, made.cotangents.v[i]));
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    CornerValues<glm::vec4> result;
+    if (corners.size() != indices.size() || corners.empty())
+        return result;
+    const auto same = [](const glm::vec4& a, const glm::vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    std::vector<glm::vec4>& values = result.values;
+    values.resize(vertices);
+    std::vector<bool> has(vertices);
+    std::vector<std::uint32_t> next; // of the same vertex, by place
+    for (std::size_t c = 0; c < indices.size(); ++c) {
+        std::uint32_t place = indices[c];
+        if (!has[place]) {
+            has[place] = true;
+            values[place] = corners[c];
+            continue;
+        }
+        while (!same(values[place], corners[c])) {
+            if (next.empty())
+                next.assign(vertices, kNone);
+            if (next[place] == kNone) {
+                next[place] = std::uint32_t(values.size());
+                values.push_back(corners[c]);
+                next.push_back(kNone);
+            }
+            place = next[place];
+        }
+        if (place == indices[c])
+            continue;
+        if (result.places.empty())
+            result.places = indices;
+        result.places[c] = place;
     }
+    return result;
 }
 
-const std::vector<glm::dvec4>& tangentsOf(const MappedSurface& s, Frame frame, TangentOrigin source)
+// Cotangents, mirrored and unmirrored triangles apart.
+CornerValues<std::array<glm::vec3, 2>> cotangentsOf(const MeshView& mesh)
 {
-    return source == TangentOrigin::stored && !s.stored.empty() ? s.stored : s.generated[std::size_t(frame)];
+    CornerValues<std::array<glm::vec3, 2>> result;
+    SplitCotangents made = splitSmoothCotangents(mesh);
+    result.values.reserve(made.cotangents.u.size());
+    for (std::size_t i = 0; i < made.cotangents.u.size(); ++i)
+        result.values.push_back({made.cotangents.u[i], made.cotangents.v[i]});
+    if (result.values.size() != mesh.positions.size()) // else none was split
+        result.places = std::move(made.split.indices);
+    return result;
+}
+
+template<class T> const T& valueAt(const SurfaceMesh& s, const CornerValues<T>& made, std::size_t corner)
+{
+    return made.values[made.places.empty() ? s.mesh->indices[corner] : made.places[corner]];
+}
+
+// The weighted sum over the corners of a triangle.
+template<class ValueOf> auto blended(std::size_t triangle, glm::dvec3 weights, const ValueOf& valueOf)
+{
+    return valueOf(3 * triangle) * weights.x + valueOf(3 * triangle + 1) * weights.y
+        + valueOf(3 * triangle + 2) * weights.z;
+}
+
+// xyz along +u, w as tangentAlongV; (0, 0, 0, 1) where there are none.
+glm::dvec4 tangentAt(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
+                     glm::dvec3 barycentric)
+{
+    if (source == TangentOrigin::stored && s.hasStored())
+        return storedAt(s, triangle, barycentric);
+    const CornerValues<glm::vec4>& made = s.shared->generated[std::size_t(frame)];
+    if (made.empty())
+        return {0, 0, 0, 1};
+    return blended(triangle, barycentric,
+                   [&](std::size_t corner) { return moved(s.linear, valueAt(*s.shared, made, corner)); });
 }
 
 f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
                                  glm::dvec3 barycentric, glm::dvec3 n)
 {
-    if (readsCotangents(frame)) {
-        const bool has = !s.cotangentsU.empty();
-        return evaluateCotangents(frame, n, has ? atPoint(s.cotangentsU, triangle, barycentric) : glm::dvec3(0),
-                                  has ? atPoint(s.cotangentsV, triangle, barycentric) : glm::dvec3(0));
+    if (!readsCotangents(frame)) {
+        const glm::dvec4 t = tangentAt(s, frame, source, triangle, barycentric);
+        return evaluateTangents(frame, n, glm::dvec3(t), t.w);
     }
-    const std::vector<glm::dvec4>& tangents = tangentsOf(s, frame, source);
-    const glm::dvec4 t = tangents.empty() ? glm::dvec4(0, 0, 0, 1) : atPoint(tangents, triangle, barycentric);
-    return evaluateTangents(frame, n, glm::dvec3(t), t.w);
+    if (s.shared->cotangents.empty())
+        return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
+    const auto along = [&](std::size_t k) {
+        return blended(triangle, barycentric, [&](std::size_t corner) {
+            return movedCovector(s.linear, valueAt(*s.shared, s.shared->cotangents, corner)[k]);
+        });
+    };
+    return evaluateCotangents(frame, n, along(0), along(1));
+}
+
+std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const Texture& map, const FrameSet& wanted)
+{
+    auto shared = std::make_shared<SurfaceMesh>();
+    shared->uv = uvOfMap(*mesh, map);
+    shared->mesh = std::move(mesh);
+    const Mesh& m = *shared->mesh;
+    if (shared->uv.empty() || m.indices.empty())
+        return shared;
+    const MeshView view{m.positions, m.normals, shared->uv, m.indices};
+    if (wanted[std::size_t(Frame::smooth)])
+        shared->cotangents = cotangentsOf(view);
+    for (const FrameInfo& f : frames())
+        if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
+            shared->generated[std::size_t(f.frame)] =
+                gathered(m.vertexCount(), m.indices, generateTangents(f.frame, view));
+    return shared;
+}
+
+// What a surface reads of a mesh.
+std::shared_ptr<const Mesh> copied(const Mesh& mesh)
+{
+    auto copy = std::make_shared<Mesh>();
+    copy->positions = mesh.positions;
+    copy->normals = mesh.normals;
+    copy->tangents = mesh.tangents;
+    copy->texcoords = mesh.texcoords;
+    copy->indices = mesh.indices;
+    return copy;
 }
 
 } // namespace
 
-MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear)
+FrameSet frameSet(std::initializer_list<Frame> list)
 {
-    MappedSurface surface;
-    const LinearMap<double> m(linear);
-    const std::vector<glm::vec2> uv = uvOfMap(mesh, map);
-    const bool storedFits = mesh.tangents.size() == mesh.vertexCount();
-    for (std::uint32_t i : mesh.indices) {
-        surface.positions.push_back(linear * glm::dvec3(mesh.positions[i]));
-        surface.normals.push_back(i < mesh.normals.size()
-                                      ? f64::cotan_normalize_or(movedCovector(m, mesh.normals[i]), glm::dvec3(0))
-                                      : glm::dvec3(0));
-        if (!uv.empty())
-            surface.uv.push_back(glm::dvec2(uv[i]));
-        if (storedFits)
-            surface.stored.push_back(moved(m, mesh.tangents[i]));
-    }
-    if (surface.uv.empty())
-        return surface;
-    const MeshView view{mesh.positions, mesh.normals, uv, mesh.indices};
+    FrameSet set;
+    for (const Frame frame : list)
+        set.set(std::size_t(frame));
+    return set;
+}
+
+bool MappedSurface::hasStored() const
+{
+    return shared && !shared->mesh->tangents.empty() && shared->mesh->tangents.size() == shared->mesh->vertexCount();
+}
+
+glm::dvec3 MappedSurface::normal(std::size_t corner) const
+{
+    const std::vector<glm::vec3>& normals = shared->mesh->normals;
+    const std::uint32_t vertex = vertexOf(corner);
+    return vertex < normals.size() ? f64::cotan_normalize_or(movedCovector(linear, normals[vertex]), glm::dvec3(0))
+                                   : glm::dvec3(0);
+}
+
+glm::dvec4 MappedSurface::stored(std::size_t corner) const
+{
+    return moved(linear, shared->mesh->tangents[vertexOf(corner)]);
+}
+
+MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
+                          const FrameSet& wanted)
+{
+    return {shareMesh(std::move(mesh), map, wanted), LinearMap<double>(linear)};
+}
+
+MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear, const FrameSet& wanted)
+{
+    return makeSurface(copied(mesh), map, linear, wanted);
+}
+
+// As generateTangents and splitSmoothCotangents take it, which docs/speed.md has measured.
+SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const FrameSet& wanted)
+{
+    SurfaceBytes bytes{sizeof(glm::vec2) * vertices, 0};
+    const auto add = [&](std::size_t value, std::size_t perVertex, std::size_t perTriangle) {
+        bytes.kept += value * vertices;
+        bytes.making = std::max(bytes.making, perVertex * vertices + perTriangle * triangles);
+    };
+    if (wanted[std::size_t(Frame::smooth)])
+        add(2 * sizeof(glm::vec3), 100, 16);
     for (const FrameInfo& f : frames())
-        if (readsTangents(f.frame))
-            surface.generated[std::size_t(f.frame)] = moved(m, generateTangents(f.frame, view));
-    addCotangents(surface, view, m);
-    return surface;
+        if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
+            add(sizeof(glm::vec4), 0, 80);
+    return bytes;
+}
+
+MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
+                              const glm::dmat3& linear, const FrameSet& wanted)
+{
+    auto shared = shareMesh(std::move(mesh), surfaceMap, wanted);
+    std::vector<glm::vec2> uv = uvOfMap(*shared->mesh, coatMap);
+    if (uv != shared->uv) {
+        shared->uv = std::move(uv);
+        shared->cotangents = {};
+        shared->ofCoat = true;
+    }
+    return {std::move(shared), LinearMap<double>(linear)};
 }
 
 MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
                               const glm::dmat3& linear)
 {
-    MappedSurface own = makeSurface(mesh, surfaceMap, linear), coat = makeSurface(mesh, coatMap, linear);
-    if (own.uv == coat.uv)
-        return own;
-    coat.generated = std::move(own.generated);
-    coat.ofCoat = true;
-    return coat;
+    return makeCoatSurface(copied(mesh), surfaceMap, coatMap, linear, kAllFrames);
+}
+
+MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear)
+{
+    return {surface.shared, LinearMap<double>(linear)};
 }
 
 f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric)
 {
-    const TriangleEdges e = edgesOf(s, triangle);
-    const glm::dvec3 raw = atPoint(s.normals, triangle, barycentric);
-    const f64::cotan_differences d = f64::cotan_scale_differences(e.p1, e.p2, glm::dvec2(0), glm::dvec2(0));
-    const glm::dvec3 n = f64::cotan_safe_normal(raw, d.dpdx, d.dpdy);
-    if (s.uv.empty())
-        return {glm::dvec3(0), glm::dvec3(0), n};
+    const SurfaceSpot spot = spotAt(s, triangle, barycentric);
+    if (!s.hasUv())
+        return {glm::dvec3(0), glm::dvec3(0), spot.normal};
     // `mikktspace` wants its normal as interpolated.
-    if (readsCotangents(frame) && s.ofCoat)
-        return evaluate(Frame::cotangent, n, e.p1, e.p2, e.uv1, e.uv2);
+    if (readsCotangents(frame) && s.shared->ofCoat)
+        return frameOf(spot, Frame::cotangent);
     if (readsVertices(frame))
-        return frameOfVertices(s, frame, tangents, triangle, barycentric, frame == Frame::mikktspace ? raw : n);
-    return evaluate(frame, n, e.p1, e.p2, e.uv1, e.uv2);
+        return frameOfVertices(s, frame, tangents, triangle, barycentric,
+                               frame == Frame::mikktspace ? spot.interpolated : spot.normal);
+    return frameOf(spot, frame);
+}
+
+SurfaceSpot spotAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
+{
+    SurfaceSpot spot{edgesOf(s, triangle), normalAt(s, triangle, barycentric), {}};
+    const f64::cotan_differences d =
+        f64::cotan_scale_differences(spot.edges.p1, spot.edges.p2, glm::dvec2(0), glm::dvec2(0));
+    spot.normal = f64::cotan_safe_normal(spot.interpolated, d.dpdx, d.dpdy);
+    return spot;
+}
+
+f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame)
+{
+    const TriangleEdges& e = spot.edges;
+    return evaluate(frame, spot.normal, e.p1, e.p2, e.uv1, e.uv2);
+}
+
+glm::dvec3 normalAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
+{
+    return blended(triangle, barycentric, [&](std::size_t corner) { return s.normal(corner); });
+}
+
+glm::dvec2 uvAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
+{
+    return blended(triangle, barycentric, [&](std::size_t corner) { return s.uv(corner); });
+}
+
+glm::dvec4 storedAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
+{
+    return blended(triangle, barycentric, [&](std::size_t corner) { return s.stored(corner); });
 }
 
 TriangleEdges edgesOf(const MappedSurface& s, std::size_t triangle)
 {
-    return edgesOf(s.positions, s.uv, MappedSurface::cornersOf(triangle));
+    const std::size_t a = 3 * triangle;
+    const glm::dvec3 p0 = s.position(a);
+    TriangleEdges e;
+    e.p1 = s.position(a + 1) - p0;
+    e.p2 = s.position(a + 2) - p0;
+    if (!s.hasUv())
+        return e;
+    const glm::dvec2 uv0 = s.uv(a);
+    e.uv1 = s.uv(a + 1) - uv0;
+    e.uv2 = s.uv(a + 2) - uv0;
+    return e;
 }
 
 UvRaster repeatedRaster(const MappedSurface& s, int width, int height, glm::ivec2 copies)
 {
-    std::vector<glm::vec2> uv;
-    for (const glm::dvec2& c : s.uv)
-        uv.push_back(glm::vec2(c / glm::dvec2(copies)));
-    std::vector<std::uint32_t> indices(uv.size());
-    std::iota(indices.begin(), indices.end(), 0u);
-    return UvRaster({uv, indices}, width * copies.x, height * copies.y, {0, 0}, true);
+    if (!s.hasUv())
+        return UvRaster({}, width * copies.x, height * copies.y, {0, 0}, true);
+    return UvRaster({s.shared->uv, s.shared->mesh->indices, 1.0f / glm::vec2(copies)}, width * copies.x,
+                    height * copies.y, {0, 0}, true);
+}
+
+double copiesUnder(const MappedSurface& s)
+{
+    double copies = 0;
+    for (std::size_t i = 0; s.hasUv() && i < s.triangleCount(); ++i) {
+        const glm::dvec2 a = s.uv(3 * i), b = s.uv(3 * i + 1), c = s.uv(3 * i + 2);
+        const glm::dvec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+        if (low.x < -kFarthestShown || low.y < -kFarthestShown || high.x > kFarthestShown || high.y > kFarthestShown)
+            continue;
+        const glm::dvec2 size = high - low, tiles = glm::max(glm::ceil(high) - glm::floor(low), 1.0);
+        copies += std::max(size.x * size.y, tiles.x * tiles.y - 1);
+    }
+    return copies;
 }
 
 double areaOf(const MappedSurface& s, std::size_t triangle)
 {
-    const TriangleEdges e = edgesOf(s, triangle);
-    const double area = glm::length(glm::cross(e.p1, e.p2)) / 2;
+    const std::size_t a = 3 * triangle;
+    const glm::dvec3 p0 = s.position(a);
+    const double area = glm::length(glm::cross(s.position(a + 1) - p0, s.position(a + 2) - p0)) / 2;
     return std::isfinite(area) ? area : 0;
 }
 
 int orientationOf(const MappedSurface& s, std::size_t triangle)
 {
-    if (s.uv.empty())
+    if (!s.hasUv())
         return 0;
     const TriangleEdges e = edgesOf(s, triangle);
-    const auto [a, b, c] = MappedSurface::cornersOf(triangle);
+    const std::size_t a = 3 * triangle;
     // The corners' order is judged from the side that the normals point to.
-    const double outside = glm::dot(glm::cross(e.p1, e.p2), s.normals[a] + s.normals[b] + s.normals[c]) < 0 ? -1 : 1;
+    const glm::dvec3 normals = s.normal(a) + s.normal(a + 1) + s.normal(a + 2);
+    const double outside = glm::dot(glm::cross(e.p1, e.p2), normals) < 0 ? -1 : 1;
     const double signedArea = -e.uvArea2() * outside; // v runs down
     return signedArea > 0 ? 1 : signedArea < 0 ? -1 : 0;
 }

@@ -81,53 +81,78 @@ bool UvRaster::covers(const Shown& t, glm::dvec2 p)
     return true;
 }
 
-UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
-    : width_(width), height_(height), blockFirst_(std::size_t(blocks()) + 1, 0)
+bool UvRaster::uvOf(std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area) const
 {
-    const glm::dvec2 size(width, height);
-    for (std::size_t f = 0; f + 2 < triangles.indices.size(); f += 3) {
-        glm::dvec2 uv[3];
-        bool usable = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-            uv[k] = glm::dvec2(triangles.texcoords[triangles.indices[f + k]]);
-            usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
-        }
-        const double area = cross(uv[1] - uv[0], uv[2] - uv[0]);
-        if (!usable || area == 0)
+    bool usable = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        uv[k] = glm::dvec2(triangles_.texcoords[triangles_.indices[3 * std::size_t(triangle) + k]] * triangles_.scale);
+        usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
+    }
+    area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+    return usable && area != 0;
+}
+
+UvRaster::Shown UvRaster::shownAt(const Listed& listed, const glm::dvec2 (&uv)[3], double area) const
+{
+    const glm::dvec2 size(width_, height_);
+    Shown t{listed.triangle, {}, area < 0, {}, {}};
+    for (int k = 0; k < 3; ++k)
+        t.corner[k] = (uv[k] - glm::dvec2(listed.tile)) * size;
+    if (t.mirrored)
+        std::swap(t.corner[1], t.corner[2]);
+    const glm::dvec2 least = glm::min(t.corner[0], glm::min(t.corner[1], t.corner[2]));
+    const glm::dvec2 most = glm::max(t.corner[0], glm::max(t.corner[1], t.corner[2]));
+    t.first = glm::ivec2(glm::clamp(glm::floor(least - 0.5 - kReach), glm::dvec2(0), size));
+    t.last = glm::ivec2(glm::clamp(glm::ceil(most - 0.5 + kReach), glm::dvec2(-1), size - 1.0));
+    return t;
+}
+
+UvRaster::Shown UvRaster::shownAt(const Listed& listed) const
+{
+    glm::dvec2 uv[3];
+    double area = 0;
+    uvOf(listed.triangle, uv, area);
+    return shownAt(listed, uv, area);
+}
+
+template<class Use> void UvRaster::eachPlace(glm::ivec2 tile, bool wrap, const Use& use) const
+{
+    glm::dvec2 uv[3];
+    double area = 0;
+    for (std::uint32_t i = 0; i < triangles_.indices.size() / 3; ++i) {
+        if (!uvOf(i, uv, area))
             continue;
-        const glm::dvec2 low = glm::min(uv[0], glm::min(uv[1], uv[2]));
-        const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
         glm::ivec2 from = tile, to = tile;
         if (wrap) {
-            from = glm::ivec2(glm::floor(low));
-            to = glm::min(glm::ivec2(glm::ceil(high)) - 1, from + kMostCopies - 1);
-            to = glm::max(to, from);
+            from = glm::ivec2(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
+            const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
+            to = glm::max(glm::min(glm::ivec2(glm::ceil(high)) - 1, from + kMostCopies - 1), from);
         }
-        for (int j = from.y; j <= to.y; ++j)
-            for (int i = from.x; i <= to.x; ++i) {
-                Shown t{std::uint32_t(f / 3), {}, area < 0, {}, {}};
-                for (int k = 0; k < 3; ++k)
-                    t.corner[k] = (uv[k] - glm::dvec2(i, j)) * size;
-                if (t.mirrored)
-                    std::swap(t.corner[1], t.corner[2]);
-                const glm::dvec2 least = glm::min(t.corner[0], glm::min(t.corner[1], t.corner[2]));
-                const glm::dvec2 most = glm::max(t.corner[0], glm::max(t.corner[1], t.corner[2]));
-                t.first = glm::ivec2(glm::clamp(glm::floor(least - 0.5 - kReach), glm::dvec2(0), size));
-                t.last = glm::ivec2(glm::clamp(glm::ceil(most - 0.5 + kReach), glm::dvec2(-1), size - 1.0));
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x) {
+                const Listed listed{i, {x, y}};
+                const Shown t = shownAt(listed, uv, area);
                 if (t.first.x <= t.last.x && t.first.y <= t.last.y)
-                    shown_.push_back(t);
+                    use(listed, t);
             }
     }
-    for (const Shown& t : shown_)
-        for (int block = t.first.y / kBlockRows; block * kBlockRows <= t.last.y; ++block)
-            ++blockFirst_[std::size_t(block) + 1];
+}
+
+UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
+    : triangles_(triangles), width_(width), height_(height), blockFirst_(std::size_t(blocks()) + 1, 0)
+{
+    const auto eachBlock = [&](const auto& use) {
+        eachPlace(tile, wrap, [&](const Listed& listed, const Shown& t) {
+            for (int block = t.first.y / kBlockRows; block * kBlockRows <= t.last.y; ++block)
+                use(std::size_t(block), listed);
+        });
+    };
+    eachBlock([&](std::size_t block, const Listed&) { ++blockFirst_[block + 1]; });
     for (std::size_t block = 1; block < blockFirst_.size(); ++block)
         blockFirst_[block] += blockFirst_[block - 1];
-    blockShown_.resize(blockFirst_.back());
+    listed_.resize(blockFirst_.back());
     std::vector<std::size_t> next(blockFirst_.begin(), blockFirst_.end() - 1);
-    for (std::size_t i = 0; i < shown_.size(); ++i)
-        for (int block = shown_[i].first.y / kBlockRows; block * kBlockRows <= shown_[i].last.y; ++block)
-            blockShown_[next[std::size_t(block)]++] = std::uint32_t(i);
+    eachBlock([&](std::size_t block, const Listed& listed) { listed_[next[block]++] = listed; });
 }
 
 std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, double& low, double& high) const
@@ -214,9 +239,9 @@ void UvRaster::row(int y, UvReach reach, UvRow& result) const
     found.clear();
     const auto emit = [&found](int x, const UvPlace& place) { found.push_back({x, place}); };
     const auto eachShown = [&](const auto& scan) {
-        for (std::uint32_t i : shownIn(y / kBlockRows))
-            if (shown_[i].first.y <= y && y <= shown_[i].last.y)
-                scan(shown_[i]);
+        for (const Listed& listed : listedIn(y / kBlockRows))
+            if (const Shown t = shownAt(listed); t.first.y <= y && y <= t.last.y)
+                scan(t);
     };
     if (reach == UvReach::touching)
         eachShown([&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
@@ -254,8 +279,8 @@ void UvRaster::firsts(int block, UvFirsts& result) const
         return std::size_t((texel.y - top) / kTile * across + texel.x / kTile);
     };
     const auto eachRow = [&](const auto& scan) {
-        for (std::uint32_t i : shownIn(block)) {
-            const Shown& t = shown_[i];
+        for (const Listed& listed : listedIn(block)) {
+            const Shown t = shownAt(listed);
             for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y)
                 scan(t, y, &taken[std::size_t(y - top) * std::size_t(width_)]);
         }
@@ -280,6 +305,17 @@ void UvRaster::firsts(int block, UvFirsts& result) const
         const std::uint32_t at = next[tileOf(texel)]++;
         result.texels[at] = texel;
         result.places[at] = place;
+    }
+}
+
+void UvRaster::centres(int block, std::vector<std::pair<glm::ivec2, UvPlace>>& result) const
+{
+    result.clear();
+    const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+    for (const Listed& listed : listedIn(block)) {
+        const Shown t = shownAt(listed);
+        for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y)
+            scanCentres(t, y, [&](int x, const UvPlace& place) { result.push_back({{x, y}, place}); });
     }
 }
 

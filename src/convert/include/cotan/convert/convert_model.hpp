@@ -37,6 +37,7 @@ struct ConvertModelOptions {
     int bits = 0;       // of the new maps, 8 or 16: writes all anew; 0: bits of the old map, and a map that fits stays
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
+    std::size_t memory = 0;    // bytes that the triangles may take besides the document; 0: any number
     LoadLimits limits{};       // of reading the pictures
     // The PNG file of a new map, in place of Cotan's own writer; on the thread of the caller. May be empty.
     std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
@@ -60,7 +61,8 @@ struct ConvertModelReport {
 // surfaces, and encoded with the new one (see reencode). Then gives the primitives TANGENT where the new frame reads
 // it, or drops it where nothing else does. Maps in other formats than PNG and JPEG stay as they are, and a note says
 // so. Errors: ErrorKind::usage for a frame that depends on the view and other bits; ErrorKind::input for a picture that
-// cannot be read or is over the limits, uv that repeat a map millions of times, and compressed geometry;
+// cannot be read or is over the limits, uv that repeat a map millions of times, triangles that take more than
+// options.memory, found before anything is done, and compressed geometry;
 // ErrorKind::output where there is no memory for a PNG; ErrorKind::stopped. On error the document is unchanged.
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options);
 

@@ -19,11 +19,23 @@ struct MapPlace {
     bool operator==(const MapPlace&) const = default;
 };
 
+// A primitive that reads a map, with one of its materials.
+struct MapReader {
+    std::size_t mesh = 0, primitive = 0;
+    MapPlace place;
+    double strength = 1; // the material's factor on the slopes
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+    std::vector<glm::dmat3> placed; // each is a surface
+    std::size_t vertices = 0, triangles = 0;
+    bool stored = false; // it has TANGENT
+    double copies = 0;   // copiesUnder, of one surface
+};
+
 // An image and everything that reads it as its normal map.
 struct MapJob {
     std::size_t image = 0; // index into the file's images
     std::string name;
-    std::vector<MapUse> uses;
+    std::vector<MapReader> readers;
     std::vector<MapPlace> places; // where it is read so
     bool alsoElsewhere = false;   // another slot of a material reads it too: it has to stay as it is
 };
@@ -33,6 +45,15 @@ struct MapJob {
 // gives several materials. A coat's map is read on a surface of its own (makeCoatSurface). What is left out goes to
 // `notes`. Errors (ErrorKind::input): compressed geometry.
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
+
+// How many surfaces read the job's image.
+std::size_t surfacesOf(const MapJob& job);
+
+// The surfaces, with what frames.from and frames.to read at their vertices. Errors: as mapJobs.
+Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames);
+
+// About how many bytes the job takes at most besides the document, the image apart.
+std::size_t bytesOf(const MapJob& job, const FramePair& frames);
 
 // Puts a job's new image in place of the old one where normal maps read it. Other forms of the old one
 // (EXT_texture_webp, KHR_texture_basisu) go, and `notes` says so: readers would prefer them.

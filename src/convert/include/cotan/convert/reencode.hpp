@@ -38,7 +38,4 @@ struct Reencoded : ReencodeFigures {
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads = 0,
                    CountedSteps* rows = nullptr);
 
-// How many copies of the image the triangles' boxes cover in all: what the work is proportional to.
-double copiesOf(std::span<const MapUse> uses);
-
 } // namespace cotan

@@ -128,14 +128,20 @@ struct LintReport {
 Frame frameOf(Advice advice);
 
 struct LintOptions {
-    double distance = 0; // world units from eye to surface; 0: where the whole model fills the picture
+    double distance = 0;    // world units from eye to surface; 0: where the whole model fills the picture
+    std::size_t memory = 0; // bytes that may be taken besides the scene; 0: any number
 };
+
+// About how many bytes lintScene takes at most besides the scene.
+std::size_t lintBytes(const Scene& scene);
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
 // mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed
-// with what is known; of a scene that does not hold together (checkScene) only `defects` says so.
+// with what is known; of a scene that does not hold together (checkScene) only `defects` says so. options.memory is not
+// asked.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
-// The same with progress, on the thread of the caller. Errors: ErrorKind::stopped, and no other.
+// The same with progress, on the thread of the caller. Errors: ErrorKind::stopped; ErrorKind::input, before anything is
+// done, where lintBytes are more than options.memory.
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress);
 
 } // namespace cotan

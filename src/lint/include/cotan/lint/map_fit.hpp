@@ -2,6 +2,7 @@
 // that asks for a new map. `lint` and `convert` both decide by this.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cotan/convention.hpp"
@@ -34,8 +35,8 @@ struct SurfacePoint {
 };
 
 // `count` points at equal steps of area, over the triangles that have area in space and in uv; none where no
-// triangle has. The same for the same surface.
-std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t count);
+// triangle has. The same for the same surface. area: gets that of these triangles; may be null.
+std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t count, double* area = nullptr);
 
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
@@ -43,10 +44,23 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
                 const FramePair& frames);
 
+// The same for several pairs of frames, at the same points.
+std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                              std::span<const FramePair> frames);
+
+// The points of one surface by which single figures of a primitive are measured.
+inline constexpr std::size_t kPointsOfSurface = 4096;
+
 // Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
 // at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame
 // no direction.
 Spread directionTurn(const MappedSurface& surface, const FramePair& frames);
+// The same where the points are known: pointsOver(surface, kPointsOfSurface).
+Spread directionTurn(const MappedSurface& surface, const std::vector<SurfacePoint>& points, const FramePair& frames);
+
+// What of a surface has to be derived for mapError and directionTurn with frames.from and frames.to. stored: whether
+// the surface has tangents of its file.
+FrameSet framesRead(const FramePair& frames, bool stored);
 
 // Degrees, of 95 % of the area: a streak that turns by less is still the same streak.
 inline constexpr double kTurnedDirection = 5;

@@ -14,6 +14,7 @@ namespace cotan {
 struct UvTriangles {
     std::span<const glm::vec2> texcoords;
     std::span<const std::uint32_t> indices; // three a triangle, each inside texcoords
+    glm::vec2 scale{1, 1};                  // of the texcoords
 };
 
 // A point of a triangle: corner 0 + (corner 1 - corner 0) * b1 + (corner 2 - corner 0) * b2.
@@ -59,8 +60,8 @@ struct UvFirsts {
 };
 
 // The texels of an image under a layout of uv. Keeps, per block of rows, a list of the triangles that
-// may touch it. Triangles without area in uv, or with uv that are not finite
-// or further than 1e6 from zero, touch nothing.
+// may touch it: some 20 bytes a triangle of the size of a texel. The arrays of UvTriangles must outlive it. Triangles
+// without area in uv, or with uv that are not finite or further than 1e6 from zero, touch nothing.
 class UvRaster {
 public:
     // tile: which unit square of uv the image shows ((0,0) for ordinary layouts; UDIM 1001 + u + 10 v).
@@ -78,9 +79,15 @@ public:
     static constexpr int kBlockRows = 8;
     int blocks() const { return (height_ + kBlockRows - 1) / kBlockRows; }
     void firsts(int block, UvFirsts& result) const;
+    // All texels of that block whose centre a triangle covers, in the order of the triangles.
+    void centres(int block, std::vector<std::pair<glm::ivec2, UvPlace>>& result) const;
 
 private:
-    struct Shown { // a triangle as it lies on the image, in texels, counter-clockwise for y downwards
+    struct Listed { // a triangle in one of the places where the repeated image shows it
+        std::uint32_t triangle;
+        glm::ivec2 tile;
+    };
+    struct Shown { // the same as it lies on the image, in texels, counter-clockwise for y downwards
         std::uint32_t triangle;
         glm::dvec2 corner[3];
         bool mirrored;          // corners 1 and 2 are exchanged
@@ -94,17 +101,23 @@ private:
     // Call emit(x, place) for each texel of the row y. `taken`: texels that are not asked about; null: none.
     template<class Emit> void scanCentres(const Shown& t, int y, const Emit& emit) const;
     template<class Emit> void scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const;
-    // The triangles of a block, in order, as indices into shown_.
-    std::span<const std::uint32_t> shownIn(int block) const
+    // Calls use(listed, shown) for every triangle and place that may touch a texel, in order.
+    template<class Use> void eachPlace(glm::ivec2 tile, bool wrap, const Use& use) const;
+    // A triangle in uv, scaled. False where it is not drawn.
+    bool uvOf(std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area) const;
+    Shown shownAt(const Listed& listed, const glm::dvec2 (&uv)[3], double area) const;
+    Shown shownAt(const Listed& listed) const;
+    // The triangles of a block, in order.
+    std::span<const Listed> listedIn(int block) const
     {
         const std::size_t from = blockFirst_[std::size_t(block)], to = blockFirst_[std::size_t(block) + 1];
-        return {blockShown_.data() + from, to - from};
+        return {listed_.data() + from, to - from};
     }
 
+    UvTriangles triangles_;
     int width_, height_;
-    std::vector<Shown> shown_;
     std::vector<std::size_t> blockFirst_; // blocks + 1
-    std::vector<std::uint32_t> blockShown_;
+    std::vector<Listed> listed_;
 };
 
 // Counts over a whole layout.
