@@ -91,9 +91,10 @@ Found findOn(const MappedSurface& surface)
 {
     Found found;
     for (std::size_t i = 0; i < surface.triangleCount(); ++i) {
-        const double area = areaOf(surface, i);
+        const TriangleEdges edges = edgesOf(surface, i);
+        const double area = areaOf(edges);
         found.area += area;
-        const TriangleUv t = triangleUv(surface, i);
+        const TriangleUv t = triangleUv(surface, i, edges);
         if (!t.usable)
             continue;
         if (t.degenerate)
@@ -102,8 +103,9 @@ Found findOn(const MappedSurface& surface)
             found.worst[1].take(t.stretch, area, i);
         if (t.shear > kSheared)
             found.worst[2].take(t.shear, area, i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const StoredCorner corner = storedCorner(surface, i, k);
+        if (!surface.hasStored())
+            continue;
+        for (const StoredCorner& corner : storedCorners(surface, i, edges)) {
             found.compared += corner.compared ? area / 3 : 0;
             if (corner.compared && corner.reversed)
                 found.worst[3].take(1, area / 3, i);

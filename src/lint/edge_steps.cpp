@@ -106,10 +106,40 @@ const std::array<glm::dvec3, kDirections>& tilted()
     return texels;
 }
 
+// The arc sine of x from 0 to 0.5, as exact as a double: a rational function instead of a call, since an edge takes
+// sixteen. Source: fdlibm, e_asin.c.
+double arcSine(double x)
+{
+    const double t = x * x;
+    const double p = t
+        * (1.66666666666666657415e-01
+           + t
+               * (-3.25565818622400915405e-01
+                  + t
+                      * (2.01212532134862925881e-01
+                         + t
+                             * (-4.00555345006794114027e-02
+                                + t * (7.91534994289814532176e-04 + t * 3.47933107596021167570e-05)))));
+    const double q = 1
+        + t
+            * (-2.40339491173441421878e+00
+               + t * (2.02094576023350569471e+00 + t * (-6.88283971605453293030e-01 + t * 7.70381505559019352791e-02)));
+    return x + x * (p / q);
+}
+
+// Degrees between two vectors, by the chord between them at length one; exact near zero, too.
+double degreesByChord(glm::dvec3 a, glm::dvec3 b)
+{
+    const double aa = glm::dot(a, a), bb = glm::dot(b, b);
+    const glm::dvec3 difference = a * (1 / std::sqrt(aa)) - b * (1 / std::sqrt(bb));
+    const double half = std::sqrt(glm::dot(difference, difference)) / 2;
+    return half <= 0.5 ? glm::degrees(2 * arcSine(half)) : degreesBetween(a, b); // also where one has no direction
+}
+
 void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weight, SpreadCounter& steps)
 {
     for (const glm::dvec3& m : tilted())
-        steps.add(degreesBetween(f64::cotan_apply(a, m), f64::cotan_apply(b, m)), weight);
+        steps.add(degreesByChord(a.t * m.x + a.b * m.y + a.n * m.z, b.t * m.x + b.b * m.y + b.n * m.z), weight);
 }
 
 } // namespace
@@ -121,14 +151,17 @@ EdgeSteps edgeSteps(const MappedSurface& s)
     EdgeSteps result;
     if (!s.hasUv())
         return result;
+    std::vector<std::int8_t> orientations(s.triangleCount());
+    for (std::size_t i = 0; i < orientations.size(); ++i)
+        orientations[i] = std::int8_t(orientationOf(s, i));
     SpreadCounter cotangent, orthonormal;
     SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
-        const int orientation = orientationOf(s, a.triangle());
-        if (orientation == 0 || orientation != orientationOf(s, b.triangle()))
+        const int orientation = orientations[a.triangle()];
+        if (orientation == 0 || orientation != orientations[b.triangle()])
             return;
         ++result.edges;
-        const double weight = (areaOf(s, a.triangle()) + areaOf(s, b.triangle())) / (3.0 * kDirections);
         const SurfaceSpot atA = spotAt(s, a.triangle(), middle(a)), atB = spotAt(s, b.triangle(), middle(b));
+        const double weight = (areaOf(atA.edges) + areaOf(atB.edges)) / (3.0 * kDirections);
         addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);
         addSteps(frameOf(atA, Frame::orthonormal), frameOf(atB, Frame::orthonormal), weight, orthonormal);
     });

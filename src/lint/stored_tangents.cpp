@@ -7,25 +7,27 @@
 
 namespace cotan {
 
-StoredCorner storedCorner(const MappedSurface& s, std::size_t triangle, std::size_t corner)
+std::array<StoredCorner, 3> storedCorners(const MappedSurface& s, std::size_t triangle, const TriangleEdges& edges)
 {
-    StoredCorner result;
-    if (!s.hasStored() || orientationOf(s, triangle) == 0)
-        return result;
-    glm::dvec3 at(0);
-    at[int(corner)] = 1;
-    // Tangent first: t along dP/du, b on the side of +v.
-    const f64::cotan_frame f = frameAt(s, Frame::orthonormal, TangentOrigin::generated, triangle, at);
-    if (f.t == glm::dvec3(0))
-        return result;
-    const glm::dvec4 stored = s.stored(3 * triangle + corner);
-    const glm::dvec3 t =
-        f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
-    const double expected = glm::dot(glm::cross(f.n, f.t), f.b) < 0 ? -1 : 1;
-    result.compared = true;
-    result.reversed = stored.w * expected < 0;
-    result.degrees = t == glm::dvec3(0) ? 180 : lint::degreesBetween(t, f.t);
-    return result;
+    std::array<StoredCorner, 3> corners;
+    if (!s.hasStored() || orientationOf(s, triangle, edges) == 0)
+        return corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        StoredCorner& result = corners[k];
+        const std::size_t corner = 3 * triangle + k;
+        // Tangent first: t along dP/du, b on the side of +v.
+        const f64::cotan_frame f = frameOf(spotAtCorner(s, edges, corner), Frame::orthonormal);
+        if (f.t == glm::dvec3(0))
+            continue;
+        const glm::dvec4 stored = s.stored(corner);
+        const glm::dvec3 t =
+            f64::cotan_normalize_or(glm::dvec3(stored) - f.n * glm::dot(glm::dvec3(stored), f.n), glm::dvec3(0));
+        const double expected = glm::dot(glm::cross(f.n, f.t), f.b) < 0 ? -1 : 1;
+        result.compared = true;
+        result.reversed = stored.w * expected < 0;
+        result.degrees = t == glm::dvec3(0) ? 180 : lint::degreesBetween(t, f.t);
+    }
+    return corners;
 }
 
 } // namespace cotan
@@ -41,9 +43,9 @@ StoredTangents storedTangents(const MappedSurface& s)
     double compared = 0;
     SpreadCounter angles;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
-        const double third = areaOf(s, i) / 3;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const StoredCorner corner = storedCorner(s, i, k);
+        const TriangleEdges edges = edgesOf(s, i);
+        const double third = areaOf(edges) / 3;
+        for (const StoredCorner& corner : storedCorners(s, i, edges)) {
             if (!corner.compared)
                 continue;
             compared += third;

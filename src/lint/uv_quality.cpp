@@ -19,9 +19,8 @@ struct Gradients {
     bool usable = false;
 };
 
-Gradients gradientsOf(const MappedSurface& s, std::size_t triangle)
+Gradients gradientsOf(const TriangleEdges& e)
 {
-    const TriangleEdges e = edgesOf(s, triangle);
     const glm::dvec3 face = glm::cross(e.p1, e.p2);
     const double area2 = glm::dot(face, face);
     if (!(area2 > 0))
@@ -57,7 +56,12 @@ namespace cotan {
 
 TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
 {
-    const lint::Gradients g = lint::gradientsOf(surface, triangle);
+    return triangleUv(surface, triangle, edgesOf(surface, triangle));
+}
+
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges)
+{
+    const lint::Gradients g = lint::gradientsOf(edges);
     TriangleUv t;
     t.usable = g.usable;
     if (!g.usable)
@@ -69,7 +73,7 @@ TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
     if (t.degenerate)
         return t;
     t.shear = lint::shearOf(g);
-    t.orientation = orientationOf(surface, triangle);
+    t.orientation = orientationOf(surface, triangle, edges);
     return t;
 }
 
@@ -82,13 +86,14 @@ UvQuality uvQuality(const MappedSurface& s)
     UvQuality q;
     SpreadCounter stretch, shear, gradient;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
-        const double area = areaOf(s, i);
+        const TriangleEdges edges = edgesOf(s, i);
+        const double area = areaOf(edges);
         q.area += area;
         if (!s.hasUv())
             continue;
         for (std::size_t k = 0; k < 3; ++k)
             q.largestUv = std::max({q.largestUv, std::abs(s.uv(3 * i + k).x), std::abs(s.uv(3 * i + k).y)});
-        const TriangleUv t = triangleUv(s, i);
+        const TriangleUv t = triangleUv(s, i, edges);
         if (!t.usable)
             continue;
         if (t.degenerate) {

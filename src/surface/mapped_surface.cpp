@@ -154,6 +154,12 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     return shared;
 }
 
+MappedSurface placed(std::shared_ptr<const SurfaceMesh> shared, const glm::dmat3& linear)
+{
+    const LinearMap<double> map(linear);
+    return {std::move(shared), map, map.planeMatrix()};
+}
+
 // What a surface reads of a mesh.
 std::shared_ptr<const Mesh> copied(const Mesh& mesh)
 {
@@ -181,14 +187,6 @@ bool MappedSurface::hasStored() const
     return shared && !shared->mesh->tangents.empty() && shared->mesh->tangents.size() == shared->mesh->vertexCount();
 }
 
-glm::dvec3 MappedSurface::normal(std::size_t corner) const
-{
-    const std::vector<glm::vec3>& normals = shared->mesh->normals;
-    const std::uint32_t vertex = vertexOf(corner);
-    return vertex < normals.size() ? f64::cotan_normalize_or(movedCovector(linear, normals[vertex]), glm::dvec3(0))
-                                   : glm::dvec3(0);
-}
-
 glm::dvec4 MappedSurface::stored(std::size_t corner) const
 {
     return moved(linear, shared->mesh->tangents[vertexOf(corner)]);
@@ -197,7 +195,7 @@ glm::dvec4 MappedSurface::stored(std::size_t corner) const
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
                           const FrameSet& wanted)
 {
-    return {shareMesh(std::move(mesh), map, wanted), LinearMap<double>(linear)};
+    return placed(shareMesh(std::move(mesh), map, wanted), linear);
 }
 
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear, const FrameSet& wanted)
@@ -231,7 +229,7 @@ MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& s
         shared->cotangents = {};
         shared->ofCoat = true;
     }
-    return {std::move(shared), LinearMap<double>(linear)};
+    return placed(std::move(shared), linear);
 }
 
 MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
@@ -242,7 +240,7 @@ MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const
 
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear)
 {
-    return {surface.shared, LinearMap<double>(linear)};
+    return placed(surface.shared, linear);
 }
 
 f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,
@@ -260,13 +258,24 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     return frameOf(spot, frame);
 }
 
+namespace {
+
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated)
+{
+    const f64::cotan_differences d = f64::cotan_scale_differences(edges.p1, edges.p2, glm::dvec2(0), glm::dvec2(0));
+    return {edges, interpolated, f64::cotan_safe_normal(interpolated, d.dpdx, d.dpdy)};
+}
+
+} // namespace
+
 SurfaceSpot spotAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
 {
-    SurfaceSpot spot{edgesOf(s, triangle), normalAt(s, triangle, barycentric), {}};
-    const f64::cotan_differences d =
-        f64::cotan_scale_differences(spot.edges.p1, spot.edges.p2, glm::dvec2(0), glm::dvec2(0));
-    spot.normal = f64::cotan_safe_normal(spot.interpolated, d.dpdx, d.dpdy);
-    return spot;
+    return spotOf(edgesOf(s, triangle), normalAt(s, triangle, barycentric));
+}
+
+SurfaceSpot spotAtCorner(const MappedSurface& s, const TriangleEdges& edges, std::size_t corner)
+{
+    return spotOf(edges, s.normal(corner));
 }
 
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame)
@@ -327,25 +336,38 @@ double copiesUnder(const MappedSurface& s)
     return copies;
 }
 
+double areaOf(const TriangleEdges& e)
+{
+    const double area = glm::length(glm::cross(e.p1, e.p2)) / 2;
+    return std::isfinite(area) ? area : 0;
+}
+
 double areaOf(const MappedSurface& s, std::size_t triangle)
 {
-    const std::size_t a = 3 * triangle;
-    const glm::dvec3 p0 = s.position(a);
-    const double area = glm::length(glm::cross(s.position(a + 1) - p0, s.position(a + 2) - p0)) / 2;
-    return std::isfinite(area) ? area : 0;
+    const glm::dvec3 p0 = s.position(3 * triangle);
+    return areaOf(TriangleEdges{s.position(3 * triangle + 1) - p0, s.position(3 * triangle + 2) - p0, glm::dvec2(0),
+                                glm::dvec2(0)});
 }
 
 int orientationOf(const MappedSurface& s, std::size_t triangle)
 {
-    if (!s.hasUv())
+    return s.hasUv() ? orientationOf(s, triangle, edgesOf(s, triangle)) : 0;
+}
+
+int orientationOf(const MappedSurface& s, std::size_t triangle, const TriangleEdges& e)
+{
+    const double area = -e.uvArea2(); // v runs down
+    if (!s.hasUv() || !(area != 0))
         return 0;
-    const TriangleEdges e = edgesOf(s, triangle);
-    const std::size_t a = 3 * triangle;
     // The corners' order is judged from the side that the normals point to.
-    const glm::dvec3 normals = s.normal(a) + s.normal(a + 1) + s.normal(a + 2);
-    const double outside = glm::dot(glm::cross(e.p1, e.p2), normals) < 0 ? -1 : 1;
-    const double signedArea = -e.uvArea2() * outside; // v runs down
-    return signedArea > 0 ? 1 : signedArea < 0 ? -1 : 0;
+    const glm::dvec3 face = glm::cross(e.p1, e.p2);
+    const std::size_t a = 3 * triangle;
+    const double da = glm::dot(face, s.movedNormal(a)), db = glm::dot(face, s.movedNormal(a + 1)),
+                 dc = glm::dot(face, s.movedNormal(a + 2));
+    bool inside = da < 0 && db < 0 && dc < 0;
+    if (!inside && !(da > 0 && db > 0 && dc > 0)) // they do not agree
+        inside = glm::dot(face, s.normal(a) + s.normal(a + 1) + s.normal(a + 2)) < 0;
+    return (area > 0) != inside ? 1 : -1;
 }
 
 } // namespace cotan

@@ -1,6 +1,7 @@
 // A stored tangent at one corner of a triangle, against the texture coordinates: what lint takes its shares of.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "cotan/surface/mapped_surface.hpp"
@@ -13,7 +14,9 @@ struct StoredCorner {
     double degrees = 0;    // from dP/du, in the plane of the normal; 180 where the tangent has no direction there
 };
 
-// surface: with uv. Nothing is compared where the triangle's uv have no area.
-StoredCorner storedCorner(const MappedSurface& surface, std::size_t triangle, std::size_t corner);
+// All corners of a triangle with these edges (edgesOf). surface: with uv. Nothing is compared where the triangle's uv
+// have no area.
+std::array<StoredCorner, 3> storedCorners(const MappedSurface& surface, std::size_t triangle,
+                                          const TriangleEdges& edges);
 
 } // namespace cotan

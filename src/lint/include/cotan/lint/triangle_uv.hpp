@@ -19,5 +19,6 @@ struct TriangleUv {
 
 // surface: with uv.
 TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle);
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edgesOf it
 
 } // namespace cotan

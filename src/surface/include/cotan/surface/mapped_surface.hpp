@@ -49,6 +49,7 @@ struct SurfaceMesh {
 struct MappedSurface {
     std::shared_ptr<const SurfaceMesh> shared; // null: no triangles
     LinearMap<double> linear{glm::dmat3(1)};
+    glm::dmat3 planes{1}; // linear.planeMatrix()
 
     std::size_t triangleCount() const { return shared ? shared->mesh->triangleCount() : 0; }
     bool hasUv() const { return shared && !shared->uv.empty(); }
@@ -59,7 +60,16 @@ struct MappedSurface {
     {
         return linear(Vector3d(glm::dvec3(shared->mesh->positions[vertexOf(corner)]))).raw();
     }
-    glm::dvec3 normal(std::size_t corner) const; // unit, or zero where unknown
+    glm::dvec3 normal(std::size_t corner) const // unit, or zero where unknown
+    {
+        return f64::cotan_normalize_or(movedNormal(corner), glm::dvec3(0));
+    }
+    glm::dvec3 movedNormal(std::size_t corner) const // the same of any length
+    {
+        const std::vector<glm::vec3>& normals = shared->mesh->normals;
+        const std::uint32_t vertex = vertexOf(corner);
+        return vertex < normals.size() ? planes * glm::dvec3(normals[vertex]) : glm::dvec3(0);
+    }
     glm::dvec2 uv(std::size_t corner) const { return glm::dvec2(shared->uv[vertexOf(corner)]); } // where there are any
     // Of the file, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Where there are any.
     glm::dvec4 stored(std::size_t corner) const;
@@ -106,6 +116,8 @@ struct SurfaceSpot {
     glm::dvec3 interpolated{0}, normal{0}; // the same, unit; the triangle's where there is none
 };
 SurfaceSpot spotAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
+// At a corner, numbered three a triangle, of a triangle with these edges.
+SurfaceSpot spotAtCorner(const MappedSurface& surface, const TriangleEdges& edges, std::size_t corner);
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame);
 
 // What lies at a point of a triangle, of its three corners. normal: as interpolated, not unit.
@@ -127,11 +139,13 @@ inline constexpr std::size_t kRasterBytes = 20;
 // left out, as they are not drawn.
 double copiesUnder(const MappedSurface& surface);
 
-// Half the length of the cross product of two edges.
+// Half the length of the cross product of two edges; 0 where that is not finite.
+double areaOf(const TriangleEdges& edges);
 double areaOf(const MappedSurface& surface, std::size_t triangle);
 
 // The sign of a triangle's uv: +1 where increasing u turned towards increasing v (which runs down
 // the image) goes clockwise seen from outside, as on an unmirrored chart; -1 mirrored; 0 without area.
 int orientationOf(const MappedSurface& surface, std::size_t triangle);
+int orientationOf(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edgesOf it
 
 } // namespace cotan
