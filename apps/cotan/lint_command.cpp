@@ -30,7 +30,7 @@ std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
     if (report.advice == Advice::nothing || !o.maps.normal.empty()) // convert reads the model's own maps
         return {};
-    const std::string to(name(frameOf(report.advice)));
+    const std::string to(name(frameOf(report)));
     const std::string stem = std::filesystem::path(o.model).stem().string();
     if (!namedAsGltf(o.model)) // convert writes glTF only
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
@@ -128,7 +128,7 @@ void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
-    addMemoryOption(a, o.memory);
+    addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
     a.flag("--details", o.details,
            "print the figures of each primitive and map, too, and cameras that look at the worst places");
     addOwnNormalMap(a, o.maps);

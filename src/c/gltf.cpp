@@ -18,7 +18,7 @@ namespace {
 
 std::string adviceOf(const LintReport& report)
 {
-    return report.advice == Advice::nothing ? "" : std::string(name(frameOf(report.advice)));
+    return report.advice == Advice::nothing ? "" : std::string(name(frameOf(report)));
 }
 
 double worst(const LintReport& report, Spread MapFit::*frame)

@@ -12,6 +12,7 @@
 #include "cotan/lint/triangle_uv.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/picture_text.hpp"
+#include "cotan/scene/stored_green.hpp"
 
 namespace cotan {
 
@@ -323,8 +324,11 @@ Scene inspected(Scene scene, Inspection inspection)
     case Inspection::density:
     case Inspection::stretch:
     case Inspection::shear:
-    case Inspection::mirrored:
-    case Inspection::w: showTriangles(scene, inspection); break;
+    case Inspection::mirrored: showTriangles(scene, inspection); break;
+    case Inspection::w:
+        restoreDeclaredGreen(scene); // w as stored
+        showTriangles(scene, inspection);
+        break;
     default: showMap(scene, inspection); break;
     }
     return scene;

@@ -14,6 +14,7 @@
 #include "cotan/lint/texel.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "cotan/scene/check.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "cotan/scene/placings.hpp"
 #include "parts.hpp"
 
@@ -73,11 +74,14 @@ template<class Make> void eachAdvised(FrameSpreads& spreads, const Make& make)
     spreads.smooth = make(Frame::smooth);
 }
 
+// The frame that a material's maps are for: the one that the file names, or else glTF's.
+Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
+
 // What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
-const FrameSet& framesOfLint()
+FrameSet framesOfLint(const Material& material)
 {
-    static const FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
-    return frames;
+    FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
+    return frames.set(std::size_t(madeFor(material)));
 }
 
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance)
@@ -97,17 +101,20 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
         p.tangentsFor = "KHR_materials_clearcoat";
         p.turned = {};
     }
+    p.madeFor = madeFor(material);
     p.triangles = mesh.triangleCount();
     p.hasUv = surface.hasUv();
     p.uv = lint::uvQuality(surface);
     p.steps = lint::edgeSteps(surface);
     p.stored = lint::storedTangents(surface);
+    if (material.greenReversed) // w of the file, not of the scene
+        p.stored.reversedW = 1 - p.stored.reversedW;
     addPrecision(p, distance);
     const int image = material.normalMap.image;
     if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
         p.image = image;
         if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
-            p.readings = lint::readings(surface, points, material, scene.images[std::size_t(image)]);
+            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)]);
         p.unread = !hasPixels(scene.images[std::size_t(image)]);
         p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
@@ -146,7 +153,7 @@ void addMaps(LintReport& report, const Scene& scene)
             continue;
         done.push_back(image);
         const Image& map = scene.images[std::size_t(image)];
-        GreenEvidence e{image, map.name, m.normalFormat.greenUp, {}};
+        GreenEvidence e{image, map.name, m.normalFormat.greenUp != m.greenReversed, {}};
         if (hasPixels(map))
             e.verdict = maps::greenOf(map);
         report.maps.push_back(std::move(e));
@@ -158,6 +165,15 @@ struct CoatUse {
     int image = -1;
     MapUse use;
 };
+
+// The frame that the normal maps of an image are for: that of the first material with it.
+Frame madeFor(const Scene& scene, int image)
+{
+    for (const Material& m : scene.materials)
+        if (m.normalMap.image == image || m.coat.normalMap.image == image)
+            return madeFor(m);
+    return Frame::mikktspace;
+}
 
 // How each map would do as it is with the frames that may be advised.
 void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
@@ -179,7 +195,7 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
             std::vector<FramePair> pairs;
             FrameSpreads order; // of the frames, as eachAdvised has it
             eachAdvised(order, [&](Frame frame) {
-                pairs.push_back({Frame::mikktspace, frame, from, TangentOrigin::generated});
+                pairs.push_back({madeFor(scene, image), frame, from, TangentOrigin::generated});
                 return Spread{};
             });
             const std::vector<Spread> errors = mapErrors(map, map, shown, pairs);
@@ -196,7 +212,8 @@ std::size_t lintBytes(const Scene& scene)
 {
     std::size_t kept = 0, most = 0;
     for (const Mesh& mesh : scene.meshes) {
-        const SurfaceBytes bytes = surfaceBytes(mesh.vertexCount(), mesh.triangleCount(), framesOfLint());
+        const FrameSet frames = framesOfLint(scene.materials[std::size_t(mesh.material)]);
+        const SurfaceBytes bytes = surfaceBytes(mesh.vertexCount(), mesh.triangleCount(), frames);
         kept += bytes.kept + kRasterBytes * mesh.triangleCount();
         most = std::max(most, bytes.making);
     }
@@ -231,10 +248,11 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Sampler& sampler = material.normalMap.sampler;
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
         const glm::dmat3 asItStands(1);
-        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint());
+        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint(material));
         MappedSurface ofCoat;
         if (material.coat.normalMap.present())
-            ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint());
+            ofCoat =
+                makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
         for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
             uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
                             sampler.wrapU, sampler.wrapV});
@@ -244,8 +262,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
             report.primitives.push_back(std::move(p));
             if (const Texture& coat = material.coat.normalMap; coat.present())
                 coats.push_back({coat.image,
-                                 {placedBy(ofCoat, placed[i][k]), Convention{}, double(material.coat.normalScale),
-                                  coat.sampler.wrapU, coat.sampler.wrapV}});
+                                 {placedBy(ofCoat, placed[i][k]), material.coat.normalFormat,
+                                  double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
         }
         done += mesh.triangleCount();
         if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))
@@ -254,6 +272,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     addOverlaps(report, uses);
     addMaps(report, scene);
     addFits(report, scene, uses, coats);
+    if (const auto named = namedFrame(scene))
+        report.named = named->frame;
     lint::recommend(report);
     return report;
 }

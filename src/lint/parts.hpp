@@ -19,8 +19,9 @@ EdgeSteps edgeSteps(const MappedSurface& surface);
 
 StoredTangents storedTangents(const MappedSurface& surface);
 
-// The map decoded at the points (pointsOver) and read with each frame. Angles to MikkTSpace with generated tangents.
-std::vector<Reading> readings(const MappedSurface& surface, const std::vector<SurfacePoint>& points,
+// The map decoded at the points (pointsOver) and read with each frame. Angles to the
+// frame that it was made for, with generated tangents.
+std::vector<Reading> readings(const MappedSurface& surface, const std::vector<SurfacePoint>& points, Frame madeFor,
                               const Material& material, const Image& map);
 
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.

@@ -7,11 +7,12 @@
 
 namespace cotan {
 
-Frame frameOf(Advice advice)
+Frame frameOf(const LintReport& report)
 {
-    return advice == Advice::convertToCotangent ? Frame::cotangent
-        : advice == Advice::convertToSmooth     ? Frame::smooth
-                                                : Frame::orthonormal;
+    return report.advice == Advice::readNamed         ? report.named.value_or(Frame::orthonormal)
+        : report.advice == Advice::convertToCotangent ? Frame::cotangent
+        : report.advice == Advice::convertToSmooth    ? Frame::smooth
+                                                      : Frame::orthonormal;
 }
 
 namespace lint {
@@ -22,6 +23,9 @@ namespace {
 constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
 // From this mean on the light seems to come from elsewhere, without anything moving.
 constexpr double kWrongMean = 5;
+// Degrees on average: what converted maps stay off by in other engines. On real models read by three.js it was 0.1 to
+// 1.7, mostly over what the untouched map was off by when it was read with orthonormal (docs/models.md).
+constexpr double kConvertedStaysOff = 1;
 // Steps at edges over this, and a map for `cotangent` shows creases there.
 constexpr double kCreases95 = 2;
 constexpr std::size_t kMostNames = 3; // in one sentence
@@ -122,7 +126,9 @@ std::string otherGreen(const LintReport& report)
 }
 
 constexpr double kMostly = 0.5;      // of the area reversed: the whole model is
-constexpr double kContradicts = 0.1; // of the area: the stored tangents are not to be followed
+constexpr double kContradicts = 0.1; // of the area: the stored tangents are not what the uv say
+
+bool contradicts(const Stored& s) { return s.reversedW > kContradicts || s.turned > kContradicts; }
 
 // What is wrong with the model as it is.
 std::string defects(const LintReport& report)
@@ -138,11 +144,13 @@ std::string defects(const LintReport& report)
     std::string text;
     if (reversed)
         text = fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area.", 100 * s.reversedW);
-    else if (distrustStored(report))
+    else if (contradicts(s))
         text = fmt::format(
             "The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
             "{:.0f} degrees on {:.0f} %.",
             100 * s.reversedW, kTurned, 100 * s.turned);
+    if (!text.empty() && green.empty() && !distrustStored(report))
+        text += " Whether green is right cannot be told from the maps, so the tangents are followed.";
     if (!green.empty())
         text += fmt::format(
             "{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
@@ -217,11 +225,18 @@ std::string seen(const LintReport& report, const Whole& orthonormal, const Whole
                        how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
 }
 
-// Counts what `convert` would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go.
+// Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Where the maps
+// are to be read as they are, `convert` may not touch them: where it would make one anew, there is no command.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)
         ++(fitsAsItIs(of(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
+    const bool untouched = report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal;
+    if (untouched && (report.mapsConverted > 0 || report.advice == Advice::readNamed)) {
+        report.mapsConverted = 0;
+        report.mapsKept = report.fits.size();
+        return;
+    }
     for (const PrimitiveLint& p : report.primitives)
         report.dropsTangents =
             report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
@@ -230,7 +245,7 @@ void foresee(LintReport& report)
 // What to do, given what the command would do.
 std::string advised(const LintReport& report, const Whole& steps)
 {
-    const std::string frame(name(frameOf(report.advice)));
+    const std::string frame(name(frameOf(report)));
     const std::string why = report.advice != Advice::convertToSmooth
         ? ""
         : fmt::format(" (cotangent steps by up to {:.0f} degrees at edges, 95 %)", steps.percentile95);
@@ -258,13 +273,36 @@ void adviseWithoutMaps(LintReport& report)
         report.advised = "No primitive has a normal map and uv to read it with: no normal map uses tangents.";
 }
 
+// What is seen of maps that name their frame, where another reads them.
+std::string seenOfNamed(const LintReport& report, const Whole& orthonormal)
+{
+    const std::string_view frame = name(*report.named);
+    return *report.named == Frame::orthonormal
+        ? fmt::format("The file says that its maps are for the frame {}.", frame)
+        : fmt::format("The file says that its maps are for the frame {}; read with orthonormal they are off by {:.2f} "
+                      "degrees on average.",
+                      frame, orthonormal.mean);
+}
+
+// Whether reading the maps with orthonormal leaves less than converting them does, for every map, against what the
+// stored tangents show.
+bool readsAsItIs(const LintReport& report, const Whole& orthonormal)
+{
+    return orthonormal.mean < kConvertedStaysOff
+        && std::none_of(report.fits.begin(), report.fits.end(),
+                        [](const MapFit& f) { return f.orthonormal.mean >= kConvertedStaysOff; });
+}
+
 void adviseForMaps(LintReport& report)
 {
     const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
-    report.seen = seen(report, orthonormal, wholeReading(report, "cotangent"));
-    report.advice = orthonormal.unseen()  ? Advice::readOrthonormal
-        : steps.percentile95 > kCreases95 ? Advice::convertToSmooth
-                                          : Advice::convertToCotangent;
+    report.seen =
+        report.named ? seenOfNamed(report, orthonormal) : seen(report, orthonormal, wholeReading(report, "cotangent"));
+    report.advice = report.named           ? Advice::readNamed
+        : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
+        : orthonormal.unseen()             ? Advice::convertToOrthonormal
+        : steps.percentile95 > kCreases95  ? Advice::convertToSmooth
+                                           : Advice::convertToCotangent;
     foresee(report);
     report.advised = advised(report, steps);
 }
@@ -276,7 +314,9 @@ bool distrustStored(const LintReport& report)
     const Stored s = storedShares(report);
     if (s.reversedW > kMostly && !otherGreen(report).empty())
         return false;
-    return s.reversedW > kContradicts || s.turned > kContradicts;
+    const bool told = std::any_of(report.maps.begin(), report.maps.end(),
+                                  [](const GreenEvidence& g) { return g.decided() && g.asDeclared(); });
+    return told && contradicts(s);
 }
 
 void recommend(LintReport& report)

@@ -23,6 +23,8 @@ std::string greenVerdict(const GreenEvidence& g)
                        name(g.verdict.confidence));
 }
 
+std::string frameWord(Frame frame) { return frame == Frame::mikktspace ? "MikkTSpace" : std::string(name(frame)); }
+
 void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::string>& lines)
 {
     const PrimitiveLint& p = report.primitives[index];
@@ -55,7 +57,8 @@ void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::
         lines.push_back("  normal map not judged: " + p.notJudged);
     else
         for (const Reading& r : p.readings)
-            lines.push_back(fmt::format("  made for MikkTSpace, read with {}: {}", r.name, toText(r.error)));
+            lines.push_back(
+                fmt::format("  made for {}, read with {}: {}", frameWord(p.madeFor), r.name, toText(r.error)));
     if (p.uv.gradient > 0)
         lines.push_back(fmt::format("  rounding at distance {:.3g}: {:.2g} degrees; half a degree at {:.2g}",
                                     report.distance, p.precision, p.closest));
@@ -94,6 +97,7 @@ Json toJson(const PrimitiveLint& p)
               {"normal_map", p.image},
               {"not_judged", p.notJudged},
               {"tangents_for", p.tangentsFor},
+              {"made_for", name(p.madeFor)},
               {"triangles", p.triangles},
               {"has_uv", p.hasUv}};
     j["uv"] = {{"area", p.uv.area},

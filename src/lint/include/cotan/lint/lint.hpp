@@ -50,7 +50,7 @@ struct StoredTangents {
         angle; // degrees from dP/du in the plane of the normal; empty: nothing was compared, and the shares say nothing
 };
 
-// How another frame reads the map if it was made for MikkTSpace.
+// How another frame reads the map, which was made for PrimitiveLint::madeFor.
 struct Reading {
     std::string name; // of the frame; "stored" for mikktspace with the tangents of the file
     Spread error;
@@ -78,7 +78,9 @@ struct PrimitiveLint {
     UvQuality uv;
     EdgeSteps steps;
     StoredTangents stored;
-    // cotangent, orthonormal, smooth, exact, triangle and, if present, stored; empty without a map
+    Frame madeFor = Frame::mikktspace; // what the map is for: the frame that the file names, or else glTF's
+    // cotangent, orthonormal, smooth, exact, triangle and, if present and what the map is for, stored; empty without a
+    // map
     std::vector<Reading> readings;
     double precision = 0; // degrees by rounding of float derivatives at LintOptions::distance
     double closest = 0;   // the distance at which that is half a degree; both 0 where uv have no gradient
@@ -103,16 +105,19 @@ struct MapFit : FrameSpreads { // empty where nothing was judged: no pixels, or 
     std::string name;
 };
 
-enum class Advice { nothing, readOrthonormal, convertToCotangent, convertToSmooth };
+// Reading the maps as they are comes first: readNamed with the frame that the file names, readOrthonormal as MikkTSpace
+// without tangents. Maps are to be converted only where that leaves more than a converted map does in other engines.
+enum class Advice { nothing, readNamed, readOrthonormal, convertToOrthonormal, convertToCotangent, convertToSmooth };
 
 struct LintReport {
     std::vector<PrimitiveLint> primitives;
     std::vector<GreenEvidence> maps;
     std::vector<MapFit> fits;
-    double distance = 0; // the viewing distance used, world units
+    double distance = 0;        // the viewing distance used, world units
+    std::optional<Frame> named; // what the file says that its maps are for (namedFrame)
     Advice advice = Advice::nothing;
-    // Stored tangents contradict the uv on more than a tenth of the area, and the maps do not make
-    // up for it (a reversed w with reversed green is right again).
+    // Stored tangents contradict the uv on more than a tenth of the area, and a map shows that they are wrong: its
+    // green is as declared. Where no map can tell, the model stays what its tangents show.
     bool distrustStored = false;
     // What `convert` to the advised frame would do: how many maps it would make anew, how many it would leave, and
     // whether it would drop tangents. With neither it has nothing to do.
@@ -124,8 +129,8 @@ struct LintReport {
     std::string recommendation; // all of these
 };
 
-// The frame that an advice names: orthonormal, cotangent or smooth.
-Frame frameOf(Advice advice);
+// The frame that the report's advice names; orthonormal where it advises nothing.
+Frame frameOf(const LintReport& report);
 
 struct LintOptions {
     double distance = 0;    // world units from eye to surface; 0: where the whole model fills the picture
