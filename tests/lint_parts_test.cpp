@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cotan/lint/texel.hpp"
 #include "judgement_cases.hpp"
@@ -280,6 +281,56 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
 }
 
 // ---- overlap --------------------------------------------------------------------------------
+
+// A bent grid of 2 * 40 * 40 triangles: 4,720 edges, and the steps of every tenth are those of all but for chance.
+TEST(EdgeSteps, ofManyEdgesEvenlyChosenOnesAreMeasured)
+{
+    const int n = 40;
+    const auto at = [](int i) { return float(i * i) / 1600; };
+    std::vector<Corner> corners;
+    for (int x = 0; x < n; ++x)
+        for (int y = 0; y < n; ++y) // v runs down
+            corners = corners + rectangle({float(x), float(y)}, {1, 1}, {at(x), at(n - y - 1)}, {at(x + 1), at(n - y)});
+    const MappedSurface s = surfaceOf(corners);
+    const EdgeSteps all = lint::edgeSteps(s), some = lint::edgeSteps(s, 480);
+    EXPECT_EQ(all.edges, 4720u);
+    EXPECT_EQ(some.edges, all.edges);
+    EXPECT_EQ(all.cotangent.count, 8 * all.edges);
+    EXPECT_EQ(some.cotangent.count, 8 * all.edges / 10);
+    EXPECT_GT(all.cotangent.mean, 0.01);
+    EXPECT_NEAR(some.cotangent.mean / all.cotangent.mean, 1, 0.2); // of 472 values that vary by as much as themselves
+}
+
+TEST(SpreadCounter, holdsAnyNumberOfValuesToAFifthOfAPercent)
+{
+    std::vector<std::pair<double, double>> values;
+    SpreadCounter counter;
+    std::vector<double> sorted;
+    for (std::size_t i = 0; i < 3 * SpreadCounter::kExactValues; ++i) {
+        const double value = std::exp(double(i * 7919 % 100003) / 10000 - 5), weight = 1 + double(i % 3);
+        values.emplace_back(value, weight);
+        sorted.push_back(value);
+        counter.add(value, weight);
+        if (i + 1 == SpreadCounter::kExactValues) { // so far to the bit
+            const Spread exact = spreadOf(values), counted = counter.spread();
+            EXPECT_EQ(counted.mean, exact.mean);
+            EXPECT_EQ(counted.percentile95, exact.percentile95);
+        }
+    }
+    counter.add(NAN, 1);
+    counter.add(1, 0);
+    counter.add(INFINITY, 1);
+    const Spread exact = spreadOf(values), counted = counter.spread();
+    EXPECT_EQ(counted.count, exact.count);
+    EXPECT_NEAR(counted.mean / exact.mean, 1, 1e-12);
+    EXPECT_EQ(counted.maximum, exact.maximum);
+    EXPECT_GE(counted.percentile95, exact.percentile95);
+    EXPECT_LE(counted.percentile95, exact.percentile95 * (1 + 1 / 512.0));
+    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
+    EXPECT_NEAR(counter.middle() / sorted[sorted.size() / 2], 1, 1 / 512.0);
+    EXPECT_EQ(SpreadCounter().spread().count, 0u);
+    EXPECT_EQ(SpreadCounter().middle(), 0);
+}
 
 // Overlap of surfaces at 64 texels a side, exact for uv in 64ths.
 std::vector<UvQuality> overlapsOf(const std::vector<MappedSurface>& surfaces, int side = 64)

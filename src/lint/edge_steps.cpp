@@ -146,7 +146,7 @@ void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weigh
 
 double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBetween(a, b)); }
 
-EdgeSteps edgeSteps(const MappedSurface& s)
+EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
 {
     EdgeSteps result;
     if (!s.hasUv())
@@ -154,12 +154,15 @@ EdgeSteps edgeSteps(const MappedSurface& s)
     std::vector<std::int8_t> orientations(s.triangleCount());
     for (std::size_t i = 0; i < orientations.size(); ++i)
         orientations[i] = std::int8_t(orientationOf(s, i));
+    const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
+    const std::size_t every = std::max<std::size_t>((edges + mostEdges - 1) / mostEdges, 1);
     SpreadCounter cotangent, orthonormal;
     SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
         const int orientation = orientations[a.triangle()];
         if (orientation == 0 || orientation != orientations[b.triangle()])
             return;
-        ++result.edges;
+        if (result.edges++ % every != 0)
+            return;
         const SurfaceSpot atA = spotAt(s, a.triangle(), middle(a)), atB = spotAt(s, b.triangle(), middle(b));
         const double weight = (areaOf(atA.edges) + areaOf(atB.edges)) / (3.0 * kDirections);
         addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);

@@ -15,7 +15,8 @@ UvQuality uvQuality(const MappedSurface& surface);
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side = 512);
 
-EdgeSteps edgeSteps(const MappedSurface& surface);
+// mostEdges: of more, evenly chosen ones are measured.
+EdgeSteps edgeSteps(const MappedSurface& surface, std::size_t mostEdges = kMostEdges);
 
 StoredTangents storedTangents(const MappedSurface& surface);
 

@@ -36,6 +36,9 @@ struct UvQuality {
     double largestUv = 0;           // magnitude
 };
 
+inline constexpr std::size_t kMostEdges = 1 << 20; // whose steps are measured
+
+// Of more than kMostEdges, every second, third and so on is measured; `edges` counts all.
 struct EdgeSteps {
     std::size_t edges = 0; // interior: position, normal and uv agree on both sides, and the orientation
     Spread cotangent;      // of a texel tilted by kTestTilt, over eight directions, weighted by area
