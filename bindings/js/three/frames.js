@@ -28,14 +28,15 @@ export function frameFor(material, wished = 'auto') {
 }
 
 // The frame of a map that no frame is named for. Maps of models mean MikkTSpace, whose nearest is `orthonormal`; maps that
-// the texture coordinates repeat were painted without a model, and stretch with them: `cotangent`.
+// the texture coordinates repeat, and those on three's shapes, were painted without a model and stretch: `cotangent`.
 // tangents: whether the mesh has or had stored ones, which say that it is a model.
 export function meantFrame(geometry, map, tangents) {
   if (!map) return 'cotangent';
-  return tangents || ofGltf(map) || !repeats(geometry, map) ? 'orthonormal' : 'cotangent';
+  const shape = geometry.parameters !== undefined;
+  return tangents || ofGltf(map) || !shape && !repeats(geometry, map) ? 'orthonormal' : 'cotangent';
 }
 
-const kEdge = 0.1; // of the map, that charts may stand over (three's spheres do by a 64th at their poles)
+const kEdge = 0.01; // of the map, that charts may stand over
 
 function repeats({ attributes }, map) {
   const uv = attributes[uvNameOf(map)];

@@ -7,7 +7,7 @@ export { CotanError } from '../tangents.js';
  * How a normal map is read.
  * - `auto`: as the map was made. The frame that the material names (`material.userData.cotanFrame`: glTF's extras, as `convert`
  *   writes them); else `orthonormal` for maps of models, which mean MikkTSpace; else, for maps that the texture coordinates
- *   repeat on meshes that no GLTFLoader made, `cotangent`.
+ *   repeat on meshes that no GLTFLoader made, and on three's own shapes, `cotangent`.
  * - `orthonormal`: the nearest to MikkTSpace, which most models with tangents were baked for.
  * - `cotangent`: as three.js itself reads maps of meshes without tangents, from screen derivatives; exact on stretched and
  *   sheared texture coordinates for maps that were made so (`cotan bake --frame cotangent`).
