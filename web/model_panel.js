@@ -20,7 +20,7 @@ export async function showModel(result, files) {
   const view = open = modelView(canvas);
   let stored = false;
   gltf.scene.traverse(object => { stored ||= object.isMesh && object.geometry.attributes.tangent !== undefined; });
-  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, made here (the file has none)' };
+  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, made here' };
   const chosen = { left: 'tangents', right: 'auto' };
   const halves = divider(canvas, share => { view.share = share; }, [names.tangents, names.auto]);
   const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {}), notes = el('p', { class: 'small' });
@@ -88,7 +88,7 @@ function verdictOf(lint, name) {
   const words = empty ? 'It has no normal map: there is nothing to judge.'
     : green && reversed ? 'Green and the stored tangents are both reversed: together they are right, each alone is not.'
       : green ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
-        : distrusted ? 'Its stored tangents contradict its texture coordinates.'
+        : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they mean it' : ''}.`
           : changes ? `Without stored tangents its maps are to be made anew for the frame ${lint.advice}.`
             : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
               : 'Of its normal maps nothing was judged as a whole.';

@@ -229,8 +229,9 @@ await fact('whatThePageAdvisesIsWhatItShowsAndSaysOnce', async () => {
 
 await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
   const page = await open(), wrong = [];
-  for (const [file, limit] of [[model('NormalTangentMirrorTest'), 0.001], [model('NormalTangentMirrorTest'), 90], [model('ClearCoatTest'), 0.1], [model('TwoSidedPlane'), 2]]) {
-    await drop(page, [file]);
+  let shown;
+  for (const [file, limit] of [[model('NormalTangentMirrorTest'), 0.001], [model('NormalTangentMirrorTest'), 90], [model('TwoSidedPlane'), 2]]) {
+    if (shown !== file) await drop(page, [shown = file]);
     await page.locator('.result input[type=number]').nth(0).fill(String(limit));
     await page.locator('.result input[type=number]').nth(1).fill('5');
     await page.locator('.result input[type=number]').nth(1).blur();
