@@ -128,8 +128,10 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
     }
     Result<Image> image =
         format.bytes > 0 ? plainPixels(*picture, plain, name) : readDds(asDds(*picture, plain), name, limits);
-    if (image)
+    if (image) {
         arrange(*picture, *image);
+        image->frame = picture->frame;
+    }
     return image;
 }
 

@@ -12,6 +12,7 @@
 
 #include "cotan/files/extension.hpp"
 #include "cotan/image/convert.hpp"
+#include "cotan/image/frame_key.hpp"
 #include "cotan/image/size.hpp"
 #include "format_starts.hpp"
 #include "formats.hpp"
@@ -103,7 +104,8 @@ OutputFormat outputFormat(const std::string& extension)
     return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
 }
 
-OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension)
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension,
+                           const std::string& frame)
 {
     OIIO::ImageSpec spec(width, height, channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
@@ -113,7 +115,17 @@ OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc t
         spec.attribute("compression", "zip");
     if (extension == ".jpg" || extension == ".jpeg")
         spec.attribute("CompressionQuality", 95);
+    if (extension == ".exr" && !frame.empty())
+        spec.attribute(std::string(kFrameKey), frame);
     return spec;
+}
+
+std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
+{
+    if (format != "openexr")
+        return {};
+    const std::string value = spec.get_string_attribute(std::string(kFrameKey));
+    return std::string(frameText(value));
 }
 
 Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
@@ -244,6 +256,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
         spreadTwo(image);
     else
         completeChannels(image, channels);
+    image.frame = frameOf(spec, format);
     return image;
 }
 
@@ -269,7 +282,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
             return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
         output->threads(1);
         const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
-        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
+        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension, image.frame);
         if (!output->open(file.string(), spec)
             || !output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             || !output->close())

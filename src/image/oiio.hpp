@@ -52,8 +52,12 @@ struct OutputFormat {
 };
 OutputFormat outputFormat(const std::string& extension);
 
-// channels: no more than the format has.
-OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension);
+// channels: no more than the format has. frame: Image::frame, for the formats that hold it.
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension,
+                           const std::string& frame);
+
+// Image::frame of a file.
+std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format);
 
 // ImageFormats::openRows and createRows.
 Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,

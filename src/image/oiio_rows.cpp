@@ -159,6 +159,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         reader->height = spec.height;
         reader->type = pixelType(spec.format);
         reader->alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        reader->frame = frameOf(spec, format);
         return std::unique_ptr<RowReader>(std::move(reader));
     } catch (const std::exception& e) {
         return broken(e.what());
@@ -180,7 +181,7 @@ Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file,
             : limits.floatOnly        ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
             : limits.eightBitOnly     ? OIIO::TypeDesc(OIIO::TypeDesc::UINT8)
                                       : typeDesc(format.type);
-        if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, extension)))
+        if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, extension, format.frame)))
             return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
         return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(output), format, name));
     } catch (const std::exception& e) {

@@ -52,6 +52,7 @@ public:
         type = image_.type;
         alpha = usesAlpha(image_);
         whole = true;
+        frame = image_.frame;
     }
 
     Status read(Image& strip) override

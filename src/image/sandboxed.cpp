@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/image/frame_key.hpp"
 #include "cotan/image/size.hpp"
 #include "cotan/sandbox/process.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
@@ -28,6 +29,7 @@ public:
     {
         name = file;
         exchangeRowFacts(process_->answer(), *this);
+        frame = std::string(frameText(frame));
         if (width <= 0 || height <= 0 || width > limits.imageSide || height > limits.imageSide)
             process_->answer().refuse();
         if (!process_->answer().good())
@@ -71,6 +73,7 @@ Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::strin
         return found.error();
     Image image;
     exchangeImage((*process)->answer(), image);
+    image.frame = std::string(frameText(image.frame));
     if (!(*process)->answer().good())
         return (*process)->failure();
     if (Status sound = checkPicture(image, name, limits); !sound)

@@ -38,7 +38,7 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
                                  .dither = o.dither,
                                  .pictureHeight = in.height};
     std::atomic<std::size_t> invalid = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half},
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half, in.frame},
                                          files.threads, files.progress, [&](Image& strip, int firstRow) {
                                              unswizzle(strip, *swizzle);
                                              BlendSettings here = settings;

@@ -58,7 +58,15 @@ Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& set
 // A texture of one level.
 Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
 {
-    return writeTextureFile(out, code, {levelOf(map, code, to)});
+    return writeTextureFile(out, code, {levelOf(map, code, to)}, map.frame);
+}
+
+// The frame of the result: in tangent space what the map says, or what the mesh was read with; in object space none.
+std::string frameAfter(const std::string& said, const ConvertFileOptions& o)
+{
+    if (o.to.kind != MapKind::tangentSpace)
+        return {};
+    return o.mesh ? std::string(name(o.mesh->frame)) : said;
 }
 
 // Streams a picture through.
@@ -67,7 +75,7 @@ Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, 
 {
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0, clamped = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half},
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
                                          files.threads, files.progress, [&](Image& strip, int firstRow) {
                                              unswizzle(strip, swizzle);
                                              RecodeSettings here = settings;
@@ -108,14 +116,15 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
-    ConvertedFile done{in.width, in.height, *bits, {}, 0};
+    ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o)};
     if (!o.mesh && !isTextureFile(out)) {
         const Status streamed = byRows(in, out, *swizzle, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
-    const auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
+    auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
     if (!turned)
         return turned.error();
+    turned->frame = done.frame;
     const Status written =
         isTextureFile(out) ? writeTexture(out, *turned, *code, o.to) : writeMap(out, *turned, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();

@@ -19,7 +19,7 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
         if (!reader)
             return reader.error();
         RowReader& in = **reader;
-        found.width = in.width, found.height = in.height, found.type = in.type;
+        found.width = in.width, found.height = in.height, found.type = in.type, found.frame = in.frame;
         const bool second = pass == &MapSurvey::second;
         const Status read =
             inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });

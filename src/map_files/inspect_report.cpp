@@ -65,6 +65,8 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
     const auto line = [&](std::string text) { lines.push_back(std::move(text)); };
     line(fmt::format("{}: {} x {}, {}", file, image.width, image.height, bitsName(image.type)));
     line("contents: " + describe(s.content));
+    if (!image.frame.empty())
+        line("made for the frame: " + image.frame);
     if (s.background > 0)
         line(fmt::format(
             "background (alpha 0, black, white, or fields of a colour that is no normal): {:.2f} %; left out below",
@@ -118,6 +120,8 @@ Json toJson(const SurveyedFile& image)
               {"highest", s.highest},
               {"mean_tilt_degrees", s.meanTilt},
               {"tilt_by_10_degrees", s.tilt}};
+    if (!image.frame.empty())
+        j["frame"] = image.frame;
     if (!measured(s)) // figures of nothing
         for (const char* figure :
              {"mean_length", "length_spread", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})

@@ -75,7 +75,7 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
 {
     if (!bits.half)
         return writeImage(file, image);
-    auto writer = createRows(file, {image.width, image.height, image.type, true, true});
+    auto writer = createRows(file, {image.width, image.height, image.type, true, true, image.frame});
     if (!writer)
         return writer.error();
     if (Status written = (*writer)->write(image); !written)

@@ -33,7 +33,7 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
     if (code != TexelCode::bc5) {
         for (const MipLevel& level : chain)
             normals.push_back(levelWithRoughness(level, code, o));
-        return writeTextureFile(out, code, normals);
+        return writeTextureFile(out, code, normals, chain[0].normals.frame);
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
@@ -43,7 +43,7 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
         normals.push_back(levelOf(level.normals, code, o.to));
         roughness.push_back(bc4Level(level.roughness));
     }
-    if (Status w = writeTextureFile(out, TexelCode::bc5, normals); !w)
+    if (Status w = writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame); !w)
         return w;
     return writeTextureFile(second, TexelCode::bc4, roughness);
 }
@@ -106,13 +106,15 @@ Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file
     CountedSteps steps(files.progress, 3); // read, filtered, written
     if (!steps.step())
         return stoppedError();
-    const auto chain = mipChain(*map,
+    auto chain = mipChain(*map,
                                 {.from = o.from,
                                  .to = codeConvention(*code, o.to),
                                  .keepLengths = o.keepLengths,
                                  .model = o.model,
                                  .roughness = o.roughness,
                                  .type = bits->type});
+    for (MipLevel& level : chain)
+        level.normals.frame = map->frame;
     if (!steps.step())
         return stoppedError();
     if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);

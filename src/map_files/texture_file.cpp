@@ -11,6 +11,7 @@
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/dds.hpp"
+#include "cotan/image/frame_key.hpp"
 #include "cotan/maps/block.hpp"
 
 namespace cotan::maps {
@@ -86,11 +87,14 @@ std::string descriptor(TexelCode code, const CodeFacts& facts)
 }
 
 // Header, where each level is, descriptor, keys, levels from the smallest.
-std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels)
+std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels, const std::string& frame)
 {
     const CodeFacts facts = factsOf(code);
     std::string described = descriptor(code, facts), keys;
-    for (const std::string& entry : {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)}) {
+    std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
+    if (!frame.empty()) // sorted by key; like the others, text with its zero
+        entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
+    for (const std::string& entry : entries) {
         appendNumber(keys, entry.size(), 4);
         keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
     }
@@ -137,9 +141,11 @@ bool isTextureFile(const std::filesystem::path& file)
     return extension == ".dds" || extension == ".ktx2";
 }
 
-Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels)
+Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
+                        const std::string& frame)
 {
-    return writeFileWhole(file, lowerExtension(file) == ".dds" ? ddsBytes(code, levels) : ktx2Bytes(code, levels));
+    return writeFileWhole(file,
+                          lowerExtension(file) == ".dds" ? ddsBytes(code, levels) : ktx2Bytes(code, levels, frame));
 }
 
 TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths)

@@ -33,6 +33,9 @@ struct ConvertedFile {
     Bits bits;
     RecodeCounts counts;
     std::size_t shown = 0; // texels that the mesh shows, where there is one; the rest is padding
+    // Image::frame of the result, which .png, .exr and .ktx2 store: that of the map, from object space that of the mesh,
+    // to object space none.
+    std::string frame = {};
 };
 
 // Converts a file. With a mesh, or to .dds or .ktx2, the map is held whole. Errors: ErrorKind::usage: options that do

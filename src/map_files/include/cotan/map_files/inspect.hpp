@@ -16,6 +16,7 @@ struct SurveyedFile {
     int width = 0, height = 0;
     PixelType type = PixelType::unorm8;
     NormalStatistics statistics;
+    std::string frame = {}; // as Image::frame
 };
 
 // Reads a file through, once or twice. Errors: as openRows; ErrorKind::stopped.

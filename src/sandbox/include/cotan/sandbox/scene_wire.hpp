@@ -13,6 +13,7 @@ template<class W, class T> void exchangeImage(W& w, T& image)
     w.number(image.height);
     w.choice(image.type, PixelType::float32);
     w.array(image.data);
+    w.text(image.frame);
 }
 
 // What is known of a picture before its rows.
@@ -23,6 +24,7 @@ template<class W, class T> void exchangeRowFacts(W& w, T& rows)
     w.choice(rows.type, PixelType::float32);
     w.flag(rows.alpha);
     w.flag(rows.whole);
+    w.text(rows.frame);
 }
 
 template<class W, class T> void exchangeTexture(W& w, T& texture)
