@@ -43,7 +43,9 @@ TEST_F(PictureFile, pngAndExrCarryTheFrameOfAMapWholeAndByRows)
             EXPECT_EQ(readImage(folder / name)->frame, "smooth") << name;
             EXPECT_EQ((*openRows(folder / name))->frame, "smooth") << name;
             const bool floats = std::string(name) == "a.exr";
-            const PixelType stored = floats ? PixelType::float32 : type == PixelType::float32 ? PixelType::unorm8 : type;
+            const PixelType stored = floats  ? PixelType::float32
+                : type == PixelType::float32 ? PixelType::unorm8
+                                             : type;
             auto writer = createRows(folder / name, {5, 4, stored, false, floats, "orthonormal"});
             ASSERT_TRUE(writer);
             ASSERT_TRUE((*writer)->write(flatMap(stored, "")));
@@ -97,9 +99,8 @@ TEST(ImageFrame, whatIsNoWordIsNotTaken)
     }
     EXPECT_EQ(pngWith(chunk("tEXt", "cotanFrame\0"s + std::string(64, 'x')))->frame, std::string(64, 'x'));
     // Cut short, compressed, another key.
-    for (const std::string& data :
-         {"cotanFrame"s, "cotanFrame\0"s, "cotanFrame\0\0"s, "cotanFrame\0\0\0de"s, "cotanFrame\0\1\0\0\0x\x9c"s,
-          "cotanFramed\0\0\0\0\0smooth"s, ""s})
+    for (const std::string& data : {"cotanFrame"s, "cotanFrame\0"s, "cotanFrame\0\0"s, "cotanFrame\0\0\0de"s,
+                                    "cotanFrame\0\1\0\0\0x\x9c"s, "cotanFramed\0\0\0\0\0smooth"s, ""s})
         EXPECT_EQ(pngWith(chunk("iTXt", data))->frame, "") << data;
     EXPECT_EQ(pngWith(chunk("zTXt", "cotanFrame\0\0smooth"s))->frame, "");
 }

@@ -77,7 +77,8 @@ TEST_F(MapFrame, staysInMipLevelsAndUnderADetail)
 
 TEST_F(MapFrame, isLostInObjectSpaceAndComesFromTheMeshThatLeadsBack)
 {
-    std::ofstream(folder / "quad.obj") << "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    std::ofstream(folder / "quad.obj")
+        << "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
     EXPECT_EQ(after({"convert", "map.png", "--from", "gltf", "--to", "object", "--mesh", "quad.obj", "--frame",
                      "orthonormal", "-o", "o.png"}),
               "");

@@ -73,7 +73,7 @@ TEST(OwnMaps, readsTheMapAsTheConventionSays)
         const char* convention;
         double green;
     } cases[] = {{"xyz.png", "gltf", 1},    {"xyz.png", "opengl", 1},           {"xyz.png", "directx", -1},
-                 {"xyz.png", "3dsmax", -1}, {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal", -1}};
+                 {"xyz.png", "3dsmax", -1}, {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal,xy", -1}};
     for (const auto& c : cases) {
         const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", c.file, "--convention", c.convention}),
                                   folder.path());
@@ -284,7 +284,7 @@ TEST(BakeIntoModelWords, refusesWhatAModelCannotHold)
                                                          {"--bits", "32"},
                                                          {"--udim", "1002"},
                                                          {"--convention", "directx"},
-                                                         {"--convention", "unity"}};
+                                                         {"--convention", "unity,xy"}};
     for (const auto& words : wrong) {
         std::vector<std::string> all = {"bake",   "--high", "high.obj", "--low",  "low.obj",
                                         "--size", "16x16",  "-o",       "out.glb"};

@@ -45,6 +45,7 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
 
     Image image = makeImage(int(header.width), int(header.height), header.type, name);
     image.frame = reader.session.frame;
+    image.channels = header.channels;
     const std::size_t rowBytes = std::size_t(header.width) * image.bytesPerPixel();
     if (!readPixels(reader, header, image.bytes8(), rowBytes))
         return pngError(name, reader.session);

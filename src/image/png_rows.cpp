@@ -104,6 +104,7 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const fs::path& fi
     rows->height = int(header.height);
     rows->type = header.type;
     rows->alpha = header.alpha;
+    rows->channels = header.channels;
     rows->frame = rows->reader().session.frame;
     return std::unique_ptr<RowReader>(std::move(rows));
 }

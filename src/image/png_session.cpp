@@ -120,6 +120,8 @@ bool readPngHeader(PngReader& reader, PngHeader& header)
     header.interlaced = png_get_interlace_type(png, reader.info) != PNG_INTERLACE_NONE;
     header.alpha = (png_get_color_type(png, reader.info) & PNG_COLOR_MASK_ALPHA) != 0
         || png_get_valid(png, reader.info, PNG_INFO_tRNS) != 0;
+    const bool coloured = (png_get_color_type(png, reader.info) & PNG_COLOR_MASK_COLOR) != 0;
+    header.channels = (coloured ? 3 : 1) + (header.alpha ? 1 : 0);
 
     png_set_expand(png);
     png_set_gray_to_rgb(png);

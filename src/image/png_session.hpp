@@ -46,6 +46,7 @@ struct PngHeader {
     PixelType type = PixelType::unorm8;
     bool interlaced = false;
     bool alpha = false; // of its own, or a transparent colour
+    int channels = 4;   // Image::channels
 };
 
 // Reads up to the pixel data and asks for RGBA. False: PngSession::message says why.

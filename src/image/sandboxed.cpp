@@ -15,6 +15,8 @@ Status checkPicture(const Image& image, const std::string& file, const LoadLimit
 {
     if (auto error = checkImageSize(image.width, image.height, image.type, file, limits))
         return *error;
+    if (image.channels < 1 || image.channels > 4)
+        return inputError(fmt::format("{}: expected 1 to 4 channels, found {}", file, image.channels));
     if (image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return inputError(fmt::format("{}: expected the bytes of {} x {} pixels, found {}", file, image.width,
                                       image.height, image.data.size()));
@@ -30,6 +32,8 @@ public:
         name = file;
         exchangeRowFacts(process_->answer(), *this);
         frame = std::string(frameText(frame));
+        if (channels < 1 || channels > 4)
+            process_->answer().refuse();
         if (width <= 0 || height <= 0 || width > limits.imageSide || height > limits.imageSide)
             process_->answer().refuse();
         if (!process_->answer().good())

@@ -65,6 +65,8 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
     const auto line = [&](std::string text) { lines.push_back(std::move(text)); };
     line(fmt::format("{}: {} x {}, {}", file, image.width, image.height, bitsName(image.type)));
     line("contents: " + describe(s.content));
+    if (image.channels == 2)
+        line("the file stores two channels");
     if (!image.frame.empty())
         line("made for the frame: " + image.frame);
     if (s.background > 0)
@@ -103,6 +105,7 @@ Json toJson(const SurveyedFile& image)
     Json j = {{"width", image.width},
               {"height", image.height},
               {"bits", bitsName(image.type)},
+              {"stored_channels", image.channels},
               {"contents", describe(s.content)},
               {"channels", name(s.swizzle)},
               {"centre", name(s.centre)},

@@ -22,6 +22,7 @@ public:
     bool alpha = false; // the file stores more than red, green and blue, or grey
     bool whole = false; // the picture is in memory already: its format has no other way
     std::string frame;  // as Image::frame
+    int channels = 4;   // as Image::channels
 
     // Fills the strip, which has the picture's width and type, with the next rows; no more than
     // remain. Errors: as readImage. After one, only the destructor may follow.

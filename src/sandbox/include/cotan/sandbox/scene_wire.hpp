@@ -14,6 +14,7 @@ template<class W, class T> void exchangeImage(W& w, T& image)
     w.choice(image.type, PixelType::float32);
     w.array(image.data);
     w.text(image.frame);
+    w.number(image.channels);
 }
 
 // What is known of a picture before its rows.
@@ -25,6 +26,7 @@ template<class W, class T> void exchangeRowFacts(W& w, T& rows)
     w.flag(rows.alpha);
     w.flag(rows.whole);
     w.text(rows.frame);
+    w.number(rows.channels);
 }
 
 template<class W, class T> void exchangeTexture(W& w, T& texture)

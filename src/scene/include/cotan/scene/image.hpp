@@ -29,6 +29,9 @@ struct Image {
     // Name of the frame that a normal map was made for, as the file says it (key cotanFrame of PNG, EXR and KTX2): any
     // word of up to 64 characters, not only names that frameFromName knows. Empty: it is not said.
     std::string frame = {};
+    // How many channels the file stores: 1 grey, 2 (red and green of KTX2 and DDS, others grey and alpha), 3, 4. 4 also
+    // where nothing is known.
+    int channels = 4;
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }
