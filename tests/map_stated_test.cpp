@@ -7,6 +7,7 @@
 #include "cotan/shapes/shapes.hpp"
 #include "ktx2_maker.hpp"
 #include "png_maker.hpp"
+#include "quad_model.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {
@@ -194,6 +195,23 @@ TEST(MapPresets, unityUnrealAndGodotGetRealBlue)
         const auto two = readImage(folder / "two.png");
         EXPECT_EQ(int(two->bytes8()[2]), 128) << to; // on the card blue counts for nothing
         EXPECT_EQ(two->bytes8()[0], out->bytes8()[0]) << to;
+    }
+}
+
+// A flat surface over itself: (128, 128, 255).
+TEST(MapPresets, bakedForThemHaveRealBlueToo)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    for (const auto& [convention, blue] :
+         {std::pair("unity", 255), {"unreal", 255}, {"godot", 255}, {"unity,xy", 128}}) {
+        const ToolRun run = runTool({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "16x16",
+                                     "--convention", convention, "-o", "out.png", "--overwrite"},
+                                    folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+        const auto out = readImage(folder / "out.png");
+        for (int c = 0; c < 3; ++c)
+            EXPECT_EQ(int(out->bytes8()[4 * (8 * 16 + 8) + std::size_t(c)]), c == 2 ? blue : 128) << convention;
     }
 }
 

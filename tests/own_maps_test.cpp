@@ -83,6 +83,31 @@ TEST(OwnMaps, readsTheMapAsTheConventionSays)
     }
 }
 
+// The same texel in BC5, whose codes are 8 bits, and as red and green with the middle in blue.
+TEST(OwnMaps, believesAFileThatStoresTwoChannels)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeMap(folder / "xyz.png", {204, 189, 209, 255});
+    writeMap(folder / "middle.png", {204, 189, 128, 255});
+    for (const char* file : {"bc5.ktx2", "bc5.dds"})
+        ASSERT_EQ(
+            runTool({"map", "convert", "xyz.png", "--from", "gltf", "--to", "gltf", "--compress", "bc5", "-o", file},
+                    folder.path())
+                .code,
+            0);
+    for (const char* file : {"bc5.ktx2", "bc5.dds", "middle.png"}) {
+        const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", file}), folder.path());
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_LT(glm::distance(normalInTheMiddle(folder / "n.png"), glm::vec3(0.6, 0.48, 0.64)), 0.015) << file;
+    }
+    const ToolRun wrong =
+        runTool(drawn({"render", "square.obj", "--normal-map", "bc5.ktx2", "--convention", "gltf,xyz"}), folder.path());
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
+    EXPECT_NE(wrong.err.find("--convention: bc5.ktx2 stores two channels"), std::string::npos) << wrong.err;
+}
+
 TEST(OwnMaps, saysWhatIsWrongWithItInOneLine)
 {
     TemporaryFolder folder;

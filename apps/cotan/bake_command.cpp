@@ -210,10 +210,10 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.option("--high-convention", o.highConvention,
-             "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
+             "how the high mesh's map is stored, words as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME")
-        .offers(presetWords());
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--bits", o.bits,
              "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
         .from({8, 16, 32})

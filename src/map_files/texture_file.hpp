@@ -21,8 +21,8 @@ struct TextureLevel {
 // Whether a file of that name is one of them.
 bool isTextureFile(const std::filesystem::path& file);
 
-// levels: each half as large as the one before, the largest first. frame: Image::frame, which KTX2 holds and DDS does not.
-// Errors: as writeFileWhole.
+// levels: each half as large as the one before, the largest first. frame: Image::frame, which KTX2 holds and DDS does
+// not. Errors: as writeFileWhole.
 Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
                         const std::string& frame = {});
 
