@@ -4,9 +4,10 @@
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "cotan/convention_words.hpp"
 #include "cotan/convert/put_map.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/verify/views.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
@@ -110,10 +111,9 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
         return ok;
-    const std::string extension = lowerExtension(o.output);
-    if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
-        return usageError(
-            fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.output.string()));
+    if (o.bits == 32 && !imageFormatHas(o.output, &ImageFormat::negative))
+        return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
     std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
     if (!o.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
@@ -210,16 +210,18 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.option("--high-convention", o.highConvention,
-             "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
+             "how the high mesh's map is stored, words as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME")
-        .offers(presetWords());
-    a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--bits", o.bits,
+             "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
+        .from({8, 16, 32})
+        .in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
-    a.option("--convention", o.convention,
-             "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
-        .in("NAME")
-        .offers(presetWords());
+    a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--unsigned", o.expansion,
              "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
         .from({"exact", "biased"})
@@ -246,7 +248,7 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "bake the normal map of a detailed mesh for a simple one, for a named frame",
-         "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
+         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
         declare, run);

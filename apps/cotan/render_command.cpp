@@ -7,6 +7,7 @@
 
 #include "cotan/image/animation.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
@@ -189,7 +190,7 @@ void declare(Arguments& a, RenderCommandOptions& o)
     a.option(
          "--frames", o.frames,
          "pictures A to B of --animation with the camera of the first, written as NAME-0000.png and so on, or into one "
-         ".webp or .gif")
+             + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
     a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
 }
@@ -202,8 +203,10 @@ void addRenderCommand(Arguments& tool)
         tool,
         {"render",
          "draw a model, or the built-in scene, to a picture",
-         "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats; .webp, .gif: all "
-         "of --frames",
+         fmt::format("picture to write: {} (8 bit); {} keep floats; {}: all of --frames",
+                     imageEndings([](const ImageFormat& f) { return f.writes && !f.floats; }, ", "),
+                     imageEndings([](const ImageFormat& f) { return f.writes && f.floats; }, ", "),
+                     imageEndings(&ImageFormat::animation, ", ")),
          {"cotan render model.glb -o picture.png --frame cotangent --view normal",
           "cotan render --size 640x360 -o scene.png"}},
         declare, run);

@@ -33,6 +33,7 @@ public:
             return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
                                           gltfPath(document_).string(), name(**named), name(options_.frames.from)));
+        named_ = named->has_value();
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
@@ -85,6 +86,11 @@ private:
         auto map = decodeImage(*bytes, field, options_.limits);
         if (!map)
             return map.error();
+        // The materials have been asked; an image says it where they say nothing.
+        if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
+            return inputError(fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
+                                          "convert from, found {}",
+                                          field, map->frame, name(options_.frames.from)));
         completeNormals(*map);
         ConvertedMap done{job.image, job.name, job.uses.size(), map->width, map->height};
         done.alsoElsewhere = job.alsoElsewhere;
@@ -99,9 +105,10 @@ private:
                                           field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
-        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
+        Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
         if (rows.stopped())
             return stoppedError();
+        r.image.frame = name(options_.frames.to);
         auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
@@ -164,6 +171,7 @@ private:
     const ConvertModelOptions& options_;
     GltfDocument document_; // a copy, so that an error leaves the caller's as it was
     ConvertModelReport report_;
+    bool named_ = false; // the materials say for which frame their maps are
 };
 
 } // namespace

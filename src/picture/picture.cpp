@@ -84,12 +84,6 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     return view;
 }
 
-bool keepsFloats(const std::filesystem::path& file)
-{
-    const std::string extension = file.extension().string();
-    return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-}
-
 bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
 
 namespace {

@@ -9,7 +9,7 @@ export interface Picture {
   data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
 }
 
-/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xyz" and so on. */
+/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xy" and so on. */
 export type Convention = string;
 export type Bits = 8 | 16 | 32;
 

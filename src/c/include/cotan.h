@@ -11,7 +11,7 @@
  *
  * Data. Arrays of vectors are floats without gaps, two or three to a vector. Pictures are red, green, blue, alpha
  * without gaps, rows from the top. Names of frames and other words are those of the command line. So are conventions:
- * "gltf", "unity,xyz". */
+ * "gltf", "unity,xy". */
 #ifndef COTAN_H
 #define COTAN_H
 

@@ -58,9 +58,6 @@ Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std
 // The view that the options name, but for surroundings, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);
 
-// Whether a picture file of that name keeps floats, so that light stays linear and unlimited in it.
-bool keepsFloats(const std::filesystem::path& file);
-
 // Whether the exposure is to be found by meterExposure.
 bool meters(const PictureOptions& options);
 
