@@ -41,6 +41,8 @@ Json lintJson(const LintReport& report, const Scene& scene)
                  {"distrust_stored", report.distrustStored}};
     json.update(listsOf(report));
     json["warnings"] = scene.warnings;
+    if (!report.defects.empty())
+        json["warnings"].push_back(report.defects);
     return json;
 }
 

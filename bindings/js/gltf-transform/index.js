@@ -1,8 +1,9 @@
 // Transforms for glTF-Transform 4.5: see index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
-import { convert, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
+import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
+const kFrameKey = 'cotanFrame'; // in the extras of materials
 const kTangentFrames = ['mikktspace', 'vertex'];
 
 function* primitivesOf(document) {
@@ -175,7 +176,13 @@ function replaceMap(document, map, png) {
   texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.png`);
 }
 
-export function untangent({ from = 'mikktspace', to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
+/** Which frame the maps of a material are for; undefined: glTF's own, which is not written. */
+function nameFrame(material, frame) {
+  const { [kFrameKey]: before, ...others } = material.getExtras();
+  if (before !== frame) material.setExtras(frame === undefined ? others : { ...others, [kFrameKey]: frame });
+}
+
+export function untangent({ from, to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
   decode = decodePicture, report } = {}) {
   return named('untangent', async (document) => {
     await ready;
@@ -195,20 +202,23 @@ export function untangent({ from = 'mikktspace', to = 'cotangent', bits = 0, kee
       if (!has) dropTangents(primitive);
       else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
     }));
+    document.getRoot().listMaterials().forEach((material, m) => nameFrame(material, json.materials?.[m]?.extras?.[kFrameKey]));
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
     document.getLogger().info(`untangent: ${maps.length} maps made for ${to}, ${found.maps.length - maps.length} kept`);
     report?.(found);
   });
 }
 
-export function lintNormals({ distance = 0, decode = decodePicture, report } = {}) {
+export function lintNormals({ distance = 0, limit, limitArea, frame = 'orthonormal', decode = decodePicture, report } = {}) {
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await written(document, decode);
-    const found = await lint(model, { files, distance, decode });
+    const found = await lint(model, { files, distance, limit, limitArea, frame, decode });
     document.getLogger().info(`lintNormals: ${found.recommendation}`);
     for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);
     report?.(found);
+    const [first, ...more] = found.over_limit;
+    if (first) throw new CotanError('limit', more.length > 0 ? `${first} and ${more.length} more` : first);
   });
 }
 
