@@ -35,7 +35,8 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
-    as.format.expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact;
+    const bool biased = o.expansion.empty() ? namedAsGltf(o.output) : o.expansion == "biased";
+    as.format.expansion = biased ? Expansion::biased : Expansion::exact;
     if (namedAsGltf(o.output) && (greenAlongV(as.format) || as.format.channels != Channels::xyz))
         return usageError(
             fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));

@@ -99,6 +99,8 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         materials = allMaterials(document.root);
     }
     putMap(document, materials, std::move(png));
+    for (const std::size_t m : materials)
+        setExpansion(document.root["materials"][m], options.expansion);
     if (Status settled = settleTangents(document, options, notes); !settled)
         return settled;
     if (options.frame != Frame::mikktspace)
