@@ -13,3 +13,9 @@ cotan_test(judgement_command_test
   LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(judgement_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(judgement_command_test cotan)
+# What commands do where nobody names a frame.
+cotan_test(auto_frame_test
+  SOURCES auto_frame_command_test.cpp
+  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json fmt::fmt)
+target_compile_definitions(auto_frame_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
+add_dependencies(auto_frame_test cotan)

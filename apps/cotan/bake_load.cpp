@@ -9,6 +9,7 @@
 #include "cotan/convention.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/stored_green.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
 
@@ -184,6 +185,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     auto low = loadSceneWithin(o.memory, o.low);
     if (!low)
         return low.error();
+    restoreDeclaredGreen(*low); // the new map takes the place of the old one, beside the tangents as they are stored
     Scene cage;
     if (!o.cage.empty()) {
         auto scene = loadSceneWithin(kDefaultMemory, o.cage, Pixels::none);

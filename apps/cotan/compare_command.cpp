@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cotan/image/file.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
@@ -16,16 +17,16 @@ namespace {
 
 struct CompareCommandOptions : CommonOptions {
     PictureOptions picture;
-    std::string frames = "cotangent,mikktspace";
+    std::string frames = "auto,mikktspace";
 };
 
-Result<std::array<Frame, 2>> parsePair(const std::string& text)
+Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
 {
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos)
         return usageError(fmt::format("--frames: expected two names A,B; found '{}'", text));
-    const auto a = parseFrame(text.substr(0, comma));
-    const auto b = parseFrame(text.substr(comma + 1));
+    const auto a = parseFrameChoice(text.substr(0, comma));
+    const auto b = parseFrameChoice(text.substr(comma + 1));
     for (const auto* frame : {&a, &b})
         if (!*frame)
             return usageError("--frames: " + frame->error().message);
@@ -39,25 +40,29 @@ Status run(const CompareCommandOptions& o)
     const auto pair = parsePair(o.frames);
     if (!pair)
         return pair.error();
-    for (Frame frame : *pair)
+    for (const FrameChoice& frame : *pair)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
-    const std::string a(name((*pair)[0])), b(name((*pair)[1]));
+    auto picture = openPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
+    if (!picture)
+        return picture.error();
+    const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
+    const std::string a(name(frames[0])), b(name(frames[1]));
     std::vector<std::string> names = {a + ".png", "difference.png"};
     if (a != b)
         names.push_back(b + ".png");
     if (Status planned = planOutputs(o, plannedIn("-o", o.output, names)); !planned)
         return planned;
-    auto picture = openPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
-    if (!picture)
-        return picture.error();
+    for (const Frame frame : frames)
+        if (const std::string note = frameNote(picture->scene, frame); !note.empty())
+            warn(o, note);
     auto painter = openPicturePainter(o.picture, o, *picture);
     if (!painter)
         return painter.error();
     Stopwatch watch;
     const auto compared = withProgress(o, kComparedFramesPictures, "drawing", [&](Progress progress) {
         (*painter)->progress = std::move(progress);
-        return compareFrames(**painter, picture->scene, picture->view, *pair);
+        return compareFrames(**painter, picture->scene, picture->view, frames);
     });
     if (!compared)
         return compared.error();
@@ -93,7 +98,7 @@ Status run(const CompareCommandOptions& o)
 void declare(Arguments& a, CompareCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frames", o.frames, "the two frames, from: " + frameNames()).in("A,B").offers(frameWords());
+    a.option("--frames", o.frames, "the two frames, from: auto, " + frameNames()).in("A,B").offers(frameWords());
 }
 
 } // namespace
@@ -105,7 +110,7 @@ void addCompareCommand(Arguments& tool)
         {"compare",
          "draw a model with two frames and measure the difference in degrees",
          "folder for both pictures and the heat map",
-         {"cotan compare model.glb --frames cotangent,mikktspace -o difference",
+         {"cotan compare model.glb -o difference",
           "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"}},
         declare, run);
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cotan/convert/convert_model.hpp"
+#include "cotan/convert/named_frame.hpp"
 #include "cotan/draw/painter.hpp"
 #include "cotan/report/convert_report.hpp"
 #include "cotan/verify/conversion.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct ConvertCommandOptions : CommonOptions {
     std::string model;
-    std::string from = "mikktspace", to;
+    std::string from, to; // from: empty for the frame that the file names, or mikktspace
     std::string tangents = "stored";
     bool keepTangents = false;
     std::string provoking; // empty: vertices stay
@@ -69,10 +70,10 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     if (o.to.empty())
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
-    const auto from = frameFor("--from-frame", o.from);
+    const auto from = frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from);
     if (!from)
         return from.error();
-    const auto to = frameFor("--to-frame", o.to.empty() ? o.from : o.to);
+    const auto to = o.to.empty() ? *from : frameFor("--to-frame", o.to);
     if (!to)
         return to.error();
     if (o.output.empty())
@@ -165,7 +166,7 @@ Status provoke(const ConvertCommandOptions& o, GltfDocument& document, Json& rep
 
 Status run(const ConvertCommandOptions& o)
 {
-    const auto frames = checkUsage(o);
+    auto frames = checkUsage(o);
     if (!frames)
         return frames.error();
     Stopwatch watch;
@@ -178,8 +179,14 @@ Status run(const ConvertCommandOptions& o)
         return opened.error();
     GltfDocument& document = opened->document;
     Json report = {{"command", "convert"}, {"model", o.model}};
-    if (*frames)
-        report.update({{"from", o.from}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
+    if (*frames) {
+        const auto named = namedFrame(document);
+        if (!named)
+            return inWords(named.error());
+        if (*named && o.from.empty())
+            (*frames)->from = **named;
+        report.update({{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
+    }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
     std::vector<std::string> notes;
@@ -213,7 +220,8 @@ Status run(const ConvertCommandOptions& o)
 void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
-    a.option("--from-frame", o.from, "frame that the maps were made for").in("FRAME").offers(frameWords());
+    a.option("--from-frame", o.from, "frame that the maps were made for (default: the one that the file names, else "
+                                          "mikktspace)").in("FRAME").offers(frameWords());
     a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
         .in("FRAME")
         .offers(frameWords());

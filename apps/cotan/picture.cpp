@@ -6,7 +6,7 @@
 namespace cotan::app {
 
 Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
-                            std::initializer_list<Frame> frames, const View* like)
+                            std::initializer_list<FrameChoice> frames, const View* like)
 {
     Stopwatch watch;
     const auto open = [&] {

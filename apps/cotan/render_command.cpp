@@ -9,6 +9,7 @@
 #include "cotan/image/file.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
-    std::string frame = "cotangent";
+    std::string frame{kAutoFrame};
     std::string frames; // "A..B"
     double rate = 24;
 };
@@ -28,7 +29,7 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     auto image = drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                           [&](const AngleStatistics& degrees) {
                               report["error_against_exact"] = toJson(degrees);
-                              say(o, "{} against exact: {}", o.frame, toText(degrees));
+                              say(o, "{} against exact: {}", name(picture.view.frame), toText(degrees));
                           });
     if (image)
         if (Status laid = layEdges(painter, picture.view, o.picture, picture.edges, *image); !laid)
@@ -44,14 +45,16 @@ struct Sequence {
 };
 
 // Draws one picture into o.output, or as the next one of the sequence's file.
-Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
+Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& sequence)
 {
     std::optional<View>& shared = sequence.view;
     Stopwatch total;
     auto picture = openPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
     if (!picture)
         return picture.error();
-    picture->view.frame = frame;
+    picture->view.frame = picture->frames.front();
+    if (const std::string note = frameNote(picture->scene, picture->view.frame); !note.empty())
+        warn(o, note);
     picture->view.output = outputOf(o.picture.show);
 
     Stopwatch watch;
@@ -73,7 +76,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
     const double writeSeconds = watch.lap();
 
     report.update(describeScene(o.picture, *picture));
-    report["frame"] = o.frame;
+    report["frame"] = name(picture->view.frame);
     report["view"] = o.picture.show;
     report["shading"] = o.picture.shading;
     report["device"] = (*painter)->device();
@@ -82,7 +85,7 @@ Status renderOne(const RenderCommandOptions& o, Frame frame, Sequence& sequence)
         {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*painter)->uploadSeconds()},
         {"draw", drawSeconds},          {"write", writeSeconds},      {"total", total.lap()}};
     say(o, "{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(), picture->view.width, picture->view.height,
-        trianglesDrawn(picture->scene), o.frame, (*painter)->device());
+        trianglesDrawn(picture->scene), name(picture->view.frame), (*painter)->device());
     return writeReport(o, report);
 }
 
@@ -135,7 +138,7 @@ Status run(const RenderCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("render: expected -o FILE; found none");
-    const auto frame = parseFrame(o.frame);
+    const auto frame = parseFrameChoice(o.frame);
     if (!frame)
         return frame.error();
     if (Status fits = checkLighting(o.picture, *frame); !fits)

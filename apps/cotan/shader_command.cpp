@@ -15,7 +15,7 @@ using shader_text::Form;
 
 struct ShaderCommandOptions : CommonOptions {
     std::string language;
-    std::string frame = "cotangent";
+    std::string frame; // empty: by the language
     std::string form, stage;
     std::string preset, channels, green, expansion;
     std::vector<std::string> sets;
@@ -79,7 +79,9 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     Choice choice;
     if (Status ok = chooseText(o, choice); !ok)
         return ok.error();
-    const Result<Frame> frame = parseFrame(o.frame);
+    // In Godot the text is a model's material, and maps of models are for MikkTSpace; elsewhere it is a function.
+    const std::string usual(name(o.language == "godot" ? Frame::orthonormal : Frame::cotangent));
+    const Result<Frame> frame = parseFrame(o.frame.empty() ? usual : o.frame);
     if (!frame)
         return usageError(frame.error().message);
     choice.frame = *frame;
@@ -145,7 +147,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
         .required()
         .in("NAME");
-    a.option("--frame", o.frame, "one of " + frameNames()).in("NAME").offers(frameWords());
+    a.option("--frame", o.frame, "one of " + frameNames() + " (default: cotangent; with --lang godot orthonormal)")
+        .in("NAME")
+        .offers(frameWords());
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "

@@ -50,7 +50,7 @@ Status neighbour(State& state, int step)
 
 Status setFrame(Side& side, const std::string& name)
 {
-    if (const auto frame = parseFrame(name); !frame)
+    if (const auto frame = parseFrameChoice(name); !frame)
         return frame.error();
     side.frame = name;
     return Done{};

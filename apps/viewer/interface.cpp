@@ -8,6 +8,7 @@
 
 #include "camera.hpp"
 #include "commands.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "files.hpp"
@@ -19,6 +20,14 @@ namespace {
 
 std::string degrees(double value) { return fmt::format("{:.2f}\xc2\xb0", value); }
 
+// The frame's name; of "auto" also the one that it is for the model's own maps.
+std::string frameLabel(const State& s, const Side& side)
+{
+    if (side.frame != kAutoFrame || !s.model || !side.normalMap.empty())
+        return side.frame;
+    return side.frame + " (" + std::string(name(chosenFrame({}, s.picture, s.model->scene))) + ")";
+}
+
 std::string statusOf(const State& s)
 {
     std::string text = !s.picture.model.empty() ? fileName(s.picture.model)
@@ -27,9 +36,9 @@ std::string statusOf(const State& s)
     if (s.model)
         text += fmt::format("   {} triangles", trianglesDrawn(s.model->scene));
     const Side& side = sideOf(s, s.compare == Compare::flip && s.second);
-    text += "   " + s.show + ", " + side.frame;
+    text += "   " + s.show + ", " + frameLabel(s, side);
     if (s.compare == Compare::divider || s.compare == Compare::angle)
-        text += (s.compare == Compare::angle ? " against " : " | ") + s.b.frame;
+        text += (s.compare == Compare::angle ? " against " : " | ") + frameLabel(s, s.b);
     if (s.statisticsShown && !s.statisticsOf.empty())
         text += s.statistics.count > 0
             ? fmt::format("   {}: mean {}, 95 % {}, most {}", s.statisticsOf, degrees(s.statistics.mean),
@@ -174,8 +183,8 @@ Interface interfaceOf(const State& s)
             i.hotSpots.push_back({(*s.hotSpots)[k].text, fmt::format("hot-spot {}", k)});
     if (s.compare == Compare::divider && s.interfaceShown) {
         i.divider = s.divider * float(s.size.x);
-        i.leftName = s.a.frame;
-        i.rightName = s.b.frame;
+        i.leftName = frameLabel(s, s.a);
+        i.rightName = frameLabel(s, s.b);
     }
     return i;
 }

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "cotan/environment/environment.hpp"
+#include "cotan/picture/words.hpp"
 #include "files.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
@@ -121,6 +122,7 @@ void addFrameEntries(Entries& e, const State& s)
             const std::string key = i < 9 ? fmt::format("{}{}", second ? "shift+" : "", i + 1) : "";
             e.add(names[i], key, before + "frame " + names[i], side.frame == names[i]);
         }
+        e.add("auto: what the maps mean", "", before + "frame auto", side.frame == kAutoFrame);
         e.line();
         e.add("Tangents of the file", "", before + "tangents stored", side.tangents == "stored");
         e.add("Tangents generated", "", before + "tangents generated", side.tangents == "generated");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cotan/draw/camera_words.hpp"
+#include "cotan/picture/words.hpp"
 #include "parse.hpp"
 
 namespace cotan::viewer {
@@ -26,11 +27,11 @@ void PointerProbe::follow(State& state)
         return;
     key_ = key;
     const auto look = [this, model = state.model, camera = state.camera, size = state.size, pointer = state.pointer,
-                       side] {
+                       side, picture = state.picture] {
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
         if (probe.hit)
-            probe.surface = prober_.at(model->scene, model->number, *probe.hit, *parseFrame(side.frame),
+            probe.surface = prober_.at(model->scene, model->number, *probe.hit, chosenFrame(*parseFrameChoice(side.frame), picture, model->scene),
                                        side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
         return probe;
     };

@@ -9,6 +9,7 @@
 #include "camera.hpp"
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/parse_number.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "files.hpp"
 #include "settings.hpp"
@@ -71,7 +72,7 @@ PictureOptions optionsOf(const State& state, bool second)
     const Side& side = sideOf(state, second);
     o.tangents = side.tangents;
     o.maps.normal = side.normalMap;
-    o.maps.convention = side.convention.empty() ? OwnMaps().convention : side.convention;
+    o.maps.convention = side.convention;
     return o;
 }
 
@@ -111,7 +112,7 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
     if (compares)
         add("frames", state.a.frame + "," + state.b.frame);
-    else if (side.frame != "cotangent")
+    else if (side.frame != kAutoFrame)
         add("frame", side.frame);
     if (!compares && state.show != "shaded")
         add("view", state.show);

@@ -36,6 +36,12 @@ bool plain(const PictureOptions& o, Frame frame)
         && m.occlusion.empty() && m.convention == none.convention;
 }
 
+// Of a side, whose words are known to be right.
+Frame frameOf(const Order& order, bool second, const Scene& scene)
+{
+    return chosenFrame(*parseFrameChoice((second ? order.b : order.a).frame), second ? order.second : order.first, scene);
+}
+
 std::string lightKey(const PictureOptions& o)
 {
     return fmt::format("{}|{}|{}", o.environment, o.environmentRotation, o.environmentIntensity);
@@ -97,7 +103,7 @@ Status Studio::drawFigures(const Order& order, Drawn& drawn)
         return degrees.error();
     drawn.degrees = *degrees;
     drawn.statistics = angleStatistics(drawn.degrees);
-    drawn.statisticsOf = two ? "first against second" : order.a.frame + " against exact";
+    drawn.statisticsOf = two ? "first against second" : std::string(name(view->frame)) + " against exact";
     drawn.hasFigures = true;
     return Done{};
 }
@@ -196,7 +202,7 @@ Result<std::vector<float>> Studio::degreesOf(const Order& order, Stage& first, c
         if (!staged)
             return staged.error();
         other = *staged;
-        normals.frame = *parseFrame(order.b.frame);
+        normals.frame = frameOf(order, true, *other->scene);
         normals.normalMaps = !second.noNormalMaps;
     } else {
         normals.frame = Frame::exact;
@@ -213,11 +219,12 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
 {
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
-    const auto frame = parseFrame(side.frame);
-    if (!frame)
-        return frame.error();
+    const auto choice = parseFrameChoice(side.frame);
+    if (!choice)
+        return choice.error();
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
-    const std::string key = sceneKey(*order.model, o, *frame, inspection);
+    const Frame frame = chosenFrame(*choice, o, order.model->scene); // of the model's own maps: others are not on it yet
+    const std::string key = sceneKey(*order.model, o, frame, inspection);
     for (Stage& known : stages_)
         if (known.key == key && known.painter)
             return &known;
@@ -234,9 +241,9 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
     const Scene ownBefore = std::exchange(s.own, {});
     const Scene* before = !loaded ? nullptr : s.scene == &s.own ? &ownBefore : s.scene;
     s.scene = &s.model->scene;
-    if (!plain(o, *frame) || !inspection.empty()) {
+    if (!plain(o, frame) || !inspection.empty()) {
         s.own = s.model->scene;
-        if (Status prepared = prepareScene(o, inspection, {*frame}, s.own); !prepared)
+        if (const auto prepared = prepareScene(o, inspection, {*choice}, s.own); !prepared)
             return prepared.error();
         s.scene = &s.own;
     }
@@ -253,7 +260,7 @@ Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float ex
     auto view = viewOf(o, *s.scene);
     if (!view)
         return view;
-    view->frame = *parseFrame((second ? order.b : order.a).frame);
+    view->frame = frameOf(order, second, *s.scene);
     view->output = outputOf(order.show);
     view->lights = lightsOf(o, *s.scene);
     const bool dark = o.use == PictureUse::data; // nothing is lit then

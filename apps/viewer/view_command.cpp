@@ -17,7 +17,7 @@ namespace {
 
 struct ViewCommandOptions : CommonOptions {
     PictureOptions picture;
-    std::string frame = "cotangent";
+    std::string frame{kAutoFrame};
     std::string second;
     std::vector<std::string> commands;
     std::string play, record;
@@ -42,13 +42,12 @@ Status run(const ViewCommandOptions& o)
     if (!size)
         return size.error();
     state.size = {size->first, size->second};
-    state.a = {o.frame, o.picture.tangents, o.picture.maps.normal,
-               o.picture.maps.convention == OwnMaps().convention ? "" : o.picture.maps.convention};
+    state.a = {o.frame, o.picture.tangents, o.picture.maps.normal, o.picture.maps.convention};
     state.b = state.a;
     state.b.frame = o.second.empty() ? "mikktspace" : o.second;
     state.show = o.picture.show;
     for (const auto& frame : {state.a.frame, state.b.frame})
-        if (const auto known = parseFrame(frame); !known)
+        if (const auto known = parseFrameChoice(frame); !known)
             return known.error();
     viewer::SessionOptions session;
     session.common = o;

@@ -7,6 +7,7 @@
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/scene/check.hpp"
 #include "cotan/scene/put_picture.hpp"
+#include "cotan/scene/stored_green.hpp"
 
 namespace cotan {
 
@@ -85,9 +86,11 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
         putNormalMap(scene, high.maps.size() > 1 ? std::move(high.maps[i]) : high.maps.front(), {});
     }
     if (format)
-        for (Scene& scene : high.scenes)
+        for (Scene& scene : high.scenes) {
+            restoreDeclaredGreen(scene);
             for (Material& material : scene.materials)
                 material.normalFormat = *format;
+        }
 }
 
 // The normal maps of the detailed scenes, whose images are moved out.

@@ -5,6 +5,7 @@
 #include "call.hpp"
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/stored_green.hpp"
 #include "models.hpp"
 #include "pictures.hpp"
 
@@ -131,7 +132,8 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
                                cotan_bytes** warnings, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Scene& simple = sceneOf(low, "low");
+        Scene simple = sceneOf(low, "low");
+        restoreDeclaredGreen(simple); // the new map is for the tangents as they are stored
         require(high || high_count == 0, "high: expected models, found null");
         HighModel model;
         for (std::size_t i = 0; i < high_count; ++i)

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "cotan/convert/convert_model.hpp"
+#include "cotan/convert/named_frame.hpp"
 #include "cotan/gltf/edit.hpp"
 #include "cotan/report/convert_report.hpp"
 #include "json_text.hpp"
@@ -77,6 +78,13 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     return convert;
 }
 
+// Where the caller names none: the frame that the document names.
+void chooseFrom(const cotan_convert_options& o, const GltfDocument& document, ConvertModelOptions& convert)
+{
+    if (!o.from)
+        convert.frames.from = valueOf(namedFrame(document)).value_or(convert.frames.from);
+}
+
 // Bytes that no file has twice.
 Bytes placeholderOf(std::size_t number)
 {
@@ -134,8 +142,9 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
         if (result)
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
-        const ConvertModelOptions convert = optionsFor(o, source);
+        ConvertModelOptions convert = optionsFor(o, source);
         GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
+        chooseFrom(o, document, convert);
         const ConvertModelReport report = valueOf(convertModel(document, convert));
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
         giveText(convertJson(report), json);
@@ -162,6 +171,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
             return made->pictures.back().placeholder;
         };
         made->document = valueOf(openGltfDocument(source.name(), convert.limits));
+        chooseFrom(o, made->document, convert);
         made->report = valueOf(convertModel(made->document, convert));
         made->document = closedDocument(made->document, convert.limits);
         if (result)

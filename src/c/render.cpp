@@ -3,6 +3,7 @@
 #include "cotan/picture/picture.hpp"
 #include "cotan/picture/words.hpp"
 #include "cotan/report/words.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "json_text.hpp"
 #include "model_files.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 struct Wanted {
     PictureOptions picture;
-    std::string frame = "cotangent";
+    std::string frame{kAutoFrame};
 };
 
 // What the words ask for, checked as the command line checks it.
@@ -54,18 +55,20 @@ void readFrom(const ModelFiles& source, PictureOptions& options)
 
 Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
 {
-    const Frame frame = valueOf(parseFrame(wanted.frame));
+    const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
     if (const Status fits = checkLighting(wanted.picture, frame); !fits)
         throw Failure{fits.error()};
     Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
-    picture.view.frame = frame;
+    picture.view.frame = picture.frames.front();
     picture.view.output = outputOf(wanted.picture.show);
     const auto painter = valueOf(openPicturePainter(wanted.picture, picture));
     painter->progress = progressOf(o.progress, o.user);
-    report = {{"frame", wanted.frame}, {"view", wanted.picture.show}, {"device", painter->device()}};
+    report = {{"frame", name(picture.view.frame)}, {"view", wanted.picture.show}, {"device", painter->device()}};
     report.update(countsOf(picture.scene));
     if (!painter->note.empty())
         report["note"] = painter->note;
+    if (const std::string note = frameNote(picture.scene, picture.view.frame); !note.empty())
+        report["frame_note"] = note;
     Image image =
         valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
                          [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));

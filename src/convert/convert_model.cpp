@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/convert/map_jobs.hpp"
+#include "cotan/convert/named_frame.hpp"
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
@@ -25,6 +26,13 @@ public:
 
     Status run()
     {
+        const auto named = namedFrame(document_);
+        if (!named)
+            return named.error();
+        if (*named && **named != options_.frames.from)
+            return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
+                                          "that as the frame to convert from, found {}",
+                                          gltfPath(document_).string(), name(**named), name(options_.frames.from)));
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
@@ -48,6 +56,9 @@ public:
                 options_.mapDone(*map);
             report_.maps.push_back(std::move(*map));
         }
+        for (const MapJob& job : *jobs)
+            for (const MapPlace& place : job.places)
+                nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
             return settled;
         const bool changed =

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/convert/named_frame.hpp"
 #include "cotan/convert/tangents.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/gltf/lookup.hpp"
@@ -99,8 +100,10 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         materials = allMaterials(document.root);
     }
     putMap(document, materials, std::move(png));
-    for (const std::size_t m : materials)
-        setExpansion(document.root["materials"][m], options.expansion);
+    for (const std::size_t material : materials) {
+        nameFrame(document, material, options.frame);
+        setExpansion(document.root["materials"][material], options.expansion);
+    }
     if (Status settled = settleTangents(document, options, notes); !settled)
         return settled;
     if (options.frame != Frame::mikktspace)

@@ -40,7 +40,17 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
                        {{"min", array(low)}, {"max", array(high)}});
 }
 
-Json primitiveOf(GltfDocument& document, const Mesh& mesh)
+// As the file has them that they were read from (followStoredTangents).
+std::vector<glm::vec4> storedTangents(const Mesh& mesh, const Material& material)
+{
+    std::vector<glm::vec4> tangents = mesh.tangents;
+    if (material.greenReversed)
+        for (glm::vec4& tangent : tangents)
+            tangent.w = -tangent.w;
+    return tangents;
+}
+
+Json primitiveOf(GltfDocument& document, const Mesh& mesh, const Material& material)
 {
     Json attributes = {{"POSITION", addPositions(document, mesh.positions)}};
     const auto add = [&](const char* name, const auto& elements, const char* type) {
@@ -48,7 +58,7 @@ Json primitiveOf(GltfDocument& document, const Mesh& mesh)
             attributes[name] = addElements(document, elements, type, gltf::kFloat, gltf::kArrayBuffer);
     };
     add("NORMAL", mesh.normals, "VEC3");
-    add("TANGENT", mesh.tangents, "VEC4");
+    add("TANGENT", storedTangents(mesh, material), "VEC4");
     add("TEXCOORD_0", mesh.texcoords[0], "VEC2");
     add("TEXCOORD_1", mesh.texcoords[1], "VEC2");
     add("COLOR_0", mesh.colors, "VEC4");
@@ -122,6 +132,8 @@ Json materialOf(GltfDocument& document, const Material& m)
         material["alphaCutoff"] = m.alphaCutoff;
     if (m.doubleSided)
         material["doubleSided"] = true;
+    if (m.normalFrame)
+        material["extras"][gltf::kFrameExtra] = name(*m.normalFrame);
     return material;
 }
 
@@ -165,7 +177,7 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         root["materials"].push_back(std::move(made));
     }
     for (const Mesh& mesh : scene.meshes) {
-        Json primitive = primitiveOf(document, mesh);
+        Json primitive = primitiveOf(document, mesh, scene.materials[std::size_t(mesh.material)]);
         root["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}});
     }
     Json nodes = Json::array(), indices = Json::array();

@@ -6,6 +6,7 @@
 #include "animate.hpp"
 #include "cotan/gltf/animated.hpp"
 #include "cotan/gltf/load.hpp"
+#include "cotan/scene/stored_green.hpp"
 #include "material.hpp"
 #include "mesh.hpp"
 #include "nodes.hpp"
@@ -173,6 +174,8 @@ Scene build(GltfModel& model, const std::filesystem::path& path, const std::vect
     scene.name = path.stem().string();
     SceneBuilder(model, scene).build(images);
     scene.warnings = model.warnings.lines();
+    for (std::string& line : followStoredTangents(scene))
+        scene.warnings.push_back(std::move(line));
     return scene;
 }
 

@@ -124,6 +124,7 @@ MaterialSource readMaterial(const Json& source)
     m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
     m.doubleSided = valueOr(source, "doubleSided", false);
     m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
+    read.frame = frameText(source);
     if (!m.unlit)
         readLayers(source, read);
     return read;

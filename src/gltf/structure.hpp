@@ -15,6 +15,7 @@ struct MaterialSource {
     TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
     TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness,
         transmission;
+    std::string frame; // that the maps were made for, by the extras; empty if they say nothing
 };
 
 // Lights and cameras stand at the origin and look along -z, until a node places them.

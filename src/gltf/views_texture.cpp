@@ -140,6 +140,13 @@ Json writeSampler(const Sampler& s)
     return sampler;
 }
 
+std::string frameText(const Json& material)
+{
+    const Json* const extras = member(material, "extras");
+    const Json* const frame = extras && extras->is_object() ? member(*extras, kFrameExtra) : nullptr;
+    return !frame ? "" : frame->is_string() ? frame->get<std::string>() : frame->dump();
+}
+
 std::string tangentReader(const Json& material)
 {
     return extension(material, "KHR_materials_anisotropy") ? "KHR_materials_anisotropy" : "";

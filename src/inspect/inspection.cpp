@@ -11,6 +11,7 @@
 #include "cotan/lint/triangle_uv.hpp"
 #include "cotan/report/angles.hpp"
 #include "cotan/scene/picture_text.hpp"
+#include "cotan/scene/stored_green.hpp"
 
 namespace cotan {
 
@@ -321,8 +322,11 @@ Scene inspected(Scene scene, Inspection inspection)
     case Inspection::density:
     case Inspection::stretch:
     case Inspection::shear:
-    case Inspection::mirrored:
-    case Inspection::w: showTriangles(scene, inspection); break;
+    case Inspection::mirrored: showTriangles(scene, inspection); break;
+    case Inspection::w:
+        restoreDeclaredGreen(scene); // w as stored
+        showTriangles(scene, inspection);
+        break;
     default: showMap(scene, inspection); break;
     }
     return scene;

@@ -91,6 +91,8 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.uv = lint::uvQuality(surface);
     p.steps = lint::edgeSteps(surface);
     p.stored = lint::storedTangents(surface);
+    if (material.greenReversed) // w of the file, not of the scene
+        p.stored.reversedW = 1 - p.stored.reversedW;
     addPrecision(p, distance);
     const int image = material.normalMap.image;
     if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
@@ -135,7 +137,7 @@ void addMaps(LintReport& report, const Scene& scene)
             continue;
         done.push_back(image);
         const Image& map = scene.images[std::size_t(image)];
-        GreenEvidence e{image, map.name, m.normalFormat.greenUp, {}};
+        GreenEvidence e{image, map.name, m.normalFormat.greenUp != m.greenReversed, {}};
         if (hasPixels(map))
             e.verdict = maps::greenOf(map);
         report.maps.push_back(std::move(e));
@@ -203,7 +205,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
             report.primitives.push_back(std::move(p));
             if (const Texture& coat = material.coat.normalMap; coat.present())
                 coats.push_back({coat.image,
-                                 {makeCoatSurface(mesh, material.normalMap, coat, placed[i][k]), Convention{},
+                                 {makeCoatSurface(mesh, material.normalMap, coat, placed[i][k]), material.coat.normalFormat,
                                   double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
         }
         done += mesh.triangleCount();

@@ -37,7 +37,7 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
 
 Result<Convention> conventionOf(const OwnMaps& maps)
 {
-    auto convention = conventionFromWords(maps.convention);
+    auto convention = conventionFromWords(maps.convention.empty() ? "gltf" : maps.convention);
     if (!convention)
         return usageError("--convention: " + convention.error().message);
     if (convention->kind != MapKind::tangentSpace)
@@ -52,6 +52,7 @@ Status readOtherwise(const OwnMaps& maps, Scene& scene)
     if (!convention)
         return convention.error();
     bool any = false;
+    restoreDeclaredGreen(scene, maps.material);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& m = scene.materials[i];
         if (!m.normalMap.present() || (maps.material >= 0 && int(i) != maps.material))

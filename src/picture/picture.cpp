@@ -14,7 +14,9 @@
 #include "cotan/model/load.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/picture/light.hpp"
+#include "cotan/picture/words.hpp"
 #include "cotan/scene/geometry.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 
@@ -163,22 +165,33 @@ Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, cons
     return model.at({options.animation, options.time}, &images);
 }
 
-Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,
-                    Scene& scene)
+Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene)
 {
-    if (Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
-        return applied;
-    if (const auto inspection = inspectionFromName(show)) {
-        scene = inspected(std::move(scene), *inspection);
-        return Done{};
-    }
-    for (Frame frame : frames)
-        deriveVertexFrames(scene, frame,
-                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
-    return Done{};
+    const MapSource source = options.model.empty() ? MapSource::shape
+        : options.maps.normal.empty()              ? MapSource::model
+                                                   : MapSource::own;
+    return choice ? *choice : autoFrame(scene, source);
 }
 
-Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<Frame> frames,
+Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
+                                        std::initializer_list<FrameChoice> choices, Scene& scene)
+{
+    if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
+        return applied.error();
+    std::vector<Frame> frames;
+    for (const FrameChoice& choice : choices)
+        frames.push_back(chosenFrame(choice, options, scene));
+    if (const auto inspection = inspectionFromName(show)) {
+        scene = inspected(std::move(scene), *inspection);
+        return frames;
+    }
+    for (const Frame frame : frames)
+        deriveVertexFrames(scene, frame,
+                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+    return frames;
+}
+
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like)
 {
     if (const auto size = parseSize(options.size); !size) // before a large model is loaded
@@ -196,8 +209,10 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     picture.scene = std::move(*scene);
     if (options.edges != "none")
         picture.edges = surfaceEdges(picture.scene);
-    if (Status prepared = prepareScene(options, options.show, frames, picture.scene); !prepared)
+    auto prepared = prepareScene(options, options.show, frames, picture.scene);
+    if (!prepared)
         return prepared.error();
+    picture.frames = std::move(*prepared);
     auto view = like ? Result<View>(*like) : viewOf(options, picture.scene);
     if (!view)
         return view.error();
@@ -239,13 +254,13 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
     return painter;
 }
 
-Status checkLighting(const PictureOptions& options, Frame frame)
+Status checkLighting(const PictureOptions& options, FrameChoice frame)
 {
-    if (options.lighting == "tangent-vertex" && frame != Frame::vertex && frame != Frame::mikktspace)
+    if (options.lighting == "tangent-vertex" && !(frame && readsTangents(*frame)))
         return usageError(
             fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                         "mikktspace; found '{}'",
-                        name(frame)));
+                        frame ? name(*frame) : kAutoFrame));
     if (options.normalMapping != "shading" && (options.shading != "pbr" || options.lighting != "world"))
         return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
                                       "{} and {}",

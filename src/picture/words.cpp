@@ -24,6 +24,15 @@ Result<Frame> parseFrame(const std::string& text)
     return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
 }
 
+Result<FrameChoice> parseFrameChoice(const std::string& text)
+{
+    if (text == kAutoFrame)
+        return FrameChoice();
+    if (const auto frame = frameFromName(text))
+        return FrameChoice(*frame);
+    return usageError(fmt::format("frame: expected {} or one of {}; found '{}'", kAutoFrame, frameNames(), text));
+}
+
 void addMemoryOption(Arguments& a, int& memory)
 {
     a.option("--memory", memory, "largest picture held in memory at once, in MiB").within(1, 1 << 16).in("MIB");
@@ -95,7 +104,8 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
         .in("FILE")
         .reads();
     a.option("--convention", maps.convention,
-             "how that image is stored, or without one how the model's own normal maps are to be read: "
+             "how that image is stored (default: gltf), or without one how the model's own normal maps are to be read "
+             "(default: as the model says): "
                  + conventionWords())
         .in("WORDS")
         .offers(conventionWordList());
@@ -125,7 +135,14 @@ void addOwnMaps(Arguments& a, OwnMaps& maps)
 
 void addFrameOption(Arguments& a, std::string& frame)
 {
-    a.option("--frame", frame, "frame to apply normal maps with: " + frameNames()).in("NAME").offers(frameWords());
+    std::vector<std::string> names = frameWords();
+    names.insert(names.begin(), std::string(kAutoFrame));
+    a.option("--frame", frame,
+             "frame to apply normal maps with: auto (the one that the model names for its maps, else orthonormal for a "
+             "model's maps, which are made for MikkTSpace, and cotangent for shapes and repeated images) or one of "
+                 + frameNames())
+        .in("NAME")
+        .offers(names);
 }
 
 void addShowOption(Arguments& a, std::string& show)

@@ -128,7 +128,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
             maps.emissive = get(m.emissiveMap, Content::color);
             maps.coat = get(m.coat.map, Content::linear);
             maps.coatRoughness = get(m.coat.roughnessMap, Content::linear);
-            maps.coatNormal = view.normalMaps ? get(m.coat.normalMap, Content::normal) : nullptr;
+            maps.coatNormal = view.normalMaps ? get(m.coat.normalMap, Content::normal, m.coat.normalFormat) : nullptr;
             maps.anisotropy = get(m.anisotropy.map, Content::linear);
             maps.specular = get(m.specular.map, Content::linear);
             maps.specularColor = get(m.specular.colorMap, Content::color);

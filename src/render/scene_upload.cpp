@@ -197,7 +197,7 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.normalMap = normalConstants(scene, m.normalMap, m.normalFormat);
     g.normalMap.w = m.unlit ? 1 : 0;
     g.coat = gpu::vec4(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.transmission.strength);
-    g.coatNormalMap = normalConstants(scene, m.coat.normalMap, {});
+    g.coatNormalMap = normalConstants(scene, m.coat.normalMap, m.coat.normalFormat);
     g.coatNormalMap.w = sameUv(m.coat.normalMap, m.normalMap.present() ? m.normalMap : Texture{}) ? 1 : 0;
     const Anisotropy& a = m.anisotropy;
     g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);

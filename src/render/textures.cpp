@@ -108,7 +108,7 @@ std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
              {&m.emissiveMap, K::color, {}},
              {&m.coat.map, K::data, {}},
              {&m.coat.roughnessMap, K::data, {}},
-             {&m.coat.normalMap, K::normal, {}},
+             {&m.coat.normalMap, K::normal, m.coat.normalFormat},
              {&m.anisotropy.map, K::data, {}},
              {&m.specular.map, K::data, {}},
              {&m.specular.colorMap, K::color, {}},

@@ -60,7 +60,7 @@ class Conversion:
         self,
         model: Union[Path, Bytes],
         to_frame: str = "cotangent",
-        from_frame: str = "mikktspace",
+        from_frame: Optional[str] = None,
         tangents: str = "stored",
         keep_tangents: bool = False,
         bits: int = 0,

@@ -264,7 +264,7 @@ def convert(
     model: Union[Path, Bytes],
     out: Optional[Path] = None,
     to_frame: str = "cotangent",
-    from_frame: str = "mikktspace",
+    from_frame: Optional[str] = None,
     tangents: str = "stored",
     keep_tangents: bool = False,
     bits: int = 0,
@@ -282,6 +282,7 @@ def convert(
         model: a path to .glb or .gltf, or the bytes of one.
         out: .glb to write, whole or not at all; None: the bytes are in the result.
         to_frame, from_frame: names of frames. "mikktspace" and "vertex" write TANGENT, all others drop it.
+            from_frame None: the frame that the file names for its maps, else "mikktspace".
         tangents: "stored" (generated where missing) or "generated", for from_frame.
         keep_tangents: TANGENT stays where the new frame does not read it.
         bits: of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit.
@@ -323,7 +324,8 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
         progress=told,
         expansion=arrays.encoded(unsigned, "unsigned"),
     )
-    setattr(options, "from", arrays.encoded(from_frame, "from_frame"))
+    if from_frame is not None:
+        setattr(options, "from", arrays.encoded(from_frame, "from_frame"))
     return options
 
 

@@ -32,7 +32,7 @@ def render(
     model: Union[Path, Bytes, None] = None,
     *,
     size: Union[str, Sequence[int]] = (1280, 720),
-    frame: str = "cotangent",
+    frame: str = "auto",
     view: str = "shaded",
     camera: Union[str, int, Sequence[float], None] = None,
     shape: Optional[str] = None,

@@ -86,7 +86,7 @@ class CotanSettings(bpy.types.PropertyGroup):
         description="Faces on which MikkTSpace and cotangent differ by more are in question",
     )
     to_frame: EnumProperty(
-        name="Frame", items=[f for f in FRAMES if f[0] not in ("mikktspace", "vertex")], default="smooth",
+        name="Frame", items=[f for f in FRAMES if f[0] not in ("mikktspace", "vertex")], default="orthonormal",
         description="Frame that the exported maps are for",
     )
 

@@ -366,7 +366,7 @@ cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options
 
 typedef struct cotan_convert_options {
     size_t size;
-    const char* from; /* frame that the maps were made for; null: "mikktspace" */
+    const char* from; /* frame that the maps were made for; null: the one that the file names, else "mikktspace" */
     const char* to;   /* that they shall be for; null: "cotangent" */
     int bits; /* of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit */
     int keep_tangents;       /* not 0: TANGENT stays where the new frame does not read it */

@@ -167,6 +167,13 @@ Image readImage(const Json& image);
 Sampler readSampler(const Json& sampler);
 Json writeSampler(const Sampler& sampler);
 
+// The member of a material's extras that names the frame its normal maps were made for, a string: three.js, Blender and
+// glTF-Transform keep the extras of materials.
+inline constexpr const char* kFrameExtra = "cotanFrame";
+
+// What it says; empty where there is none. Another value than a string is printed as JSON.
+std::string frameText(const Json& material);
+
 // The extension, of those that are not drawn here, with which a material reads tangents; empty: none.
 std::string tangentReader(const Json& material);
 

@@ -27,7 +27,8 @@ Result<std::pair<int, int>> parseSize(const std::string& text);
 // and --occlusion.
 struct OwnMaps { // files; empty: what the model has
     std::string normal, baseColor, metallicRoughness, occlusion;
-    std::string convention = "gltf"; // of the normal map
+    std::string convention; // of the normal map, gltf where it is empty; without one: how the model's own are read, as
+                            // the model says where it is empty
     int material = -1;               // number of the only material that gets them; -1: all
 };
 

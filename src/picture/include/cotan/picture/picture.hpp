@@ -6,6 +6,7 @@
 #include <future>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,10 +44,16 @@ Result<MovingModel> openMovingModel(const PictureOptions& options);
 // Errors: as AnimatedGltf::at.
 Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images);
 
+// A frame, or none for `auto`: the one that the normal maps mean (cotan/scene/meant_frame.hpp).
+using FrameChoice = std::optional<Frame>;
+
+// The frame that is chosen for a scene of that model, with the options' own maps on it.
+Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene);
+
 // Puts the options' own maps on it, and derives the attributes that the frames need or, where `show` asks for it, makes
-// it a scene of telling colours. Errors: as applyOwnMaps.
-Status prepareScene(const PictureOptions& options, const std::string& show, std::initializer_list<Frame> frames,
-                    Scene& scene);
+// it a scene of telling colours. Returns the frames, each `auto` by its name. Errors: as applyOwnMaps.
+Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
+                                        std::initializer_list<FrameChoice> frames, Scene& scene);
 
 // The view that the options name, but for surroundings, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);
@@ -62,6 +69,7 @@ struct Picture {
     Scene scene;
     View view;
     bool meter = false;                                   // the exposure is to be found
+    std::vector<Frame> frames;                            // that were asked for, each `auto` by its name
     std::vector<SurfaceEdge> edges;                       // to be drawn over it
     double loadSeconds = 0;                               // for the caller to set
     std::future<Result<std::unique_ptr<Painter>>> device; // being opened, for openPicturePainter
@@ -70,11 +78,11 @@ struct Picture {
 // Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and
 // sets up the view: that of `like`, but for the lights, where it is given. What is to be warned of is in the scene.
 // The device is opened beside that; threads: as for openPainter.
-Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<Frame> frames,
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like = nullptr);
 
 // Whether --lighting can do with that frame: tangents at the vertices are what tangent-vertex needs.
-Status checkLighting(const PictureOptions& options, Frame frame);
+Status checkLighting(const PictureOptions& options, FrameChoice frame);
 
 // The name of the device that the options ask for: "auto" is the reference renderer for what it alone draws.
 std::string deviceOf(const PictureOptions& options);

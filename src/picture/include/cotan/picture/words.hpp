@@ -3,10 +3,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cotan/frame.hpp"
-#include "cotan/picture/options.hpp"
+#include "cotan/picture/picture.hpp"
 #include "cotan/terminal/arguments.hpp"
 
 namespace cotan {
@@ -17,6 +18,12 @@ std::string frameNames();
 
 // A frame's name; the error lists all of them.
 Result<Frame> parseFrame(const std::string& text);
+
+// What the frame that the normal maps mean is called, where pictures are drawn.
+inline constexpr std::string_view kAutoFrame = "auto";
+
+// A frame's name, or kAutoFrame for none; the error lists all of them.
+Result<FrameChoice> parseFrameChoice(const std::string& text);
 
 // Adds --memory MIB.
 void addMemoryOption(Arguments& a, int& memory);
@@ -30,7 +37,7 @@ void addDeviceOption(Arguments& a, std::string& device, const std::string& use =
 // Adds --normal-map, --convention and --material.
 void addOwnNormalMap(Arguments& a, OwnMaps& maps);
 
-// Adds --frame.
+// Adds --frame, also for kAutoFrame.
 void addFrameOption(Arguments& a, std::string& frame);
 
 // Adds --view.

@@ -1,6 +1,9 @@
 // What the plain structs of a scene are on the wire.
 #pragma once
 
+#include <optional>
+#include <type_traits>
+
 #include "cotan/sandbox/wire.hpp"
 #include "cotan/scene/scene.hpp"
 
@@ -53,6 +56,7 @@ template<class W, class T> void exchangeLayers(W& w, T& m)
     w.number(m.coat.strength);
     w.number(m.coat.roughness);
     w.number(m.coat.normalScale);
+    exchangeConvention(w, m.coat.normalFormat);
     exchangeTexture(w, m.coat.map);
     exchangeTexture(w, m.coat.roughnessMap);
     exchangeTexture(w, m.coat.normalMap);
@@ -82,6 +86,11 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     w.number(m.occlusionStrength);
     w.number(m.normalScale);
     exchangeConvention(w, m.normalFormat);
+    int frame = m.normalFrame ? int(*m.normalFrame) : -1;
+    w.number(frame);
+    if constexpr (!std::is_const_v<T>)
+        m.normalFrame = isFrame(frame) ? std::optional(Frame(frame)) : std::nullopt;
+    w.flag(m.greenReversed);
     exchangeTexture(w, m.baseColorMap);
     exchangeTexture(w, m.metallicRoughnessMap);
     exchangeTexture(w, m.normalMap);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cotan/scene/scene.hpp"
+#include "cotan/scene/stored_green.hpp"
 
 namespace cotan {
 
@@ -25,12 +26,14 @@ void putPicture(Scene& scene, Image image, Texture Material::*slot, int material
     }
 }
 
-// The same for a normal map, at full strength.
+// The same for a normal map, at full strength; the tangents of the meshes become those of the file again.
 inline void putNormalMap(Scene& scene, Image image, const Convention& format, int material = -1)
 {
+    restoreDeclaredGreen(scene, material);
     putPicture(scene, std::move(image), &Material::normalMap, material, [&](Material& m) {
         m.normalScale = 1;
         m.normalFormat = format;
+        m.normalFrame.reset();
     });
 }
 

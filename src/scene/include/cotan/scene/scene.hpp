@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "cotan/convention.hpp"
+#include "cotan/frame.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {
@@ -43,11 +45,12 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// A clear layer over the whole (KHR_materials_clearcoat). Its normal map is stored as glTF has it.
+// A clear layer over the whole (KHR_materials_clearcoat).
 struct Coat {
     float strength = 0; // 0 to 1
     float roughness = 0;
-    float normalScale = 1; // factor on the slopes
+    float normalScale = 1;   // factor on the slopes
+    Convention normalFormat; // how normalMap is stored
     Texture map;           // linear: r, times strength
     Texture roughnessMap;  // linear: g, times roughness
     Texture normalMap;     // linear
@@ -94,6 +97,10 @@ struct Material {
     float occlusionStrength = 1;
     float normalScale = 1;        // factor on the slopes
     Convention normalFormat;      // how normalMap is stored; v runs down, as everywhere in a scene
+    std::optional<Frame> normalFrame; // that the normal maps were made for, where the file says so
+    // Green of the normal maps is the other way than the file declares, and so is w of the meshes' tangents: see
+    // cotan/scene/stored_green.hpp.
+    bool greenReversed = false;
     Texture baseColorMap;         // sRGB, alpha linear
     Texture metallicRoughnessMap; // linear: g roughness, b metallic
     Texture normalMap;            // linear

@@ -1,0 +1,143 @@
+#include "cotan/scene/stored_green.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/scene/texture_uv.hpp"
+
+namespace cotan {
+
+namespace {
+
+struct Area {
+    double compared = 0, contradicting = 0;
+};
+
+// Degenerate triangles, and corners without a tangent or a normal, add nothing.
+void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first, Area& area)
+{
+    const std::uint32_t* const at = &mesh.indices[first];
+    const glm::dvec3 p0(mesh.positions[at[0]]);
+    const glm::dvec3 p1 = glm::dvec3(mesh.positions[at[1]]) - p0, p2 = glm::dvec3(mesh.positions[at[2]]) - p0;
+    const glm::dvec2 uv0(uv[at[0]]);
+    const glm::dvec2 uv1 = glm::dvec2(uv[at[1]]) - uv0, uv2 = glm::dvec2(uv[at[2]]) - uv0;
+    const double uvArea = uv1.x * uv2.y - uv1.y * uv2.x, third = glm::length(glm::cross(p1, p2)) / 6;
+    if (!(std::abs(uvArea) > 0) || !(third > 0) || !std::isfinite(third))
+        return;
+    const double sign = uvArea < 0 ? -1 : 1;
+    const glm::dvec3 alongU = sign * (p1 * uv2.y - p2 * uv1.y), alongV = sign * (p2 * uv1.x - p1 * uv2.x);
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec4 stored(mesh.tangents[at[k]]);
+        const glm::dvec3 tangent(stored), up = glm::cross(glm::dvec3(mesh.normals[at[k]]), tangent) * stored.w;
+        if (tangent == glm::dvec3(0) || up == glm::dvec3(0))
+            continue;
+        area.compared += third;
+        if (glm::dot(tangent, alongU) > 0 && glm::dot(up, alongV) > 0) // it should point against increasing v
+            area.contradicting += third;
+    }
+}
+
+const Texture& mapOf(const Material& m) { return m.normalMap.present() ? m.normalMap : m.coat.normalMap; }
+
+// For each material the first that shares a normal map with it, by however many steps; itself if there is none.
+class MapGroups {
+public:
+    explicit MapGroups(const Scene& scene) : first_(scene.materials.size())
+    {
+        std::iota(first_.begin(), first_.end(), std::size_t(0));
+        std::map<int, std::size_t> readers;
+        for (std::size_t i = 0; i < scene.materials.size(); ++i)
+            for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
+                if (map->present())
+                    join(i, readers.emplace(map->image, i).first->second);
+    }
+    std::size_t of(std::size_t material)
+    {
+        while (first_[material] != material)
+            material = first_[material] = first_[first_[material]];
+        return material;
+    }
+
+private:
+    void join(std::size_t a, std::size_t b)
+    {
+        a = of(a), b = of(b);
+        first_[std::max(a, b)] = std::min(a, b);
+    }
+
+    std::vector<std::size_t> first_;
+};
+
+std::string nameOf(const Scene& scene, const Material& m)
+{
+    const std::size_t image = std::size_t(mapOf(m).image);
+    const std::string& name = image < scene.images.size() ? scene.images[image].name : m.name;
+    return name.empty() ? "of material '" + m.name + "'" : "'" + name + "'";
+}
+
+void reverse(Scene& scene, const std::vector<bool>& chosen)
+{
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (chosen[i]) {
+            Material& m = scene.materials[i];
+            m.greenReversed = !m.greenReversed;
+            m.normalFormat.greenUp = !m.normalFormat.greenUp;
+            m.coat.normalFormat.greenUp = !m.coat.normalFormat.greenUp;
+            m.anisotropy.rotation = -m.anisotropy.rotation; // from t towards b
+        }
+    for (Mesh& mesh : scene.meshes)
+        if (chosen[std::size_t(mesh.material)])
+            for (glm::vec4& tangent : mesh.tangents)
+                tangent.w = -tangent.w;
+}
+
+} // namespace
+
+std::vector<std::string> followStoredTangents(Scene& scene)
+{
+    MapGroups groups(scene);
+    std::vector<Area> areas(scene.materials.size());
+    for (const Mesh& mesh : scene.meshes) {
+        const Texture& map = mapOf(scene.materials[std::size_t(mesh.material)]);
+        if (!map.present() || mesh.tangents.empty() || mesh.normals.empty())
+            continue;
+        const std::vector<glm::vec2> uv = textureUv(map, mesh);
+        Area& area = areas[groups.of(std::size_t(mesh.material))];
+        for (std::size_t i = 0; !uv.empty() && i + 2 < mesh.indices.size(); i += 3)
+            addTriangle(mesh, uv, i, area);
+    }
+    std::vector<bool> stays(scene.materials.size()), chosen(scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].anisotropy.map.present())
+            stays[groups.of(i)] = true;
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const std::size_t group = groups.of(i);
+        const Area& area = areas[group];
+        const double fraction = area.compared > 0 ? area.contradicting / area.compared : 0;
+        chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !stays[group];
+        if (group != i || fraction < kGreenMentionedFrom)
+            continue;
+        lines.push_back("TANGENT.w contradicts the texture coordinates on " + std::to_string(std::lround(100 * fraction))
+                        + " % of the area of normal map " + nameOf(scene, scene.materials[i])
+                        + (chosen[i] ? ": without stored tangents its green is read the other way (--convention gltf: "
+                                       "as declared)"
+                                     : ": its green is read as declared"));
+    }
+    reverse(scene, chosen);
+    return lines;
+}
+
+void restoreDeclaredGreen(Scene& scene, int material)
+{
+    std::vector<bool> chosen(scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        chosen[i] = scene.materials[i].greenReversed && (material < 0 || std::size_t(material) == i);
+    reverse(scene, chosen);
+}
+
+} // namespace cotan
