@@ -91,7 +91,9 @@ Status checkModelOutput(const BakeCommandOptions& o)
 // Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
-    PutMapOptions options{.frame = job.frame(), .material = {}, .keepTangents = job.setup.storedTangents};
+    PutMapOptions options{.frame = job.frame(), .material = {},
+                          .expansion = job.setup.options.stored.format.expansion,
+                          .keepTangents = job.setup.storedTangents};
     if (o.material >= 0) // a scene numbers its materials as meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
@@ -223,9 +225,11 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("WORDS")
         .offers(conventionWordList());
     a.option("--unsigned", o.expansion,
-             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
+             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1) (default: biased in a "
+             "glTF model, whose readers take it so, else exact)")
         .from({"exact", "biased"})
-        .in("NAME");
+        .in("NAME")
+        .withoutDefault();
     a.option("--padding", o.padding,
              "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)

@@ -37,8 +37,10 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
     as.format = *format;
     if (as.format.expansion == Expansion::signedValues)
         return usageError("--convention: expected exact or biased; found signed");
-    if (o.expansion == "biased")
+    if (o.expansion == "biased" || (o.expansion.empty() && namedAsGltf(o.output)))
         as.format.expansion = Expansion::biased;
+    else if (o.expansion == "exact")
+        as.format.expansion = Expansion::exact;
     if (namedAsGltf(o.output) && (greenAlongV(as.format) || as.format.channels != Channels::xyz))
         return usageError(
             fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));

@@ -47,7 +47,8 @@ public:
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
             const Progress share = partOf(options_.progress, k, jobs->size());
-            auto map = convertMap((*jobs)[k], share);
+            const Expansion expansion = takeExpansion((*jobs)[k]);
+            auto map = convertMap((*jobs)[k], expansion, share);
             if (!map)
                 return map.error();
             if (share && !share(1))
@@ -75,8 +76,30 @@ public:
     ConvertModelReport& report() { return report_; }
 
 private:
+    // Makes the uses of a map read it as the engines do that are converted for. Returns how it is to be written.
+    Expansion takeExpansion(MapJob& job) const
+    {
+        const bool ofCoat =
+            std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
+        const Expansion expansion = ofCoat ? Expansion::exact : options_.expansion;
+        const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
+            return gltf::expansionOf(document_.root["materials"][place.material]) == Expansion::biased;
+        });
+        for (MapUse& use : job.uses)
+            use.stored.expansion = said ? Expansion::biased : expansion;
+        return expansion;
+    }
+
+    // What readers of a new map must know.
+    void sayExpansion(const MapJob& job, Expansion expansion)
+    {
+        for (const MapPlace& place : job.places)
+            if (place.slot == NormalSlot::surface)
+                setExpansion(document_.root["materials"][place.material], expansion);
+    }
+
     // Converts one image and puts it back.
-    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
+    Result<ConvertedMap> convertMap(const MapJob& job, Expansion expansion, const Progress& share)
     {
         const std::filesystem::path& file = gltfPath(document_);
         const std::string field = file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
@@ -105,7 +128,7 @@ private:
                                           field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
-        Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
+        Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows, expansion);
         if (rows.stopped())
             return stoppedError();
         r.image.frame = name(options_.frames.to);
@@ -115,6 +138,7 @@ private:
         done.figures = r;
         done.bytesAfter = png->size();
         replaceMap(document_, job, std::move(*png), report_.notes);
+        sayExpansion(job, expansion);
         noteWhatStaysOff(done);
         return done;
     }

@@ -177,6 +177,8 @@ export function convert(model: Bytes, options?: ModelOptions & {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
+  unsigned?: 'biased' | 'exact';
   /** The PNG file of a picture; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;

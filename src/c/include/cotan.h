@@ -374,6 +374,7 @@ typedef struct cotan_convert_options {
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
+    const char* expansion; /* how engines take the numbers of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {
