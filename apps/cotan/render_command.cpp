@@ -38,8 +38,8 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     return image;
 }
 
-// What the pictures of a sequence share: the view that is made for the first, with its camera and surroundings that
-// take a second to make; and the file of all, where there is one.
+// What the pictures of a sequence share: the view that is made for the first, with its camera, which frames all of the
+// animation, and surroundings that take a second to make; and the file of all, where there is one.
 struct Sequence {
     std::optional<View> view;
     std::unique_ptr<AnimationWriter> animation;
@@ -187,10 +187,9 @@ void declare(Arguments& a, RenderCommandOptions& o)
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
     addShowOption(a, o.picture.show);
-    a.option(
-         "--frames", o.frames,
-         "pictures A to B of --animation with the camera of the first, written as NAME-0000.png and so on, or into one "
-             + imageEndings(&ImageFormat::animation, ", ", " or "))
+    a.option("--frames", o.frames,
+             "pictures A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
+                 + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
     a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
 }

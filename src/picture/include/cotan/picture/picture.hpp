@@ -33,7 +33,8 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene);
 // Errors: as loadScene and checkTrianglesDrawn.
 Result<Scene> openModel(const PictureOptions& options);
 
-// The same, and where the model has animations what poses it: the scenes of other moments come from poseModel.
+// The same, and where the model has animations what poses it: the scenes of other moments come from poseModel. Scenes
+// that an animation poses have what they reach in all of it.
 struct MovingModel {
     Scene scene;
     std::unique_ptr<AnimatedGltf> animated; // null where nothing moves
