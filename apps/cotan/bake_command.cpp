@@ -4,9 +4,10 @@
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "cotan/convention_words.hpp"
 #include "cotan/convert/put_map.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/verify/views.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
@@ -90,7 +91,9 @@ Status checkModelOutput(const BakeCommandOptions& o)
 // Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
-    PutMapOptions options{.frame = job.frame(), .material = {}, .keepTangents = job.setup.storedTangents};
+    PutMapOptions options{.frame = job.frame(), .material = {},
+                          .expansion = job.setup.options.stored.format.expansion,
+                          .keepTangents = job.setup.storedTangents};
     if (o.material >= 0) // a scene numbers its materials as meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
@@ -110,10 +113,9 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
         return ok;
-    const std::string extension = lowerExtension(o.output);
-    if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
-        return usageError(
-            fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.output.string()));
+    if (o.bits == 32 && !imageFormatHas(o.output, &ImageFormat::negative))
+        return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
     std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
     if (!o.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
@@ -210,20 +212,24 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.option("--high-convention", o.highConvention,
-             "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
+             "how the high mesh's map is stored, words as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME")
-        .offers(presetWords());
-    a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--bits", o.bits,
+             "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
+        .from({8, 16, 32})
+        .in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
-    a.option("--convention", o.convention,
-             "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
-        .in("NAME")
-        .offers(presetWords());
+    a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--unsigned", o.expansion,
-             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
+             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1) (default: biased in a "
+             "glTF model, whose readers take it so, else exact)")
         .from({"exact", "biased"})
-        .in("NAME");
+        .in("NAME")
+        .withoutDefault();
     a.option("--padding", o.padding,
              "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)
@@ -246,7 +252,7 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "bake the normal map of a detailed mesh for a simple one, for a named frame",
-         "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
+         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
         declare, run);

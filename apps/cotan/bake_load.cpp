@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/convention.hpp"
+#include "cotan/convention_words.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/stored_green.hpp"
@@ -19,13 +20,11 @@ namespace {
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {
-    const auto convention = conventionFromName(name);
-    if (!convention) {
-        std::string names;
-        for (const ConventionPreset& preset : conventionPresets())
-            names += (names.empty() ? "" : ", ") + std::string(preset.name);
-        return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
-    }
+    const auto convention = conventionFromWords(name);
+    if (!convention)
+        return usageError(option + ": " + convention.error().message);
+    if (convention->kind != MapKind::tangentSpace)
+        return usageError(fmt::format("{}: expected a map in tangent space; found '{}'", option, name));
     return inScene(*convention);
 }
 
@@ -36,7 +35,12 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
-    as.format.expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact;
+    if (as.format.expansion == Expansion::signedValues)
+        return usageError("--convention: expected exact or biased; found signed");
+    if (o.expansion == "biased" || (o.expansion.empty() && namedAsGltf(o.output)))
+        as.format.expansion = Expansion::biased;
+    else if (o.expansion == "exact")
+        as.format.expansion = Expansion::exact;
     if (namedAsGltf(o.output) && (greenAlongV(as.format) || as.format.channels != Channels::xyz))
         return usageError(
             fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
@@ -133,6 +137,8 @@ Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
         auto image = readImageWithin(o.memory, o.highMaps[i]);
         if (!image)
             return image.error();
+        if (image->channels == 2) // what the file leaves out
+            completeNormals(*image);
         high.maps.push_back(std::move(*image));
     }
     return high;

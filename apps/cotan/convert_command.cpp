@@ -30,6 +30,7 @@ struct ConvertCommandOptions : CommonOptions {
     std::string provoking; // empty: vertices stay
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
+    std::string expansion = "biased";
     std::filesystem::path verify;
     std::string device = "auto";
 };
@@ -56,6 +57,7 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
                                         {"--tangents", o.tangents != unset.tangents},
                                         {"--keep-tangents", o.keepTangents},
                                         {"--bits", o.bits != unset.bits},
+                                        {"--unsigned", o.expansion != unset.expansion},
                                         {"--verify", !o.verify.empty()}})
         if (given)
             return usageError(fmt::format("{}: is about converting maps; expected --to-frame FRAME with it", option));
@@ -109,6 +111,7 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
         return convertModel(document,
                             {.frames = frames,
                              .bits = o.bits,
+                             .expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact,
                              .keepTangents = o.keepTangents,
                              .threads = o.threads,
                              .limits = limitsFor(o.memory),
@@ -182,7 +185,7 @@ Status run(const ConvertCommandOptions& o)
             return inWords(named.error());
         if (*named && o.from.empty())
             (*frames)->from = **named;
-        report.update({{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}});
+        report.update({{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
@@ -233,6 +236,11 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
+    a.option("--unsigned", o.expansion,
+             "how the engine takes the maps' numbers: biased (2c - 1, as glTF says and stock engines do) or exact (zero "
+             "is 128, as Cotan reads maps that say nothing)")
+        .from({"biased", "exact"})
+        .in("NAME");
     a.option(
          "--provoking", o.provoking,
          "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "

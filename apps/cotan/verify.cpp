@@ -19,12 +19,27 @@ Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file
     });
 }
 
+// A map that was made for 2c - 1 stands for one that was read so.
+Status readAsAfter(Scene& before, const VerifyOptions& o)
+{
+    LoadLimits limits = limitsFor(o.memory);
+    limits.pixels = Pixels::none;
+    const auto after = loadScene(o.after, limits);
+    if (!after)
+        return after.error();
+    for (std::size_t i = 0; i < std::min(before.materials.size(), after->materials.size()); ++i)
+        before.materials[i].normalFormat.expansion = after->materials[i].normalFormat.expansion;
+    return Done{};
+}
+
 // One model at a time is in memory.
 Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions& common, std::string& device)
 {
     auto before = loadSceneWithin(o.memory, o.before);
     if (!before)
         return before.error();
+    if (Status read = readAsAfter(*before, o); !read)
+        return read.error();
     const auto painter = openDevice(o.device, common);
     if (!painter)
         return painter.error();

@@ -33,6 +33,7 @@ public:
             return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
                                           gltfPath(document_).string(), name(**named), name(options_.frames.from)));
+        named_ = named->has_value();
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
@@ -46,7 +47,8 @@ public:
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
             const Progress share = partOf(options_.progress, k, jobs->size());
-            auto map = convertMap((*jobs)[k], share);
+            const Expansion expansion = takeExpansion((*jobs)[k]);
+            auto map = convertMap((*jobs)[k], expansion, share);
             if (!map)
                 return map.error();
             if (share && !share(1))
@@ -74,8 +76,30 @@ public:
     ConvertModelReport& report() { return report_; }
 
 private:
+    // Makes the uses of a map read it as the engines do that are converted for. Returns how it is to be written.
+    Expansion takeExpansion(MapJob& job) const
+    {
+        const bool ofCoat =
+            std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
+        const Expansion expansion = ofCoat ? Expansion::exact : options_.expansion;
+        const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
+            return gltf::expansionOf(document_.root["materials"][place.material]) == Expansion::biased;
+        });
+        for (MapUse& use : job.uses)
+            use.stored.expansion = said ? Expansion::biased : expansion;
+        return expansion;
+    }
+
+    // What readers of a new map must know.
+    void sayExpansion(const MapJob& job, Expansion expansion)
+    {
+        for (const MapPlace& place : job.places)
+            if (place.slot == NormalSlot::surface)
+                setExpansion(document_.root["materials"][place.material], expansion);
+    }
+
     // Converts one image and puts it back.
-    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
+    Result<ConvertedMap> convertMap(const MapJob& job, Expansion expansion, const Progress& share)
     {
         const std::filesystem::path& file = gltfPath(document_);
         const std::string field = file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
@@ -85,6 +109,11 @@ private:
         auto map = decodeImage(*bytes, field, options_.limits);
         if (!map)
             return map.error();
+        // The materials have been asked; an image says it where they say nothing.
+        if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
+            return inputError(fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
+                                          "convert from, found {}",
+                                          field, map->frame, name(options_.frames.from)));
         completeNormals(*map);
         ConvertedMap done{job.image, job.name, job.uses.size(), map->width, map->height};
         done.alsoElsewhere = job.alsoElsewhere;
@@ -99,15 +128,17 @@ private:
                                           field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
-        const Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows);
+        Reencoded r = reencode(*map, job.uses, options_.frames, done.bits, options_.threads, &rows, expansion);
         if (rows.stopped())
             return stoppedError();
+        r.image.frame = name(options_.frames.to);
         auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
         done.figures = r;
         done.bytesAfter = png->size();
         replaceMap(document_, job, std::move(*png), report_.notes);
+        sayExpansion(job, expansion);
         noteWhatStaysOff(done);
         return done;
     }
@@ -164,6 +195,7 @@ private:
     const ConvertModelOptions& options_;
     GltfDocument document_; // a copy, so that an error leaves the caller's as it was
     ConvertModelReport report_;
+    bool named_ = false; // the materials say for which frame their maps are
 };
 
 } // namespace

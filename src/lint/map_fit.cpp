@@ -15,12 +15,13 @@ constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each
 constexpr std::size_t kMost = 4096, kLeast = 64;
 
 // The normal that a frame makes of a map at a place.
-glm::dvec3 normalAt(const Image& map, const MapUse& use, Frame frame, TangentOrigin tangents, const SurfacePoint& p)
+glm::dvec3 normalAt(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
+                    const SurfacePoint& p)
 {
     Texture texture;
     texture.sampler.wrapU = use.wrapU;
     texture.sampler.wrapV = use.wrapV;
-    const auto format = toFormat<f64::cotan_normal_format>(use.stored, map.type, use.strength);
+    const auto format = toFormat<f64::cotan_normal_format>(stored, map.type, use.strength);
     const glm::dvec3 m = decodedAt(map, texture, format, atPoint(use.surface.uv, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
@@ -64,7 +65,7 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count)
 }
 
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames)
+                const FramePair& frames, std::optional<Expansion> expansionAfter)
 {
     const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
     std::vector<std::pair<double, double>> errors;
@@ -73,10 +74,13 @@ Spread mapError(const Image& before, const Image& after, const std::vector<const
             continue;
         const std::vector<SurfacePoint> points = pointsOver(use->surface, count);
         const double weight = mappedArea(use->surface) / double(count);
+        Convention stored = use->stored;
+        stored.expansion = expansionAfter.value_or(stored.expansion);
         for (const SurfacePoint& p : points)
-            errors.emplace_back(lint::degreesBetween(normalAt(before, *use, frames.from, frames.fromTangents, p),
-                                                     normalAt(after, *use, frames.to, frames.toTangents, p)),
-                                weight);
+            errors.emplace_back(
+                lint::degreesBetween(normalAt(before, *use, use->stored, frames.from, frames.fromTangents, p),
+                                     normalAt(after, *use, stored, frames.to, frames.toTangents, p)),
+                weight);
     }
     return spreadOf(std::move(errors));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cotan/lint/lint.hpp"
+#include "cotan/lint/map_fit.hpp"
 
 namespace cotan::lint {
 
@@ -18,8 +19,13 @@ EdgeSteps edgeSteps(const MappedSurface& surface);
 
 StoredTangents storedTangents(const MappedSurface& surface);
 
-// Points spread evenly over the area, decoded there and read with each frame. Angles to MikkTSpace
-// with generated tangents.
+// Of how many of 14 directions the surface, alone, shows each point; where it shows none of them, all alike.
+// bothSides: whether back faces are drawn.
+std::vector<double> seen(const MappedSurface& surface, const std::vector<SurfacePoint>& points, bool bothSides);
+
+// Points spread over what is seen of the area (`seen`), decoded there and read with each frame. Angles to what the
+// tangents of the file show where they point along u, with the sign of the uv; to generated MikkTSpace elsewhere. Of
+// "stored" to generated MikkTSpace.
 std::vector<Reading> readings(const MappedSurface& surface, const Material& material, const Image& map);
 
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.

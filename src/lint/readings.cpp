@@ -1,3 +1,5 @@
+#include <glm/geometric.hpp>
+
 #include "cotan/lint/map_fit.hpp"
 #include "cotan/lint/texel.hpp"
 #include "parts.hpp"
@@ -7,6 +9,25 @@ namespace cotan::lint {
 namespace {
 
 constexpr std::size_t kSamples = 4096;
+constexpr double kSameWay = 0.7071; // cosine of kTurned
+
+// MikkTSpace, with the directions of stored tangents where they are within 45 degrees: on a mesh that is bent by its
+// bones these were made before it was bent.
+f64::cotan_frame meantFrame(const MappedSurface& s, const SurfacePoint& p)
+{
+    f64::cotan_frame frame = frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric);
+    if (s.stored.empty())
+        return frame;
+    const std::vector<glm::dvec4>& generated = s.generated[std::size_t(Frame::mikktspace)];
+    glm::dvec4 t(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec4 own = s.stored[3 * p.triangle + k], made = generated[3 * p.triangle + k];
+        const bool along = glm::dot(glm::dvec3(own), glm::dvec3(made))
+            > kSameWay * glm::length(glm::dvec3(own)) * glm::length(glm::dvec3(made));
+        t += p.barycentric[int(k)] * (along ? glm::dvec4(glm::dvec3(own), made.w) : made);
+    }
+    return f64::cotan_frame_mikktspace(frame.n, glm::dvec3(t), t.w);
+}
 
 } // namespace
 
@@ -25,14 +46,20 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
     const f64::cotan_normal_format format = formatOf(material, map.type);
-    for (const SurfacePoint& p : pointsOver(s, kSamples)) {
+    const std::vector<SurfacePoint> points = pointsOver(s, kSamples);
+    const std::vector<double> weights = seen(s, points, material.doubleSided);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const SurfacePoint& p = points[k];
         const glm::dvec3 m = decodedAt(map, material.normalMap, format, atPoint(s.uv, p.triangle, p.barycentric));
-        const glm::dvec3 truth =
-            f64::cotan_apply(frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric), m);
+        const auto readBy = [&](Frame frame, TangentOrigin tangents) {
+            return f64::cotan_apply(frameAt(s, frame, tangents, p.triangle, p.barycentric), m);
+        };
+        const glm::dvec3 generated = readBy(Frame::mikktspace, TangentOrigin::generated);
+        const glm::dvec3 meant = f64::cotan_apply(meantFrame(s, p), m);
         for (Reader& r : readers)
-            r.errors.emplace_back(
-                degreesBetween(f64::cotan_apply(frameAt(s, r.frame, r.tangents, p.triangle, p.barycentric), m), truth),
-                1.0);
+            r.errors.emplace_back(degreesBetween(readBy(r.frame, r.tangents),
+                                                 r.tangents == TangentOrigin::stored ? generated : meant),
+                                  weights[k]);
     }
     std::vector<Reading> result;
     for (Reader& r : readers)

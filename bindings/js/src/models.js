@@ -83,13 +83,13 @@ export function modelFunctions(library, host) {
   async function convert(given, more) {
     const model = bytesOf(given, 'model');
     const o = options(more, {
-      ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng,
+      ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
     });
     const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
       const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
-        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0);
+        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'));
       const place = s.put(new Uint32Array(1));
       s.call('cotan_convert_begin', at, model.length, files, settings, 0, place);
       conversion = s.view(Uint32Array, place, 1)[0];

@@ -9,7 +9,7 @@ export interface Picture {
   data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
 }
 
-/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xyz" and so on. */
+/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xy" and so on. */
 export type Convention = string;
 export type Bits = 8 | 16 | 32;
 
@@ -177,6 +177,8 @@ export function convert(model: Bytes, options?: ModelOptions & {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
+  unsigned?: 'biased' | 'exact';
   /** The PNG file of a picture; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;

@@ -117,6 +117,7 @@ class ConvertOptions(Struct):
         (integer, "bits keep_tangents generate_tangents threads"),
         (Progress, "progress"),
         (pointer, "user"),
+        (text, "expansion"),
     )
 
 

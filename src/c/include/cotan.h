@@ -11,7 +11,7 @@
  *
  * Data. Arrays of vectors are floats without gaps, two or three to a vector. Pictures are red, green, blue, alpha
  * without gaps, rows from the top. Names of frames and other words are those of the command line. So are conventions:
- * "gltf", "unity,xyz". */
+ * "gltf", "unity,xy". */
 #ifndef COTAN_H
 #define COTAN_H
 
@@ -374,6 +374,7 @@ typedef struct cotan_convert_options {
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
+    const char* expansion; /* how engines take the numbers of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {
