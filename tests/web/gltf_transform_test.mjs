@@ -106,17 +106,33 @@ const cases = {
       await assert.rejects(document.transform(transforms.lintNormals(options)), (error) => error.code === 'usage' && error.field === field);
   },
 
+  // 2c - 1 makes 127.5 of zero, the exact expansion 128: half a step apart where a map is read as it was written.
+  async newMapsAreForEnginesThatTake2cMinus1() {
+    const found = {};
+    for (const unsigned of [undefined, 'biased', 'exact']) {
+      const { document, texture } = await hillsDocument();
+      await document.transform(transforms.tangents(), transforms.untangent({ to: 'smooth', unsigned }));
+      found[unsigned] = [(await cotan.decodePng(texture.getImage())).data, document.getRoot().listMaterials()[0].getExtras()];
+    }
+    assert.deepEqual(found.undefined, found.biased);
+    assert.notDeepEqual(found.exact[0], found.biased[0]);
+    assert.deepEqual(found.biased[1], { cotanFrame: 'smooth', cotanUnsigned: 'biased' });
+    assert.deepEqual(found.exact[1], { cotanFrame: 'smooth' });
+    const { document } = await hillsDocument();
+    await assert.rejects(document.transform(transforms.untangent({ unsigned: 'half' })), (error) => error.code === 'usage');
+  },
+
   async materialsNameTheFrameOfTheirMaps() {
     const { document } = await hillsDocument(), [material] = document.getRoot().listMaterials(), { decodePng } = cotan;
     await document.transform(transforms.tangents());
     material.setExtras({ kept: [1, 2] });
     const original = await decodePng(document.getRoot().listTextures()[0].getImage());
     await document.transform(transforms.untangent({ to: 'smooth' }));
-    assert.deepEqual(material.getExtras(), { kept: [1, 2], cotanFrame: 'smooth' });
+    assert.deepEqual(material.getExtras(), { kept: [1, 2], cotanFrame: 'smooth', cotanUnsigned: 'biased' });
     const again = await new NodeIO().readBinary(await new NodeIO().writeBinary(document)); // through a file
     assert.equal(again.getRoot().listMaterials()[0].getExtras().cotanFrame, 'smooth');
     await again.transform(transforms.untangent({ to: 'mikktspace' })); // from what it names
-    assert.deepEqual(again.getRoot().listMaterials()[0].getExtras(), { kept: [1, 2] });
+    assert.deepEqual(again.getRoot().listMaterials()[0].getExtras(), { kept: [1, 2], cotanUnsigned: 'biased' });
     const back = await decodePng(again.getRoot().listTextures()[0].getImage());
     const steps = back.data.reduce((most, x, k) => Math.max(most, Math.abs(x - original.data[k])), 0);
     assert.ok(steps <= 3, `${steps} steps of 8 bits there and back`);

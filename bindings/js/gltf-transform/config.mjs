@@ -41,7 +41,8 @@ export default {
     both(program, 'untangent', 'Make normal maps for another frame and drop tangents')
       .option('--from <frame>', 'Frame that the maps were made for; left out: the one that the materials name, else mikktspace')
       .option('--to <frame>', 'Frame that they shall be for', { default: 'cotangent' })
-      .action(run(io, ({ from, to }) => untangent({ from, to })));
+      .option('--unsigned <how>', 'How engines take the numbers of the new maps: biased, 2c - 1, or exact, where 128 is zero', { default: 'biased' })
+      .action(run(io, ({ from, to, unsigned }) => untangent({ from, to, unsigned })));
     both(program, 'provoking', 'Number vertices so that vertex k provokes triangle k')
       .option('--vertex <vertex>', 'first or last of the three', { default: 'first' })
       .action(run(io, ({ vertex }) => provoking({ vertex })));

@@ -14,6 +14,7 @@ export function untangent(options?: {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  unsigned?: 'biased' | 'exact';
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   /** Gets the report of the conversion. Its notes are warnings of the document's logger too. */
   report?: (report: ConvertReport) => void;

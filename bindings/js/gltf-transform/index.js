@@ -3,7 +3,6 @@ import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
-const kFrameKey = 'cotanFrame'; // in the extras of materials
 const kTangentFrames = ['mikktspace', 'vertex'];
 
 function* primitivesOf(document) {
@@ -176,19 +175,19 @@ function replaceMap(document, map, png) {
   texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.png`);
 }
 
-/** Which frame the maps of a material are for; undefined: glTF's own, which is not written. */
-function nameFrame(material, frame) {
-  const { [kFrameKey]: before, ...others } = material.getExtras();
-  if (before !== frame) material.setExtras(frame === undefined ? others : { ...others, [kFrameKey]: frame });
+/** What readers of a material's maps must know, cotanFrame and cotanUnsigned, as the conversion has it. */
+function takeExtras(material, extras = {}) {
+  const ours = (entries, yes) => Object.fromEntries(Object.entries(entries).filter(([name]) => name.startsWith('cotan') === yes));
+  material.setExtras({ ...ours(material.getExtras(), false), ...ours(extras, true) });
 }
 
 export function untangent({ from, to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
-  decode = decodePicture, report } = {}) {
+  unsigned = 'biased', decode = decodePicture, report } = {}) {
   return named('untangent', async (document) => {
     await ready;
     const { model, files } = await written(document, decode), made = [];
     const { glb, report: found } = await convert(model, {
-      files, from, to, bits, keepTangents, generateTangents, decode,
+      files, from, to, bits, keepTangents, generateTangents, unsigned, decode,
       encode: async (picture) => {
         made.push(await encodePng(picture));
         return made.at(-1);
@@ -202,7 +201,7 @@ export function untangent({ from, to = 'cotangent', bits = 0, keepTangents = fal
       if (!has) dropTangents(primitive);
       else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
     }));
-    document.getRoot().listMaterials().forEach((material, m) => nameFrame(material, json.materials?.[m]?.extras?.[kFrameKey]));
+    document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
     document.getLogger().info(`untangent: ${maps.length} maps made for ${to}, ${found.maps.length - maps.length} kept`);
     report?.(found);

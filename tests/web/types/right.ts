@@ -59,7 +59,7 @@ try {
 }
 
 // glTF-Transform
-const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', report: (r) => r.unread_maps.map((map) => map.name) }),
+const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', unsigned: 'exact', report: (r) => r.unread_maps.map((map) => map.name) }),
   lintNormals({ limit: 2, frame: 'stored', report: (r) => r.over_limit.join() }), provoking({ vertex: 'first' })];
 await new Document().transform(...all);
 const known: string[] = frames();
