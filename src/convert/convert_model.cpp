@@ -33,7 +33,7 @@ public:
             return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
                                           gltfPath(document_).string(), name(**named), name(options_.frames.from)));
-        const auto jobs = mapJobs(document_, report_.notes);
+        auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
         report_.unread = unreadNormalMaps(document_);
