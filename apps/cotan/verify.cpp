@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/model/load.hpp"
 #include "cotan/verify/conversion.hpp"
 #include "cotan/verify/views.hpp"
 #include "loading.hpp"
