@@ -34,7 +34,7 @@ public:
                                           "that as the frame to convert from, found {}",
                                           gltfPath(document_).string(), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
-        const auto jobs = mapJobs(document_, report_.notes);
+        auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
         report_.unread = unreadNormalMaps(document_);
