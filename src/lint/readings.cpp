@@ -59,9 +59,9 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
         const glm::dvec3 generated = readBy(Frame::mikktspace, TangentOrigin::generated);
         const glm::dvec3 meant = f64::cotan_apply(meantFrame(s, p), m);
         for (Reader& r : readers)
-            r.errors.emplace_back(degreesBetween(readBy(r.frame, r.tangents),
-                                                 r.tangents == TangentOrigin::stored ? generated : meant),
-                                  weights[k]);
+            r.errors.emplace_back(
+                degreesBetween(readBy(r.frame, r.tangents), r.tangents == TangentOrigin::stored ? generated : meant),
+                weights[k]);
     }
     std::vector<Reading> result;
     for (Reader& r : readers)
