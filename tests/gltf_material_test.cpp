@@ -41,8 +41,10 @@ TEST(GltfMaterial, coatAndAnisotropyArrive)
 
 TEST(GltfMaterial, extrasSayHowTheNormalMapIsStored)
 {
-    for (const auto& [said, expected] : {std::pair<json, Expansion>("biased", Expansion::biased), {"exact", Expansion::exact},
-                                         {"other", Expansion::exact}, {7, Expansion::exact}}) {
+    for (const auto& [said, expected] : {std::pair<json, Expansion>("biased", Expansion::biased),
+                                         {"exact", Expansion::exact},
+                                         {"other", Expansion::exact},
+                                         {7, Expansion::exact}}) {
         Gltf g = square();
         addNormalMap(g);
         g.root["materials"][0]["extras"]["cotanUnsigned"] = said;

@@ -58,7 +58,8 @@ TEST_P(MikktspaceOracle, agreesOnObjModel)
     const Arrays a = readObj(model);
     std::vector<glm::vec4> expected = readOracle(oracle);
     ASSERT_EQ(a.indices.size(), expected.size());
-    // The oracle was asked with v upwards. What has no direction gets -1 whichever way v runs, which is +1 in our terms.
+    // The oracle was asked with v upwards. What has no direction gets -1 whichever way v runs, which is +1 in our
+    // terms.
     const std::vector<glm::vec4> ours = mikktspaceTangents(a.view());
     for (std::size_t c = 0; c < expected.size(); ++c)
         if (ours[c] == glm::vec4(1, 0, 0, 1) && expected[c] == glm::vec4(1, 0, 0, -1))

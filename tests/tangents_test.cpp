@@ -327,8 +327,8 @@ TEST(MikktspaceTangents, areTheSourcesOwnWhereThereIsNoDirection)
     for (const glm::vec4& t : cotan::mikktspaceTangents(line.view()))
         EXPECT_EQ(t, glm::vec4(1, 0, 0, 1));
 
-    // Two triangles at the origin whose dP/du are opposite, each of 60 degrees, and between them one without area in uv,
-    // which is averaged with both.
+    // Two triangles at the origin whose dP/du are opposite, each of 60 degrees, and between them one without area in
+    // uv, which is averaged with both.
     Arrays fan;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t o = fan.add({0, 0, 0}, n, {0, 0}), e = fan.add({1, 0, 0}, n, {1, 0});

@@ -93,8 +93,8 @@ TEST_F(MikktspacePairing, isThatOfThreeWhereTheReferenceMissesNeighbours)
     EXPECT_LT(apart.fromReference, apart.corners / 500); // corners at one vertex of some meshes
 }
 
-// Cells whose uv are one point, a line or those of a neighbour's edge, and triangles with two equal positions: some among
-// sound neighbours, some alone.
+// Cells whose uv are one point, a line or those of a neighbour's edge, and triangles with two equal positions: some
+// among sound neighbours, some alone.
 std::vector<Arrays> sheetsWithHoles(int count)
 {
     std::vector<Arrays> sheets = unevenSheets(count);

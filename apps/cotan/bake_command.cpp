@@ -91,7 +91,8 @@ Status checkModelOutput(const BakeCommandOptions& o)
 // Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
-    PutMapOptions options{.frame = job.frame(), .material = {},
+    PutMapOptions options{.frame = job.frame(),
+                          .material = {},
                           .expansion = job.setup.options.stored.format.expansion,
                           .keepTangents = job.setup.storedTangents};
     if (o.material >= 0) // a scene numbers its materials as meshes use them

@@ -185,7 +185,8 @@ Status run(const ConvertCommandOptions& o)
             return inWords(named.error());
         if (*named && o.from.empty())
             (*frames)->from = **named;
-        report.update({{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
+        report.update(
+            {{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
@@ -220,8 +221,11 @@ Status run(const ConvertCommandOptions& o)
 void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
-    a.option("--from-frame", o.from, "frame that the maps were made for (default: the one that the file names, else "
-                                          "mikktspace)").in("FRAME").offers(frameWords());
+    a.option("--from-frame", o.from,
+             "frame that the maps were made for (default: the one that the file names, else "
+             "mikktspace)")
+        .in("FRAME")
+        .offers(frameWords());
     a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
         .in("FRAME")
         .offers(frameWords());
@@ -236,9 +240,10 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
-    a.option("--unsigned", o.expansion,
-             "how the engine takes the maps' numbers: biased (2c - 1, as glTF says and stock engines do) or exact (zero "
-             "is 128, as Cotan reads maps that say nothing)")
+    a.option(
+         "--unsigned", o.expansion,
+         "how the engine takes the maps' numbers: biased (2c - 1, as glTF says and stock engines do) or exact (zero "
+         "is 128, as Cotan reads maps that say nothing)")
         .from({"biased", "exact"})
         .in("NAME");
     a.option(

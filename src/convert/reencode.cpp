@@ -260,7 +260,7 @@ private:
     std::span<const MapUse> uses_;
     FramePair frames_;
     f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
-    Expansion expansion_ = Expansion::exact; // of the result
+    Expansion expansion_ = Expansion::exact;       // of the result
     std::vector<UseRaster> rasters_;
     std::vector<RowCounts> rows_;
     std::vector<std::uint32_t> owner_;

@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kSamples = 4096;
 constexpr double kSameWay = 0.7071; // cosine of kTurned
 
-// MikkTSpace, with the directions of stored tangents where they are within 45 degrees: on a mesh that is bent by its
-// bones these were made before it was bent.
+// What engines show with tangents: MikkTSpace, but of unit vectors. mikktspace.h wants them as interpolated; three.js
+// and others normalise them, which on coarse meshes is a third of what is predicted here. With the directions of stored
+// tangents where they are within 45 degrees: on a mesh that is bent by its bones these were made before it was bent.
 f64::cotan_frame meantFrame(const MappedSurface& s, const SurfacePoint& p)
 {
     f64::cotan_frame frame = frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric);
@@ -26,7 +27,8 @@ f64::cotan_frame meantFrame(const MappedSurface& s, const SurfacePoint& p)
             > kSameWay * glm::length(glm::dvec3(own)) * glm::length(glm::dvec3(made));
         t += p.barycentric[int(k)] * (along ? glm::dvec4(glm::dvec3(own), made.w) : made);
     }
-    return f64::cotan_frame_mikktspace(frame.n, glm::dvec3(t), t.w);
+    return f64::cotan_frame_mikktspace(f64::cotan_normalize_or(frame.n, frame.n),
+                                       f64::cotan_normalize_or(glm::dvec3(t), glm::dvec3(0)), t.w);
 }
 
 } // namespace
@@ -57,9 +59,9 @@ std::vector<Reading> readings(const MappedSurface& s, const Material& material, 
         const glm::dvec3 generated = readBy(Frame::mikktspace, TangentOrigin::generated);
         const glm::dvec3 meant = f64::cotan_apply(meantFrame(s, p), m);
         for (Reader& r : readers)
-            r.errors.emplace_back(degreesBetween(readBy(r.frame, r.tangents),
-                                                 r.tangents == TangentOrigin::stored ? generated : meant),
-                                  weights[k]);
+            r.errors.emplace_back(
+                degreesBetween(readBy(r.frame, r.tangents), r.tangents == TangentOrigin::stored ? generated : meant),
+                weights[k]);
     }
     std::vector<Reading> result;
     for (Reader& r : readers)

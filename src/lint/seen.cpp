@@ -11,7 +11,7 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr int kSide = 256;            // of a depth picture
+constexpr int kSide = 512;            // of a depth picture
 constexpr double kLeastCosine = 0.05; // flatter faces show next to nothing
 
 struct DepthPicture {
@@ -88,7 +88,7 @@ void draw(const MappedSurface& s, std::size_t triangle, DepthPicture& picture)
 bool shows(const DepthPicture& picture, glm::dvec3 position, double cosine)
 {
     const glm::dvec3 p = picture.projected(position);
-    const double slack = picture.pixel * (1 + std::sqrt(1 - std::min(cosine * cosine, 1.0)) / cosine);
+    const double slack = picture.pixel * 0.6 * (1 + std::sqrt(1 - std::min(cosine * cosine, 1.0)) / cosine);
     return p.z >= picture.depth[picture.at(p.x, p.y)] - slack;
 }
 

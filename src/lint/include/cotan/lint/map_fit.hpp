@@ -40,7 +40,8 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
-// their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use shows anything: no triangle with area in space and uv.
+// their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use
+// shows anything: no triangle with area in space and uv.
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
                 const FramePair& frames, std::optional<Expansion> expansionAfter = {});
 
