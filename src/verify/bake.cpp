@@ -33,10 +33,10 @@ Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int
         const auto drawn = painter.draw(view);
         if (!drawn)
             return drawn.error();
-        const auto expected = expectedNormals(bake.low, bake.high, bake.options, view);
-        if (!expected)
-            return expected.error();
-        comparison.add(*expected, *drawn);
+        const auto seen = seeHigh(bake.low, bake.high, bake.options, view);
+        if (!seen)
+            return seen.error();
+        comparison.add(seen->expected, *drawn, *seen);
     }
     return comparison.finish();
 }

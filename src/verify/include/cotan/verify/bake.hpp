@@ -1,5 +1,5 @@
 // Whether a baked map shows the detailed surface: the simple one drawn with the map, and its normals compared
-// with those that rays from the eye find on the detailed surface.
+// with those of the detailed surface that a camera sees.
 #pragma once
 
 #include "cotan/bake/bake.hpp"
@@ -24,10 +24,15 @@ struct BakeToVerify {
     TangentOrigin tangents = TangentOrigin::stored; // that are drawn with
 };
 
-// Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map,
-// `expected` the high surface. side: of a picture, in pixels. The painter has no scene afterwards.
-// Errors: those of Painter::load, Painter::draw and expectedNormals; ErrorKind::usage for a material that
-// the scene does not have.
+// A map shows another surface than the high mesh does if this part of the pixels does. Below lie the rims of parts that
+// stand off: there the camera sees what the lines of the map pass.
+inline constexpr double kMostOthers = 0.01;
+
+// Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map, `expected`
+// the high surface itself, as rays from the eye meet it; the degrees compare the pixels of the low surface with those
+// normals of the high one that belong there (seeHigh). side: of a picture, in pixels. The painter has no scene
+// afterwards. Errors: those of Painter::load, Painter::draw and seeHigh; ErrorKind::usage for a material that the scene
+// does not have.
 Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int side = kBakeSide);
 
 } // namespace cotan
