@@ -87,7 +87,7 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
     say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
         toText(compared->all));
     const std::size_t others = compared->others, pixels = compared->pixels;
-    const bool lost = double(others) > kMostOthers * double(pixels);
+    const bool lost = !showsHighSurface(*compared);
     if (lost)
         warn(common,
              "--verify: {} of {} pixels show another surface than the high mesh does there (magenta in error-N.png): "

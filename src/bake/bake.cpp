@@ -44,6 +44,8 @@ public:
         const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
         sums_.assign(texels, glm::vec3(0));
         found_.assign(texels, 0);
+        packet_ = 0;
+        suspicious_ = false;
         for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
             const std::size_t count = std::min(kLanes, samples_.places.size() - i);
             counts.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
@@ -58,6 +60,12 @@ public:
     }
 
 private:
+    struct Traced { // what a packet found
+        Probes probes;
+        Hits hits;
+        std::span<const glm::ivec2> samples;
+    };
+
     // Of the texel that a sample belongs to.
     std::size_t texelOf(glm::ivec2 sample) const
     {
@@ -69,30 +77,60 @@ private:
     // Returns how many rays were traced.
     std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
     {
+        Traced& traced = traced_[packet_ % traced_.size()];
+        Probes& probes = traced.probes;
+        Hits& hits = traced.hits;
+        traced.samples = samples;
         pointsOf(low_, places, points_);
-        baker_.aim(points_, places, probes_);
-        std::size_t rays = baker_.find(probes_, hits_);
-        rays += baker_.valuesOf(points_, probes_, hits_, samples, values_);
-        Lanes<int> nearer{}, further{};
-        rays += baker_.somethingNearer(probes_, hits_, nearer);
-        rays += baker_.somethingFurther(probes_, hits_, further);
+        baker_.aim(points_, places, probes);
+        std::size_t rays = baker_.find(probes, hits);
+        rays += baker_.valuesOf(points_, probes, hits, samples, values_);
+        Lanes<int> further{};
+        rays += baker_.somethingFurther(probes, hits, further);
+        rays += askForNearer();
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const std::size_t texel = texelOf(samples[i]);
             int flags = places[i].covers ? texelCovered : texelTouched;
-            if (hits_.found(i)) {
+            if (hits.found(i)) {
                 const glm::vec3 value = values_.at(i);
                 sums_[texel - base_] += value;
                 ++found_[texel - base_];
                 if (options_.kind == BakeKind::normal && value.z < 0)
                     flags |= texelNegative;
-                if (nearer[i])
-                    flags |= texelNearer;
             } else {
                 flags |= further[i] ? texelMissed | texelFurther : texelMissed;
             }
             mark(texel, flags);
         }
         return rays;
+    }
+
+    // Marks texels on which another surface lies nearer. That costs a ray: asked are packets that found something far
+    // off; of the others every fourth, the three before one that says yes, and all after it until one says no. Returns
+    // how many rays were traced.
+    std::size_t askForNearer()
+    {
+        const std::size_t every = traced_.size(), now = packet_++;
+        if (!suspicious_ && now % every != 0 && !baker_.standsOff(traced_[now % every].hits))
+            return 0;
+        const bool before = suspicious_;
+        std::size_t rays = 0;
+        suspicious_ = markNearer(traced_[now % every], rays);
+        for (std::size_t back = 1; suspicious_ && !before && back < every && back <= now; ++back)
+            markNearer(traced_[(now - back) % every], rays);
+        return rays;
+    }
+    bool markNearer(const Traced& traced, std::size_t& rays)
+    {
+        Lanes<int> nearer{};
+        rays += baker_.somethingNearer(traced.probes, traced.hits, nearer);
+        bool any = false;
+        for (std::size_t i = 0; i < traced.samples.size(); ++i)
+            if (nearer[i]) {
+                any = true;
+                mark(texelOf(traced.samples[i]), texelNearer);
+            }
+        return any;
     }
 
     // From the sum over samples that found something.
@@ -117,8 +155,9 @@ private:
     std::vector<glm::vec3> sums_;     // over samples
     std::vector<std::uint8_t> found_; // how many samples of each texel found something
     LowPoints points_;
-    Probes probes_;
-    Hits hits_;
+    std::array<Traced, 4> traced_; // the last packets
+    std::size_t packet_ = 0;       // how many of the block came before
+    bool suspicious_ = false;      // the last one that was asked has something nearer
     Lanes3 values_;
 };
 

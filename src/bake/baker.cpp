@@ -172,6 +172,14 @@ std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes
     return rays;
 }
 
+bool Baker::standsOff(const Hits& hits) const
+{
+    bool any = false;
+    for (std::size_t i = 0; measured() && i < kLanes; ++i)
+        any = any || (hits.found(i) && hits.distance[i] > 0.15f * distance_);
+    return any;
+}
+
 std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
 {
     further.fill(0);

@@ -23,6 +23,8 @@ public:
     // Where something lies nearer to the low surface than what was found, so that BakeSearch::nearest would take that.
     // 0 everywhere for other rules.
     std::size_t somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const;
+    // Whether one of them is further in front than 0.15 of the limit. False for other rules.
+    bool standsOff(const Hits& hits) const;
     // Where nothing was found, but something lies on the line.
     std::size_t somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const;
     // What the map says of each hit.

@@ -16,16 +16,17 @@ namespace cotan {
 
 namespace {
 
-constexpr float kLimit = 0.1f;         // of the diagonal
-constexpr float kMargin = 0.002f;      // of the diagonal
-constexpr float kMore = 1.05f;         // of the measured distance
-constexpr float kLeastLean = 0.2f;     // cosine between a vertex's normal and its direction
-constexpr float kLeastSlope = 0.3f;    // cosine by which distances are divided at least: no cage leaves the model
-constexpr float kFaces = 0.1f;         // cosine from which two surfaces count as facing the same way
-constexpr float kAside = 0.35f;        // cosine below which the nearest point lies aside
-constexpr float kSpacing = 1.0f / 256; // of the diagonal, between points of large triangles
-constexpr float kSkip = 1e-4f;         // of the diagonal
-constexpr int kMostCuts = 64;          // of an edge of these
+constexpr float kLimit = 0.1f;      // of the diagonal
+constexpr float kMargin = 0.002f;   // of the diagonal
+constexpr float kMore = 1.05f;      // of the measured distance
+constexpr float kLeastLean = 0.2f;  // cosine between a vertex's normal and its direction
+constexpr float kLeastSlope = 0.3f; // cosine by which distances are divided at least: no cage leaves the model
+constexpr float kFaces = 0.1f;      // cosine from which two surfaces count as facing the same way
+constexpr float kAside = 0.35f;     // cosine below which the nearest point lies aside
+constexpr std::size_t kMostVertices = 400000; // that are measured: of more every second, third and so on
+constexpr float kSpacing = 1.0f / 256;        // of the diagonal, between points of large triangles
+constexpr float kSkip = 1e-4f;                // of the diagonal
+constexpr int kMostCuts = 64;                 // of an edge of these
 
 // Numbers for vertices: equal for those of one instance at one position.
 struct Groups {
@@ -298,13 +299,19 @@ void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, flo
 
 void measure(const HighSurface& high, float spacing, Measuring& measuring)
 {
+    std::size_t vertices = 0;
+    for (std::size_t instance = 0; instance < high.names().size(); ++instance)
+        vertices += high.triangles(instance).positions.size();
+    const std::size_t step = 1 + vertices / kMostVertices;
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        parallelRanges<std::size_t>(0, part.positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
-            Last last;
-            for (std::size_t i = begin; i != end; ++i)
-                measuring.add(part.positions[i], part.normals[i], instance, last);
-        });
+        parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
+                                    [&](std::size_t begin, std::size_t end) {
+                                        Last last;
+                                        for (std::size_t i = begin * step; i < end * step; i += step)
+                                            if (i < part.positions.size())
+                                                measuring.add(part.positions[i], part.normals[i], instance, last);
+                                    });
         parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
             Last last;
             for (std::size_t f = begin; f != end; ++f)
@@ -317,11 +324,11 @@ void measure(const HighSurface& high, float spacing, Measuring& measuring)
 // Whether some of the rays of a triangle would start behind another one.
 bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t triangle, float diagonal)
 {
-    constexpr int kMostSteps = 8;
+    constexpr int kLeastSteps = 3, kMostSteps = 12;
     const std::uint32_t* v = &low.indices[3 * triangle];
     const glm::vec3 p[3] = {low.positions[v[0]], low.positions[v[1]], low.positions[v[2]]};
     const float longest = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
-    const int steps = 2 + int(std::min(longest / (kSpacing * diagonal) / 4, float(kMostSteps - 2)));
+    const int steps = std::max(kLeastSteps, int(std::min(longest / (4 * kSpacing * diagonal), float(kMostSteps))));
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps - i; ++j) {
             // A little inside the edges.
@@ -340,19 +347,13 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
     return false;
 }
 
-void findCrossed(const LowSurface& low, const Groups& groups, float diagonal, RayStarts& starts)
+void findCrossed(const LowSurface& low, float diagonal, RayStarts& starts)
 {
     starts.crossed.assign(low.triangleCount(), 0);
     parallelRanges<std::size_t>(0, low.triangleCount(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f != end; ++f)
             starts.crossed[f] = isCrossed(low, starts, f, diagonal) ? 1 : 0;
     });
-    // And their neighbours, as between the points that were asked about others may be.
-    std::vector<std::uint8_t> near(groups.count, 0);
-    for (std::size_t i = 0; i < low.indices.size(); ++i)
-        near[groups.of[low.indices[i]]] |= starts.crossed[i / 3];
-    for (std::size_t i = 0; i < low.indices.size(); ++i)
-        starts.crossed[i / 3] |= near[groups.of[low.indices[i]]];
 }
 
 } // namespace
@@ -389,7 +390,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         Measuring measuring(low, high, options, *body, groups, starts);
         measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
         starts.distances = measuring.distances();
-        findCrossed(low, groups, body->diagonal, starts);
+        findCrossed(low, body->diagonal, starts);
     });
     starts.farthest = *std::max_element(starts.distances.begin(), starts.distances.end());
     return starts;
