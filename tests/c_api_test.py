@@ -58,6 +58,7 @@ class BakeOptions(Struct):
         ("max_distance", c.c_float), ("threads", c.c_int), ("progress", Progress), ("user", c.c_void_p)]
 
 
+# As it was in version 3: a shorter one is filled as far as it goes.
 class BakeResult(Struct):
     _fields_ = [(n, sizes_t) for n in ("size", "texels", "covered", "missed", "negative", "twice", "rays")] + [("ray_distance", c.c_double)]
 
@@ -114,7 +115,7 @@ listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M)
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
 exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 3 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 4 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 

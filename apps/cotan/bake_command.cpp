@@ -30,17 +30,46 @@ Json describe(const BakeStatistics& s)
             {"covered", s.covered},
             {"touched", s.touched},
             {"missed", s.missed},
+            {"further_away", s.further},
+            {"not_the_nearest", s.nearer},
             {"negative_z", s.negative},
             {"claimed_twice", s.twice},
             {"rays", s.rays},
             {"ray_distance", s.rayDistance},
+            {"ray_start", s.rayStart},
             {"triangles_mirrored", s.mirroredTriangles},
             {"triangles_without_uv_area", s.degenerateTriangles},
             {"seconds", s.seconds},
             {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
 }
 
-double percent(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : 100.0 * double(part) / double(whole); }
+// What rays did not find, or not as the older rule would have.
+void explainRays(const BakeCommandOptions& o, const BakeStatistics& s)
+{
+    if (s.further > 0 && o.cage.empty())
+        warn(o,
+             "{} of {} covered texels found no high surface within {:g} units; there is one further away "
+             "(--max-distance, --cage; --mask shows where)",
+             s.further, s.covered, s.rayDistance);
+    else if (s.further > 0)
+        warn(o,
+             "{} of {} covered texels found no high surface within the reach of the cage; there is one further away "
+             "(--mask shows where)",
+             s.further, s.covered);
+    if (s.missed > s.further)
+        warn(o,
+             "{} of {} covered texels have no high surface before or behind them at any distance: it has holes, or "
+             "ends before the low mesh does (--mask shows where)",
+             s.missed - s.further, s.covered);
+    if (s.nearer > 0)
+        warn(o,
+             "{} of {} covered texels show the first surface from outside, not the nearest one: parts stand off there "
+             "({})",
+             s.nearer, s.covered,
+             s.rayStart > 0 && o.extrusion == 0
+                 ? fmt::format("measured, up to {:.3g} units; --extrusion sets how far; --search nearest", s.rayStart)
+                 : "--search nearest");
+}
 
 // What the statistics mean for the one who baked.
 void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatistics& s)
@@ -49,19 +78,15 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
         s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
         warn(o, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim);
-    if (s.missed > 0)
-        warn(o,
-             "{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask "
-             "shows where)",
-             percent(s.missed, s.covered), s.rayDistance);
+    explainRays(o, s);
     if (s.negative > 0)
         warn(o,
-             "{:.2f} % of the covered texels look below the frame's horizon (negative z): the low mesh is too coarse "
-             "there, or rays hit another part",
-             percent(s.negative, s.covered));
+             "{} of {} covered texels look below the frame's horizon (negative z): the low mesh is too coarse there, "
+             "or rays hit another part",
+             s.negative, s.covered);
     if (s.twice > 0)
-        warn(o, "{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
-             percent(s.twice, s.covered));
+        warn(o, "{} of {} covered texels are claimed by several triangles; the first in the file won", s.twice,
+             s.covered);
     const bool perTriangle = !readsVertices(job.frame()) && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o,
@@ -185,8 +210,18 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("NAME");
     a.option("--size", o.size, "width and height in texels").in("WxH");
     a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
+    a.option(
+         "--search", o.search,
+         "which surface counts: first, that a ray from outside inwards meets, or nearest to the low mesh, either way")
+        .from({"first", "nearest"})
+        .in("NAME");
+    a.option("--extrusion", o.extrusion,
+             "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
+        .within(0.0, 1e9)
+        .in("D");
     a.option("--max-distance", o.maxDistance,
-             "how far rays reach to both sides of the low mesh, in model units; 0: 5 % of the high mesh's diagonal")
+             "high surfaces further from the low mesh do not count, in model units; 0: 10 % of the low mesh's diagonal "
+             "(--search nearest: 5 % of the high mesh's)")
         .within(0.0, 1e9)
         .in("D");
     a.option("--cage", o.cage,

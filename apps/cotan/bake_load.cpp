@@ -91,6 +91,18 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
     return Done{};
 }
 
+// Options about where rays start that contradict each other.
+Status checkRays(const BakeCommandOptions& o)
+{
+    const bool nearest = o.search == "nearest";
+    if (nearest && o.extrusion > 0)
+        return usageError("--extrusion: --search nearest looks both ways from the low mesh; expected one of them");
+    if (!o.cage.empty() && (nearest || o.extrusion > 0))
+        return usageError(fmt::format("--cage: rays start on it and the first surface counts; found {} as well",
+                                      nearest ? "--search nearest" : "--extrusion"));
+    return Done{};
+}
+
 Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
 {
     BakeModelOptions options;
@@ -105,11 +117,15 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
         return stored.error();
     if (Status ok = parseHigh(o, options); !ok)
         return ok.error();
+    if (Status ok = checkRays(o); !ok)
+        return ok.error();
     options.bake.kind = kindOf(o.kind);
     options.bake.frame = *frame;
     options.bake.width = size->first;
     options.bake.height = size->second;
     options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
+    options.bake.search = o.search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
+    options.bake.extrusion = o.extrusion;
     options.bake.maxDistance = o.maxDistance;
     options.bake.occlusionRays = o.occlusionRays;
     options.bake.threads = o.threads;

@@ -20,7 +20,8 @@ struct BakeCommandOptions : CommonOptions {
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     int memory = kDefaultMemory;
-    float maxDistance = 0;
+    float maxDistance = 0, extrusion = 0;
+    std::string search = "first";
     bool dither = false, matchByName = false;
 };
 

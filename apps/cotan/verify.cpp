@@ -102,7 +102,25 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
         return written.error();
     say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
         toText(compared->all));
-    return Json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", viewsOf(*compared)}};
+    const std::size_t others = compared->others, pixels = compared->pixels;
+    const bool lost = !showsHighSurface(*compared);
+    if (lost)
+        warn(common,
+             "--verify: {} of {} pixels show another surface than the high mesh does there (magenta in error-N.png): "
+             "the "
+             "map is wrong{}",
+             others, pixels,
+             bake.options.search == BakeSearch::nearest ? "; --search first takes what is in front"
+                                                        : " (--extrusion, --max-distance, --cage)");
+    else if (pixels == 0)
+        warn(common, "--verify compared nothing: the camera sees no high surface where the low one is");
+    Json all = toJson(compared->all);
+    all["surface_known"] = pixels;
+    all["another_surface"] = others;
+    return Json{{"device", (*painter)->device()},
+                {"all", all},
+                {"shows_the_high_surface", pixels > 0 && !lost},
+                {"views", viewsOf(*compared)}};
 }
 
 } // namespace cotan::app

@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 3
+#define COTAN_API_VERSION 4
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) { sizeof(type) }
@@ -268,7 +268,9 @@ typedef struct cotan_bake_options {
     int padding;             /* texels around charts that are filled; 0: all, -1: none */
     int dither;              /* not 0: maps of 8 bits do not band */
     int occlusion_rays;      /* 0: 64 */
-    float max_distance;      /* of the detailed surface, units of the positions; 0: 5 % of its box */
+    float max_distance;      /* detail further than this from the simple surface does not count, units of the positions;
+                                0: 10 % of the diagonal of the simple surface's box; for the search "nearest" 5 % of
+                                that of the detailed one */
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
@@ -286,6 +288,11 @@ typedef struct cotan_bake_options {
     const cotan_picture* const* high_maps; /* that take the place of its own */
     cotan_picture* mask; /* of 8 bits and the map's size: gets what became of each texel; null: not wanted */
     float cage_reach; /* how far rays run from the cage; 0: as far behind the simple model as the cage is before it */
+    /* Since version 4. */
+    const char* search; /* "first": what a ray from outside inwards meets; "nearest": what is nearest to the simple
+                           surface along its normal, either way; null: "first" */
+    float extrusion;    /* how far before the simple surface rays start, units of the positions; 0: measured, as the
+                           detailed one stands off */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
@@ -296,6 +303,10 @@ typedef struct cotan_bake_result {
     size_t twice;    /* that several triangles cover */
     size_t rays;
     double ray_distance; /* the search distance used */
+    /* Since version 4. */
+    size_t further;   /* of the missed ones: there is a surface further away than rays look */
+    size_t nearer;    /* that show the first surface from outside, where another is nearer */
+    double ray_start; /* the largest distance before the simple surface from which rays start */
 } cotan_bake_result;
 
 /* The map of the detailed mesh `high`, whose texcoords may be null, for the simple one `low`. `map` has the size and
