@@ -89,36 +89,27 @@ std::vector<Texel> texelsOf(const UvRaster& raster, int square)
     return texels;
 }
 
-// The rays that bake() traces: forward, and back as far as the forward one found something.
-std::vector<RTCRayHit> raysOf(const LowSurface& low, const HighSurface& high, const Bare& bare, int size, int square)
+// The rays that bake() traces: from where they start in front of the low surface inwards. Those that only count where
+// the older rule differs are left out.
+std::vector<RTCRayHit> raysOf(const LowSurface& low, const RayStarts& starts, int size, int square)
 {
-    const float diagonal = glm::length(high.high() - high.low()), reach = 0.05f * diagonal, lift = 1e-5f * diagonal;
-    std::vector<RTCRayHit> forward, back;
+    std::vector<RTCRayHit> rays;
     for (const auto& [at, place] : texelsOf(UvRaster({low.texcoords, low.indices}, size, size), square)) {
-        const LowPoint p = pointOf(low, place.triangle, place.b1, place.b2);
-        for (float way : {1.0f, -1.0f}) {
-            const glm::vec3 d = glm::vec3(p.normal) * way, o = glm::vec3(p.position) - d * lift;
-            RTCRayHit r{};
-            r.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, reach + lift, ~0u, 0, 0};
-            r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-            if (way < 0 && forward.back().hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                r.ray.tfar = std::abs(forward.back().ray.tfar - lift) + lift;
-            (way > 0 ? forward : back).push_back(r);
-            if (way > 0) {
-                RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                rtcIntersect1(bare.scene, &context, &forward.back());
-            }
-        }
+        const std::uint32_t* v = &low.indices[3 * std::size_t(place.triangle)];
+        const float b0 = 1 - place.b1 - place.b2;
+        const glm::vec3 sum =
+            starts.directions[v[0]] * b0 + starts.directions[v[1]] * place.b1 + starts.directions[v[2]] * place.b2;
+        const float before =
+            starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2;
+        const glm::vec3 d = -glm::normalize(sum),
+                        o = glm::vec3(pointOf(low, place.triangle, place.b1, place.b2).position) - d * before;
+        RTCRayHit r{};
+        r.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, before + starts.limit, ~0u, 0, 0};
+        r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rays.push_back(r);
     }
-    for (RTCRayHit& r : forward) {
-        r.ray.tfar = reach + lift;
-        r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    }
-    forward.resize(forward.size() / 16 * 16);
-    back.resize(forward.size());
-    forward.insert(forward.end(), back.begin(), back.end());
-    return forward;
+    rays.resize(rays.size() / 16 * 16);
+    return rays;
 }
 
 std::vector<RTCRayHit16> packetsOf(const std::vector<RTCRayHit>& rays)
@@ -171,8 +162,10 @@ int main(int argc, char** argv)
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-    const std::vector<RTCRayHit> inRows = raysOf(*low, *high, bare, size, 1),
-                                 inSquares = raysOf(*low, *high, bare, size, 4);
+    if (!measureRayStarts(*low, *high, options))
+        return 2;
+    const std::vector<RTCRayHit> inRows = raysOf(*low, *options.starts, size, 1),
+                                 inSquares = raysOf(*low, *options.starts, size, 4);
     const auto packets = [&](const std::vector<RTCRayHit>& rays) {
         std::vector<RTCRayHit16> sixteen = packetsOf(rays);
         return timed([&] {

@@ -5,12 +5,14 @@
 #include "cotan/lang.h"
 #include "cotan/frame.h"
 #include "cotan/light.h"
+#include "cotan/quantise.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
 #include "cotan/backdrop.h"
 #include "bindings.glsl"
 #include "constants.glsl"
 #include "environment.glsl"
+#include "levels.glsl"
 
 #define BACKDROP_GRADIENT 0
 #define BACKDROP_MAP 1
@@ -35,11 +37,11 @@ void main()
     vec3 ray = normalize(inRay);
     float share = GROUND ? groundShare(ray) : 1.0;
     if (BACKDROP == BACKDROP_NONE) {
-        outColor = vec4(0.0, 0.0, 0.0, 1.0 - share);
+        outColor = written(vec4(0.0, 0.0, 0.0, 1.0 - share));
         return;
     }
     vec3 radiance = BACKDROP == BACKDROP_MAP ? radianceAlong(ray, view.tone.y)
         : BACKDROP == BACKDROP_PAPER         ? cotan_paper(ray) / view.tone.x
                                              : cotan_environment(ray, 0.35);
-    outColor = vec4(finished(radiance * share), 1.0);
+    outColor = written(vec4(finished(radiance * share), 1.0));
 }

@@ -16,9 +16,10 @@ void main()
 #ifndef COTAN_NO_RAY
     outRay = view.forward.xyz + view.right.xyz * corner.x + view.up.xyz * corner.y;
     // All rays start at the eye, or side by side.
+    vec2 across = corner - vec2(view.clipX.w, view.clipY.w);
     outOrigin = view.forward.w > 0.5 ? vec3(0.0)
-                                     : view.clipX.xyz * (corner.x / dot(view.clipX.xyz, view.clipX.xyz))
-            + view.clipY.xyz * (corner.y / dot(view.clipY.xyz, view.clipY.xyz));
+                                     : view.clipX.xyz * (across.x / dot(view.clipX.xyz, view.clipX.xyz))
+            + view.clipY.xyz * (across.y / dot(view.clipY.xyz, view.clipY.xyz));
 #endif
     gl_Position = vec4(corner, 0.0, 1.0);
 }

@@ -19,6 +19,7 @@ layout(constant_id = 13) const int BACKDROP = 0;
 layout(constant_id = 14) const bool GROUND = false;
 layout(constant_id = 15) const bool FOUR_SAMPLES = false; // a pixel
 layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
+layout(constant_id = 17) const bool LEVELS = false; // levels.glsl
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

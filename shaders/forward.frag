@@ -17,6 +17,7 @@
 #include "cotan/sheen.h"
 #include "cotan/tone.h"
 #include "cotan/environment.h"
+#include "cotan/quantise.h"
 #include "cotan/shadow.h"
 #include "bindings.glsl"
 #include "constants.glsl"

@@ -88,7 +88,7 @@ struct CotanView {
     vec4 soft;    // x: widening of a half-shadow as map u a map depth; y: most u; z: map u a depth, lengths; w unused
     vec4 ground;  // camera-relative x and z to places in the ground's picture: scale, offset of x; of z
     vec4 tone;    // x: exposure; y: roughness of the mirror that the backdrop is seen in; z: camera-relative ground
-    uvec4 counts; // x: lights
+    uvec4 counts; // x: lights; y: 1 if levels are dithered; z: rows of the picture where they run upward, otherwise 0
 };
 
 // Push constants, one an instance: exactly the 128 bytes that every device has.

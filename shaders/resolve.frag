@@ -1,14 +1,35 @@
 #version 460
-// The mean of the samples of a pixel, which are linear here whatever the target's format. What a device does itself at
-// the end of a pass is the same; Mesa's CPU driver compiles 40 ms for it in every process.
+#extension GL_GOOGLE_include_directive : require
+// The mean of the samples of a pixel, which are linear, and in pictures with 8 bits the levels that it becomes.
+// Compiled a second time with COTAN_MULTISAMPLED. What a device does itself at the end of a pass is the same mean;
+// Mesa's CPU driver compiles 40 ms for it in every process.
+#define COTAN_LANG_GLSL
+#include "cotan/lang.h"
+#include "cotan/frame.h"
+#include "cotan/light.h"
+#include "cotan/quantise.h"
+#include "gpu_structs.glsl"
+
+layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
+layout(constant_id = 17) const bool LEVELS = false; // of constants.glsl
+#include "levels.glsl"
+
+#ifdef COTAN_MULTISAMPLED
 layout(set = 0, binding = 5) uniform sampler2DMS samples;
+#else
+layout(set = 0, binding = 5) uniform sampler2D samples;
+#endif
 layout(location = 0) out vec4 outColor;
 
 void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy);
+#ifdef COTAN_MULTISAMPLED
     vec4 sum = texelFetch(samples, at, 0) + texelFetch(samples, at, 1);
     sum += texelFetch(samples, at, 2);
     sum += texelFetch(samples, at, 3);
-    outColor = sum * 0.25;
+    outColor = written(sum * 0.25);
+#else
+    outColor = written(texelFetch(samples, at, 0));
+#endif
 }

@@ -112,6 +112,86 @@ TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
         EXPECT_TRUE(std::filesystem::exists(folder / "views" / file)) << file;
 }
 
+// A plane at z = 0 under a plane at z = 0, with a slab that floats over its middle and leans: it is what is seen.
+void writeSlab(const std::filesystem::path& folder)
+{
+    std::ofstream(folder / "low.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                         "f 1/1 2/2 3/3 4/4\n";
+    std::ofstream(folder / "high.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+                                          "v 0.3 0.3 0.03\nv 0.7 0.3 0.09\nv 0.7 0.7 0.09\nv 0.3 0.7 0.03\nf 5 6 7 8\n";
+}
+
+TEST(BakeCommand, verifyFailsWhereWhatIsInFrontIsNotInTheMap)
+{
+    TemporaryFolder folder;
+    writeSlab(folder.path());
+    const auto verified = [&](const std::vector<std::string>& more, ToolRun& run) {
+        std::vector<std::string> words{"bake",    "--high",      "high.obj", "--low",    "low.obj",  "--size",
+                                       "128x128", "-o",          "m.png",    "--verify", "views",    "--json",
+                                       "r.json",  "--overwrite", "--frame",  "smooth",   "--device", "reference"};
+        words.insert(words.end(), more.begin(), more.end());
+        run = runTool(words, folder.path(), 240);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return nlohmann::json::parse(readWhole(folder / "r.json"))["verify"];
+    };
+    ToolRun run;
+    const auto right = verified({}, run);
+    EXPECT_EQ(run.err.find("another surface"), std::string::npos) << run.err;
+    EXPECT_TRUE(right["shows_the_high_surface"]);
+    EXPECT_LT(right["all"]["median_degrees"].get<double>(), 0.3); // 8 bits
+    // The older rule takes the plane below: a sixth of the square, 8.5 degrees off.
+    const auto wrong = verified({"--search", "nearest"}, run);
+    EXPECT_NE(run.err.find("show another surface than the high mesh does there"), std::string::npos) << run.err;
+    EXPECT_FALSE(wrong["shows_the_high_surface"]);
+    const double share = wrong["all"]["another_surface"].get<double>() / wrong["all"]["surface_known"].get<double>();
+    EXPECT_NEAR(share, 0.16, 0.02);
+    EXPECT_NEAR(wrong["all"]["mean_degrees"].get<double>(), share * 8.53, 0.2);
+    // The picture of the high mesh is one of the high mesh: its slab leans, whatever the map shows.
+    const auto high = readImage(folder / "views" / "high-0.png"), error = readImage(folder / "views" / "error-0.png");
+    ASSERT_TRUE(high && error);
+    const std::size_t middle =
+        4 * (std::size_t(high->height) / 2 * std::size_t(high->width) + std::size_t(high->width) / 2);
+    EXPECT_NEAR(double(high->bytes8()[middle]), (1 - std::sin(0.1489)) * 127.5, 1.5); // a slope of 0.15
+    EXPECT_EQ(int(error->bytes8()[middle]), 255);                                     // magenta
+    EXPECT_EQ(int(error->bytes8()[middle + 1]), 0);
+    EXPECT_EQ(int(error->bytes8()[middle + 2]), 255);
+}
+
+TEST(BakeCommand, warningsCountTexelsAndBlameTheDistanceOnlyWhereItIsTheDistance)
+{
+    TemporaryFolder folder;
+    writeSlab(folder.path());
+    const auto bake = [&](const std::string& high, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"bake",  "--high", high,    "--low",       "low.obj", "--size",
+                                       "64x64", "-o",     "m.png", "--overwrite", "--frame", "smooth"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ToolRun r = runTool(words, folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+        return r.err;
+    };
+    // What floats: about a sixth of 4096 texels, which the older rule sees otherwise.
+    const std::string floats = bake("high.obj", {});
+    EXPECT_NE(floats.find(" of 4096 covered texels show the first surface from outside, not the nearest one"),
+              std::string::npos)
+        << floats;
+    // A hole at one texel: neither distance nor percent.
+    std::ofstream(folder / "hole.obj") << "v 0 0 0\nv 0.49 0 0\nv 0.49 1 0\nv 0 1 0\nv 0.501 0 0\nv 1 0 0\nv 1 1 0\n"
+                                          "v 0.501 1 0\nf 1 2 3 4\nf 5 6 7 8\n";
+    const std::string hole = bake("hole.obj", {});
+    EXPECT_NE(hole.find("64 of 4096 covered texels have no high surface before or behind them at any distance"),
+              std::string::npos)
+        << hole;
+    EXPECT_EQ(hole.find("further away"), std::string::npos) << hole;
+    EXPECT_EQ(hole.find('%'), std::string::npos) << hole;
+    // Too far away, by a rule that says how far it looks.
+    std::ofstream(folder / "far.obj") << "v 0 0 0.5\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0.5\nf 1 2 3 4\n";
+    const std::string far = bake("far.obj", {"--max-distance", "0.2"});
+    EXPECT_NE(far.find("4096 of 4096 covered texels found no high surface within 0.2 units; there is one further away"),
+              std::string::npos)
+        << far;
+    EXPECT_EQ(far.find("at any distance"), std::string::npos) << far;
+}
+
 struct Files {
     TemporaryFolder folder;
     Files()
@@ -138,6 +218,11 @@ TEST(BakeCommand, badInputGetsOneLineAndItsExitCode)
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "0x8"}, 1},
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--frame", "nonperspective"}, 1},
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--convention", "mine"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--search", "last"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--extrusion", "-1"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--extrusion", "1", "--search", "nearest"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--extrusion", "1", "--cage", "low.obj"}, 1},
+        {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--search", "nearest", "--cage", "low.obj"}, 1},
         {{"--high", "bare.obj", "--low", "low.obj", "-o", "m.xyz", "--size", "8x8"}, 1},
     };
     for (auto [words, code] : runs) {

@@ -141,16 +141,17 @@ TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)
 
 TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
 {
-    // Two sheets: a hidden one at 0.1, the outer one at 0.3. The nearest to the low mesh is the hidden one;
-    // from a cage at 0.5 the outer one comes first.
+    // Two sheets: a hidden one at 0.1, the outer one at 0.3. The nearest to the low mesh is the hidden one; from a cage
+    // at 0.5 the outer one comes first, and so it does from where the high mesh is measured to end.
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.1, 3) + square(-1, -1, 0.3, 3) + faces(1) + faces(5));
-    for (const auto& [cage, height] : {std::pair(false, 0.1), {true, 0.3}}) {
+    for (const auto& [option, height] :
+         {std::pair("--search", 0.1), {"--cage", 0.3}, {"--extrusion", 0.3}, {"", 0.3}}) {
         std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj",        "--kind", "height", "--bits",
                                        "32",     "--size",   "4x4",   "--max-distance", "1",      "-o",     "h.exr"};
-        if (cage)
-            words.insert(words.end(), {"--cage", "cage.obj"});
+        if (const std::string word = option; !word.empty())
+            words.insert(words.end(), {word, word == "--cage" ? "cage.obj" : word == "--search" ? "nearest" : "0.5"});
         const ToolRun r = bake(words);
         ASSERT_EQ(r.code, 0) << r.err;
         const Image image = picture("h.exr");
@@ -220,11 +221,11 @@ TEST_F(BakeFeatures, severalHighMeshesAreOneSurface)
 
 TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
 {
-    // The partner of the low mesh is at 0.3; a stranger at 0.1 is nearer.
+    // The partner of the low mesh is at 0.1; a stranger at 0.3 lies in front of it.
     write("low.obj", "o door_low\n" + square(0, 0, 0, 1) + kFaces);
     write("high.obj",
-          "o wall_high\n" + square(-1, -1, 0.1, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.3, 3) + faces(5));
-    for (const auto& [match, height] : {std::pair(false, 0.1), {true, 0.3}}) {
+          "o wall_high\n" + square(-1, -1, 0.3, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.1, 3) + faces(5));
+    for (const auto& [match, height] : {std::pair(false, 0.3), {true, 0.1}}) {
         std::vector<std::string> words{"--high", "high.obj", "--low", "low.obj",        "--kind", "height", "--bits",
                                        "32",     "--size",   "4x4",   "--max-distance", "1",      "-o",     "h.exr"};
         if (match)
@@ -309,7 +310,7 @@ TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
 
 TEST_F(BakeFeatures, aCageFindsWhatTheDefaultDistanceMisses)
 {
-    // The high sheet is 0.4 away; 5 % of a diagonal of 3 * sqrt(2) is 0.21.
+    // The high sheet is 0.4 away; 10 % of the low mesh's diagonal is 0.14.
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.4, 3) + kFaces);

@@ -305,9 +305,10 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     view.width = view.height = 16;
     view.camera.eye = {0.5f, 0.5f, 3};
     view.camera.target = {0.5f, 0.5f, 0};
-    const auto drawn = expectedNormals(*low, *surface, options, view);
-    ASSERT_TRUE(drawn);
-    const Image& seen = *drawn;
+    const auto both = seeHigh(*low, *surface, options, view);
+    ASSERT_TRUE(both);
+    const Image& seen = both->expected;
+    EXPECT_EQ(both->others, 0u);
     int found = 0;
     for (std::size_t i = 0; i < seen.pixelCount(); ++i)
         if (const float* p = seen.floats() + 4 * i; p[3] > 0) {

@@ -177,9 +177,9 @@ TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
 
 TEST(BakeModel, meshesAreMatchedByName)
 {
-    // Both detailed squares lie before the simple one; the nearer is not its own.
+    // Both detailed squares lie before the simple one; the outer is not its own.
     Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
-    Scene high = sceneOfMeshes({square({0, 0, 0.01f}, {1, 0, 0.3f}), square({0, 0, 0.1f}, {1, 0, -0.05f})});
+    Scene high = sceneOfMeshes({square({0, 0, 0.1f}, {1, 0, 0.3f}), square({0, 0, 0.06f}, {1, 0, -0.05f})});
     low.meshes[0].name = "Door_LOW";
     high.meshes[0].name = "wall_high";
     high.meshes[1].name = "door_high";
@@ -237,6 +237,13 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
               "options.tiles: expected numbers from 1001 on; found 1000");
     EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }),
               "high.maps: expected none, one, or one for each of the 1 scenes; found 2");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.extrusion = -1; }), "options.extrusion: expected 0 to 1e+17; found -1");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.extrusion = 1, o.bake.search = BakeSearch::nearest; }),
+              "options.extrusion: the search nearest looks both ways from the low surface");
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.search = BakeSearch::nearest; }),
+              "options.search: a cage says already where rays start, and the first surface counts");
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.extrusion = 1; }),
+              "options.extrusion: a cage says already where rays start, and the first surface counts");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }),
               "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
 }
@@ -255,6 +262,9 @@ TEST(BakeModel, positionsFromWhichNoRayCanStartAreRefused)
     EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
               "options.cage: expected positions up to 1e+17 from the origin; found 1e+20");
     options.cage = nullptr;
+    options.bake.extrusion = 1e20f;
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)), "options.extrusion: expected 0 to 1e+17; found 1e+20");
+    options.bake.extrusion = 0;
     options.bake.maxDistance = 1e20f;
     EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
               "options.maxDistance: expected at most 1e+17; found 1e+20");

@@ -207,10 +207,11 @@ TEST(PlacedByHand, differencesAreThoseAlongUAndAlongV)
 
 // ---- rays -----------------------------------------------------------------------------------
 
-TEST(RaysByHand, theNearerOfTheSurfacesInFrontAndBehindCounts)
+TEST(RaysByHand, theNearerOfTheSurfacesInFrontAndBehindCountsWhereThatIsAskedFor)
 {
     BakeOptions options = small(4, 4);
     options.kind = BakeKind::height;
+    options.search = BakeSearch::nearest;
     const Scene low = sceneOfMeshes({unitSquare(0)});
     for (const auto& [front, behind] : {std::pair(0.3f, -0.1f), std::pair(0.1f, -0.3f)}) {
         const Baked baked = bakeScenes(low, sceneOfMeshes({unitSquare(front), unitSquare(behind)}), options);
@@ -249,13 +250,15 @@ TEST(RaysByHand, aCagesRaysRunAsFarAsTheyAreTold)
             << height;
 }
 
-TEST(RaysByHand, theDistanceIsFivePercentOfTheHighSurfacesBoxUnlessGiven)
+TEST(RaysByHand, theDistanceIsTenPercentOfTheLowSurfacesBoxOrForTheNearestFiveOfTheHighOnes)
 {
     BakeOptions options = small(4, 4);
     options.maxDistance = 0;
     const Scene low = sceneOfMeshes({unitSquare(0)});
     const Scene high =
         sceneOfMeshes({unitSquare(0), rectangle({3, 0, 0}, {0, 4, 0}, {0, 0, 12})}); // a box of 3 x 4 x 12
+    EXPECT_NEAR(bakeScenes(low, high, options).statistics.rayDistance, 0.1 * std::sqrt(2.0), kRounding);
+    options.search = BakeSearch::nearest;
     EXPECT_NEAR(bakeScenes(low, high, options).statistics.rayDistance, 0.05 * 13, kRounding);
     options.maxDistance = 0.25f;
     EXPECT_EQ(bakeScenes(low, high, options).statistics.rayDistance, 0.25);
@@ -369,8 +372,13 @@ TEST(SeenByHand, everyPixelShowsTheNormalOfThePlaceBehindIt)
     const auto low = makeLowSurface(sceneOfMeshes({unitSquare(0)}), -1, options.frame, TangentOrigin::generated);
     const auto surface = HighSurface::make({sceneOfMeshes({high})}, 1);
     ASSERT_TRUE(low && surface);
-    const Image image = *expectedNormals(*low, *surface, options, view);
+    const auto seen = seeHigh(*low, *surface, options, view);
+    ASSERT_TRUE(seen);
+    const Image& image = seen->expected;
     ASSERT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());
+    for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // the high surface is the low one
+        EXPECT_NEAR(seen->normals.floats()[i], image.floats()[i], 1e-5f);
+    EXPECT_EQ(seen->others, 0u);
     const double halfHeight = std::tan(0.25); // of the picture in the plane, one unit away
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 40; ++x) {

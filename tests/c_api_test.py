@@ -58,6 +58,7 @@ class BakeOptions(Struct):
         ("max_distance", c.c_float), ("threads", c.c_int), ("progress", Progress), ("user", c.c_void_p)]
 
 
+# As it was in version 3: a shorter one is filled as far as it goes.
 class BakeResult(Struct):
     _fields_ = [(n, sizes_t) for n in ("size", "texels", "covered", "missed", "negative", "twice", "rays")] + [("ray_distance", c.c_double)]
 

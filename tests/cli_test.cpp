@@ -208,6 +208,47 @@ TEST(CommandLine, framesOfAnAnimationAreNumberedPicturesOfItsMoments)
     EXPECT_NE(none.err.find("(go)"), std::string::npos) << none.err;
 }
 
+// How many pixels at the edges of a picture without a background show something, and how many all others.
+std::pair<int, int> seenAtTheEdge(const std::filesystem::path& file)
+{
+    const auto image = readImage(file);
+    if (!image)
+        return {-1, 0};
+    int edge = 0, inside = 0;
+    for (int y = 0; y < image->height; ++y)
+        for (int x = 0; x < image->width; ++x) {
+            const bool outer = x == 0 || y == 0 || x == image->width - 1 || y == image->height - 1;
+            (outer ? edge : inside) += image->bytes8()[4 * (y * image->width + x) + 3] > 0;
+        }
+    return {edge, inside};
+}
+
+TEST(CommandLine, allMomentsOfAnAnimationAreFramedByOneCamera)
+{
+    const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
+    if (!std::filesystem::exists(model))
+        GTEST_SKIP() << model << " is missing";
+    TemporaryFolder folder;
+    for (const char* camera : {"front", "fit"}) {
+        const Words draw = {"render",       model,    "--animation", "Run",      "--background",  "none",
+                            "--ground",     "off",    "--size",      "120x90",   "--samples",     "1",
+                            "--camera",     camera,   "--exposure",  "1",        "--environment", "none",
+                            "--no-shadows", "--rate", "24",          "--device", "reference"};
+        ASSERT_EQ(runTool(with(draw, {"--frames", "0..16", "-o", "f.png"}), folder.path()).code, 0);
+        double covered = 0;
+        for (int i = 0; i <= 16; ++i) {
+            const auto [edge, inside] =
+                seenAtTheEdge(folder / ((i < 10 ? "f-000" : "f-00") + std::to_string(i) + ".png"));
+            EXPECT_EQ(edge, 0) << camera << " " << i;
+            covered += inside / 17.0;
+        }
+        EXPECT_GT(covered, 120 * 90 / 12) << camera; // not lost in it either
+        // A single moment has the camera of all.
+        ASSERT_EQ(runTool(with(draw, {"--time", "0.5", "-o", "t.png"}), folder.path()).code, 0);
+        EXPECT_EQ(readWhole(folder / "t.png"), readWhole(folder / "f-0012.png"));
+    }
+}
+
 TEST(CommandLine, everyFrameAndViewDraws)
 {
     TemporaryFolder folder;

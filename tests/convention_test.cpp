@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cotan/convention.hpp"
+#include "cotan/convention_words.hpp"
 
 namespace cotan {
 namespace {
@@ -66,7 +67,7 @@ TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
 
 TEST(Convention, descriptionNamesEveryChoice)
 {
-    const std::string s = describe(*conventionFromName("unreal"));
+    const std::string s = describe(*conventionFromWords("unreal,xy"));
     for (const char* part : {"tangent space", "two channels", "green down", "v down", "exact"})
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
@@ -83,27 +84,22 @@ TEST(Convention, enumeratorsAreThePortableTextsNumbers)
     EXPECT_EQ(int(Channels::slope), COTAN_CHANNELS_SLOPE);
 }
 
-TEST(Convention, presetsStoreAsTheirEnginesDo)
+TEST(Convention, presetsAreWhatTheImporterIsGivenAndKeepsOnTheCard)
 {
     struct Expected {
         const char* name;
         bool greenUp;
         VDirection v;
-        Channels channels;
+        bool twoOnCard;
     };
     using enum VDirection;
-    // By each program's own documentation: which way green is drawn, where v = 0 is, what is left after import.
+    // By each program's own documentation (src/core/convention.cpp names it): which way green is drawn, where v = 0 is,
+    // whether blue is dropped on import. All importers are given three channels.
     const Expected table[] = {
-        {"gltf", true, down, Channels::xyz},
-        {"opengl", true, up, Channels::xyz},
-        {"directx", false, down, Channels::xyz},
-        {"unity", true, up, Channels::orthographic},
-        {"unreal", false, down, Channels::orthographic},
-        {"blender", true, up, Channels::xyz},
-        {"godot", true, down, Channels::orthographic},
-        {"maya", true, up, Channels::xyz},
-        {"3dsmax", false, up, Channels::xyz},
-        {"source", false, down, Channels::xyz},
+        {"gltf", true, down, false},    {"opengl", true, up, false},   {"directx", false, down, false},
+        {"unity", true, up, true},      {"unreal", false, down, true}, {"blender", true, up, false},
+        {"godot", true, down, true},    {"maya", true, up, false},     {"3dsmax", false, up, false},
+        {"source", false, down, false},
     };
     EXPECT_EQ(conventionPresets().size(), std::size(table));
     for (const Expected& e : table) {
@@ -112,8 +108,27 @@ TEST(Convention, presetsStoreAsTheirEnginesDo)
         EXPECT_EQ(c->kind, MapKind::tangentSpace) << e.name;
         EXPECT_EQ(c->greenUp, e.greenUp) << e.name;
         EXPECT_EQ(c->v, e.v) << e.name;
-        EXPECT_EQ(c->channels, e.channels) << e.name;
+        EXPECT_EQ(c->channels, Channels::xyz) << e.name;
+        Convention card = *c;
+        card.channels = e.twoOnCard ? Channels::orthographic : Channels::xyz;
+        EXPECT_EQ(*sampledFromWords(e.name), card) << e.name;
+        EXPECT_EQ(conventionFromWords(std::string(e.name) + ",xy")->channels, Channels::orthographic) << e.name;
     }
+}
+
+TEST(Convention, wordsForTheChannelsAreToldFromWhatAPresetImplies)
+{
+    for (const char* words : {"gltf", "unity", "directx,biased", "green-down", "unreal,green-up,signed"}) {
+        EXPECT_FALSE(statedFromWords(words)->channels) << words;
+        EXPECT_EQ(statedFromWords(words)->convention, *conventionFromWords(words)) << words;
+    }
+    for (const char* words : {"gltf,xyz", "unity,xy", "orthographic", "gltf,stereographic", "slope,biased", "object"})
+        EXPECT_TRUE(statedFromWords(words)->channels) << words;
+    EXPECT_EQ(*conventionFromWords("unity,xy"), *conventionFromWords("unity,orthographic"));
+    EXPECT_EQ(sampledFromWords("unity,xyz")->channels, Channels::xyz);
+    EXPECT_EQ(sampledFromWords("unity,biased")->channels, Channels::orthographic);
+    EXPECT_FALSE(statedFromWords("unity,xz"));
+    EXPECT_FALSE(sampledFromWords(""));
 }
 
 TEST(Convention, everyValueHasItsWord)

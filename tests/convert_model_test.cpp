@@ -31,14 +31,14 @@ Image mapOf(glm::dvec3 m)
 }
 
 // A rectangle in xy whose uv fill the unit square, v down, with a map.
-GltfDocument documentOf(float width, const Image& map, float uvScale = 1, bool tangents = false)
+GltfDocument documentOf(float width, const Image& map, float uvScale = 1, bool tangents = false, float w = 1)
 {
     Scene scene;
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {width, 0, 0}, {width, 1, 0}, {0, 1, 0}};
     mesh.normals.assign(4, {0, 0, 1});
     if (tangents)
-        mesh.tangents.assign(4, {1, 0, 0, 1});
+        mesh.tangents.assign(4, {1, 0, 0, w});
     mesh.texcoords[0] = {{0, uvScale}, {uvScale, uvScale}, {uvScale, 0}, {0, 0}};
     mesh.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes = {mesh};
@@ -95,13 +95,16 @@ TEST(ConvertModel, aFlatMapStaysFlatInEveryFrame)
             continue;
         GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
         const auto before = gltfImageBytes(document, 0);
-        const auto kept = convertModel(document, {.frames = {Frame::mikktspace, to.frame}});
+        const auto kept =
+            convertModel(document, {.frames = {Frame::mikktspace, to.frame}, .expansion = Expansion::exact});
         ASSERT_TRUE(kept) << kept.error().message;
         ASSERT_EQ(kept->maps.size(), 1u);
         EXPECT_TRUE(kept->maps[0].kept) << to.name;
         EXPECT_LT(kept->maps[0].figures.unconverted.maximum, 1e-4) << to.name; // float positions and tangents
         EXPECT_EQ(*before, *gltfImageBytes(document, 0)) << to.name;
-        const auto anew = convertModel(document, {.frames = {Frame::mikktspace, to.frame}, .bits = 16});
+        document = documentOf(2, mapOf({0, 0, 1})); // the converted one names its frame
+        const auto anew = convertModel(
+            document, {.frames = {Frame::mikktspace, to.frame}, .bits = 16, .expansion = Expansion::exact});
         ASSERT_TRUE(anew) << anew.error().message;
         EXPECT_EQ(anew->maps[0].bits, 16);
         const Image map = normalMapIn(document);
@@ -118,7 +121,7 @@ TEST(ConvertModel, onATwiceAsWideRectangleTheSlopeAlongUDoublesForCotangent)
 {
     const Image map = mapOf({0.3, 0.2, 1});
     GltfDocument document = documentOf(2, map);
-    const auto report = convertModel(document, {.frames = kThere, .bits = 16});
+    const auto report = convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact});
     ASSERT_TRUE(report) << report.error().message;
     const glm::dvec3 old = directionAt(map, 3, 3), found = directionAt(normalMapIn(document), 3, 3);
     EXPECT_NEAR(found.x / found.z, 2 * old.x / old.z, 2e-4); // 16 bits: 1.5e-5 a component, slopes under 1
@@ -137,10 +140,38 @@ TEST(ConvertModel, thereAndBackIsWithinRounding)
 {
     const Image map = makeReliefMap(Relief::waves, 32);
     GltfDocument document = documentOf(2, map);
-    ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16}));
+    ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact}));
     EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // and it does something
-    ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16}));
+    ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16, .expansion = Expansion::exact}));
     EXPECT_LT(largestAngle(map, normalMapIn(document)), 0.02); // 16 bits, twice
+}
+
+// What readers by 2c - 1 show of flat texels leans towards red and green. Stored tangents whose w is reversed mean
+// green the other way, so they lean against what is then green: 127 does that, 128 does not.
+TEST(ConvertModel, flatTexelsLeanInEnginesAsTheyDid)
+{
+    const auto texelOf = [](Expansion expansion) {
+        GltfDocument document = documentOf(1, mapOf({0, 0, 1}), 1, true, -1);
+        document.root["materials"][0]["extras"]["mine"] = 7;
+        EXPECT_TRUE(convertModel(document, {.frames = kThere, .bits = 8, .expansion = expansion}));
+        const nlohmann::ordered_json extras = document.root["materials"][0]["extras"];
+        EXPECT_EQ(extras["mine"], 7);
+        EXPECT_EQ(extras.contains("cotanUnsigned"), expansion == Expansion::biased);
+        const Image map = normalMapIn(document);
+        return std::pair(int(map.bytes8()[0]), int(map.bytes8()[1]));
+    };
+    EXPECT_EQ(texelOf(Expansion::biased), std::pair(128, 127));
+    EXPECT_EQ(texelOf(Expansion::exact), std::pair(128, 128));
+}
+
+TEST(ConvertModel, readsAMapAsItsMaterialSaysAndForgetsWhatIsNoLongerSo)
+{
+    GltfDocument document = documentOf(1, mapOf({0, 0, 1}));
+    document.root["materials"][0]["extras"]["cotanUnsigned"] = "biased";
+    ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact}));
+    EXPECT_FALSE(document.root["materials"][0].value("extras", nlohmann::ordered_json()).contains("cotanUnsigned"));
+    // 128 of 255 is 1 / 255 above the middle, which 16 bits hold.
+    EXPECT_NEAR(normalMapIn(document).words()[0], 32768 + 32767.0 / 255, 1);
 }
 
 TEST(ConvertModel, tangentsAreDroppedGivenOrKept)

@@ -20,6 +20,12 @@ cotan_test(second_opinion_test FIXTURE npm
 target_compile_definitions(second_opinion_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
   COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/second_opinion")
 
+# What lint predicts, judged by three.js.
+cotan_test(three_judge_test FIXTURE npm
+  SOURCES three_judge_test.cpp browser_pages.cpp
+  LIBRARIES cotan_model cotan_draw cotan_lint cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+target_compile_definitions(three_judge_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
+
 # As their own CMakeLists.txt build them, but within this build.
 target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp examples_deforming_test.cpp)
 find_package(embree 3 CONFIG QUIET)

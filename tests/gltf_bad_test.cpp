@@ -104,7 +104,7 @@ TEST(GltfBad, warningsSayWhatIsWrong)
         {"assimp/glTF2/BoxBadNormals-glTF-Binary/BoxBadNormals.glb", "NORMAL: zero length"},
         {"made/no_uvs.glb", "TEXCOORD_0"},
         {"made/node_scale_zero.glb", "singular"},
-        {"made/tangent_w_inverted.glb", "TANGENT.w inverted"},
+        {"made/tangent_w_inverted.glb", "TANGENT.w contradicts"},
         {"made/tangent_zero.glb", "TANGENT: zero length (vertices: 4)"},
         {"made/texcoord_missing.glb", "TEXCOORD_3"},
         {"made/uv_nan.glb", "TEXCOORD_0: not a finite number"},

@@ -39,6 +39,20 @@ TEST(GltfMaterial, coatAndAnisotropyArrive)
     EXPECT_TRUE(m.anisotropy.map.present());
 }
 
+TEST(GltfMaterial, extrasSayHowTheNormalMapIsStored)
+{
+    for (const auto& [said, expected] : {std::pair<json, Expansion>("biased", Expansion::biased),
+                                         {"exact", Expansion::exact},
+                                         {"other", Expansion::exact},
+                                         {7, Expansion::exact}}) {
+        Gltf g = square();
+        addNormalMap(g);
+        g.root["materials"][0]["extras"]["cotanUnsigned"] = said;
+        COTAN_LOADED(scene, g.load());
+        EXPECT_EQ(scene.materials.at(0).normalFormat.expansion, expected) << said;
+    }
+}
+
 TEST(GltfMaterial, specularSheenAndTransmissionArrive)
 {
     Gltf g = square();

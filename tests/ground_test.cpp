@@ -102,7 +102,7 @@ TEST(Ground, lampAndSkyCountByWhatTheyBringToALevelPlane)
     const Difference d = compared(*map, [&](const dvec3& p) {
         return (lamp * lightTraced(solids, p, toLight, kSoftness) + sky * skyTraced(solids, p)) / (lamp + sky);
     });
-    EXPECT_LT(d.mean, 0.01);
+    EXPECT_LT(d.mean, 0.02); // far from the solids the darkening of the sky fades
     EXPECT_LT(d.most, 0.5);
 }
 
@@ -133,6 +133,48 @@ TEST(Ground, darkeningLiesInItsPlaceAndFadesAtTheEdgesOfTheMap)
             EXPECT_NEAR(map->shares.floats()[4 * texel], 1, 1e-3f);
 }
 
+// Darkness is gone before the map ends, falls outwards, and never faster than it does beside the box: no square is
+// seen.
+TEST(Ground, theDarkeningOfTheSkyEndsWithoutAnEdge)
+{
+    Scene scene;
+    add(scene, makeCube(1, 1), placedAt({0, 0.5, 0}, dvec3(1)));
+    View view = sunnyView();
+    view.environment = true;
+    for (const bool lamp : {false, true}) {
+        if (!lamp)
+            view.lights.clear();
+        else
+            view.lights = sunnyView().lights;
+        const auto map = makeGround(scene, view);
+        ASSERT_TRUE(map);
+        const auto darkness = [&](vec2 place) { return 1 - groundShareAt(*map, place); };
+        const vec2 high = map->low + map->extent;
+        for (int i = 0; i <= 100; ++i) { // a twentieth of the map inside its edges: half a level of 8 bits
+            const vec2 along = glm::mix(map->low, high, float(i) / 100);
+            const vec2 inset = map->extent * 0.05f;
+            for (const vec2 place : {vec2(along.x, map->low.y + inset.y), vec2(along.x, high.y - inset.y),
+                                     vec2(map->low.x + inset.x, along.y), vec2(high.x - inset.x, along.y)})
+                EXPECT_LT(darkness(place), 0.002f) << place.x << " " << place.y;
+        }
+        if (lamp)
+            continue;
+        for (const float angle : {0.0f, 0.3f, 0.6f, 0.785f}) { // steps of a fiftieth of the box outwards
+            const vec2 way(std::cos(angle), std::sin(angle));
+            float before = darkness(way * 0.8f), steepest = 0;
+            for (float radius = 0.82f; radius < 2.2f; radius += 0.02f) {
+                const float here = darkness(way * radius);
+                EXPECT_LT(here, before + 0.002f) << angle << " " << radius; // the grain of 512 rays
+                if (radius < 1)
+                    steepest = std::max(steepest, before - here);
+                else
+                    EXPECT_LE(before - here, steepest) << angle << " " << radius;
+                before = here;
+            }
+        }
+    }
+}
+
 // The share of a pane's shadow in the middle below it.
 float shareUnder(const Material& material, float vertexAlpha = 1)
 {
@@ -149,7 +191,7 @@ float shareUnder(const Material& material, float vertexAlpha = 1)
     return map ? groundShareAt(*map, {0, 0}) : -1;
 }
 
-TEST(Ground, masksThrowShadowsWhereTheyAreAndPanesNone)
+TEST(Ground, masksThrowShadowsWhereTheyAreAndPanesByTheirAlpha)
 {
     Material material;
     EXPECT_EQ(shareUnder(material), 0);
@@ -163,7 +205,65 @@ TEST(Ground, masksThrowShadowsWhereTheyAreAndPanesNone)
     EXPECT_EQ(shareUnder(material), 0);
     EXPECT_EQ(shareUnder(material, 0.6f), 1); // 0.18
     material.alphaMode = AlphaMode::blend;
+    EXPECT_NEAR(shareUnder(material), 0.7f, 1e-3f); // a half of it
+    EXPECT_NEAR(shareUnder(material, 0.5f), 0.85f, 1e-3f);
+    material.baseColor.w = 1;
+    EXPECT_EQ(shareUnder(material), 0);
+    EXPECT_NEAR(shareUnder(material, 0.25f), 0.75f, 1e-3f);
+    material.transmission.strength = 1; // clear glass
     EXPECT_EQ(shareUnder(material), 1);
+}
+
+// A checkerboard of holes and whole squares that are smaller than a column.
+TEST(Ground, theAlphaOfAPicturesTexelsIsTheShareThatAPaneStops)
+{
+    Image holes = makeImage(1024, 1024, PixelType::unorm8, "holes");
+    for (int i = 0; i < 1024 * 1024; ++i) {
+        std::uint8_t* texel = holes.bytes8() + 4 * i;
+        texel[0] = texel[1] = texel[2] = 255;
+        texel[3] = ((i % 1024) ^ (i / 1024)) & 1 ? 255 : 0;
+    }
+    Scene scene;
+    add(scene, makePlane(1, 1, 1), placedAt({0, 0.2, 0}, dvec3(1)));
+    scene.materials[0].alphaMode = AlphaMode::blend;
+    scene.materials[0].baseColorMap.image = 0;
+    scene.images.push_back(holes);
+    View view = sunnyView();
+    view.lights[0].direction = {0, -1, 0};
+    GroundOptions floor;
+    floor.height = 0;
+    const auto map = makeGround(scene, view, floor);
+    ASSERT_TRUE(map);
+    float mean = 0;
+    for (int i = 0; i < 400; ++i)
+        mean += groundShareAt(*map, vec2(float(i % 20), float(i / 20)) / 50.0f - 0.2f) / 400;
+    EXPECT_NEAR(mean, 0.5f, 0.05f); // four reads of a column's 28 texels, and their mean over the columns
+}
+
+TEST(Ground, panesOneAboveTheOtherStopWhatIsLeft)
+{
+    View view = sunnyView();
+    view.lights[0].direction = {0, -1, 0};
+    GroundOptions floor;
+    floor.height = 0;
+    const auto under = [&](const Scene& scene) {
+        const auto map = makeGround(scene, view, floor);
+        return map ? groundShareAt(*map, {0, 0}) : -1;
+    };
+    Scene panes;
+    add(panes, makePlane(1, 1, 1), placedAt({0, 0.2, 0}, dvec3(1)));
+    add(panes, makePlane(1, 1, 1), placedAt({0, 0.4, 0}, dvec3(1)));
+    panes.materials[0].alphaMode = AlphaMode::blend;
+    panes.materials[0].baseColor.w = 0.6f;
+    EXPECT_NEAR(under(panes), 0.16f, 1e-3f);
+    Scene box; // its top and its bottom
+    add(box, makeCube(1, 1), placedAt({0, 0.3, 0}, {1, 0.2, 1}));
+    box.materials[0] = panes.materials[0];
+    EXPECT_NEAR(under(box), 0.16f, 1e-3f);
+    add(box, makeCube(1, 1), placedAt({0, 0.3, 0}, {0.9, 0.1, 0.9})); // and a solid inside
+    box.materials.resize(2);
+    box.meshes.back().material = 1;
+    EXPECT_EQ(under(box), 0);
 }
 
 TEST(Ground, everyScaleAndPlaceHasTheSameShadowAndNothingHasNone)

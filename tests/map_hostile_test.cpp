@@ -33,7 +33,7 @@ void expectAllRefuse(const TemporaryFolder& folder, const std::string& file)
         {"info", file},
         {"detect", file},
         {"convert", file, "--from", "gltf", "--to", "directx", "-o", "out.png"},
-        {"convert", file, "--from", "unity", "--to", "gltf", "-o", "out.tif"},
+        {"convert", file, "--from", "unity,xy", "--to", "gltf", "-o", "out.tif"},
         {"diff", file, file, "-o", "out.png"},
         {"from-height", file, "-o", "out.png"},
         {"from-height", file, "--wrap", "clamp", "-o", "out.exr", "--bits", "half"},

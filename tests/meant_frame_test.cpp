@@ -97,10 +97,11 @@ TEST(MeantFrame, isReadFromTheExtrasOfAMaterial)
     const auto loaded = [](const json& extras) {
         Gltf g;
         const int p = g.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3"), uv = g.floats({0, 1, 1, 1, 0, 0}, "VEC2");
+        const int n = g.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
         g.root["accessors"][std::size_t(p)]["min"] = {0, 0, 0};
         g.root["accessors"][std::size_t(p)]["max"] = {1, 1, 0};
         g.add("materials", {{"name", "m"}, {"extras", extras}});
-        const json attributes = {{"POSITION", p}, {"TEXCOORD_0", uv}};
+        const json attributes = {{"POSITION", p}, {"NORMAL", n}, {"TEXCOORD_0", uv}};
         g.add("meshes", {{"primitives", json::array({{{"attributes", attributes}, {"material", 0}}})}});
         g.add("nodes", {{"mesh", 0}});
         g.add("scenes", {{"nodes", {0}}});

@@ -4,12 +4,49 @@
 #include <algorithm>
 #include <iostream>
 
+#include "cotan/ground/ground.hpp"
+#include "cotan/scene/front_camera.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace test;
+
+// Its coat and all else of its first material is alpha 1 nearly everywhere. What is left is where it is not.
+TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
+{
+    COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
+    Scene scene = loadModel("models/SketchfabCat/scene.gltf");
+    View view;
+    view.width = view.height = 400;
+    view.camera = frontCamera(scene, 400, 400);
+    view.backdrop = Backdrop::paper;
+    view.shadowSoftness = 0.0875f;
+    view.lights.resize(1);
+    view.lights[0].direction = glm::normalize(glm::vec3(0.62f, -0.9f, -0.7f));
+    for (const char* device : {"reference", "auto"}) {
+        auto painter = painterFor(device);
+        if (!painter)
+            continue;
+        std::vector<Image> pictures;
+        for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
+            for (Material& material : scene.materials)
+                material.alphaMode = mode;
+            View drawn = view;
+            auto ground = makeGround(scene, view);
+            ASSERT_TRUE(ground);
+            drawn.ground = std::make_shared<const GroundMap>(std::move(*ground));
+            ASSERT_TRUE(painter->load(scene));
+            pictures.push_back(drawWith(*painter, drawn));
+        }
+        double sum = 0;
+        for (std::size_t i = 0; i < pictures[0].data.size(); ++i)
+            sum += std::abs(int(pictures[0].bytes8()[i]) - int(pictures[1].bytes8()[i]));
+        // Levels: 4.6 without the coat's shadow.
+        EXPECT_LT(sum / double(pictures[0].pixelCount() * 3), 0.5) << device;
+    }
+}
 
 TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
 {

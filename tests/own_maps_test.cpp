@@ -73,7 +73,7 @@ TEST(OwnMaps, readsTheMapAsTheConventionSays)
         const char* convention;
         double green;
     } cases[] = {{"xyz.png", "gltf", 1},    {"xyz.png", "opengl", 1},           {"xyz.png", "directx", -1},
-                 {"xyz.png", "3dsmax", -1}, {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal", -1}};
+                 {"xyz.png", "3dsmax", -1}, {"rg.png", "gltf,orthographic", 1}, {"rg.png", "unreal,xy", -1}};
     for (const auto& c : cases) {
         const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", c.file, "--convention", c.convention}),
                                   folder.path());
@@ -81,6 +81,31 @@ TEST(OwnMaps, readsTheMapAsTheConventionSays)
         const glm::vec3 n = normalInTheMiddle(folder / "n.png");
         EXPECT_LT(glm::distance(n, glm::vec3(0.6, 0.48 * c.green, 0.64)), 0.015) << c.file << " as " << c.convention;
     }
+}
+
+// The same texel in BC5, whose codes are 8 bits, and as red and green with the middle in blue.
+TEST(OwnMaps, believesAFileThatStoresTwoChannels)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeMap(folder / "xyz.png", {204, 189, 209, 255});
+    writeMap(folder / "middle.png", {204, 189, 128, 255});
+    for (const char* file : {"bc5.ktx2", "bc5.dds"})
+        ASSERT_EQ(
+            runTool({"map", "convert", "xyz.png", "--from", "gltf", "--to", "gltf", "--compress", "bc5", "-o", file},
+                    folder.path())
+                .code,
+            0);
+    for (const char* file : {"bc5.ktx2", "bc5.dds", "middle.png"}) {
+        const ToolRun r = runTool(drawn({"render", "square.obj", "--normal-map", file}), folder.path());
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_LT(glm::distance(normalInTheMiddle(folder / "n.png"), glm::vec3(0.6, 0.48, 0.64)), 0.015) << file;
+    }
+    const ToolRun wrong =
+        runTool(drawn({"render", "square.obj", "--normal-map", "bc5.ktx2", "--convention", "gltf,xyz"}), folder.path());
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
+    EXPECT_NE(wrong.err.find("--convention: bc5.ktx2 stores two channels"), std::string::npos) << wrong.err;
 }
 
 TEST(OwnMaps, saysWhatIsWrongWithItInOneLine)
@@ -284,7 +309,7 @@ TEST(BakeIntoModelWords, refusesWhatAModelCannotHold)
                                                          {"--bits", "32"},
                                                          {"--udim", "1002"},
                                                          {"--convention", "directx"},
-                                                         {"--convention", "unity"}};
+                                                         {"--convention", "unity,xy"}};
     for (const auto& words : wrong) {
         std::vector<std::string> all = {"bake",   "--high", "high.obj", "--low",  "low.obj",
                                         "--size", "16x16",  "-o",       "out.glb"};

@@ -123,7 +123,9 @@ TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
     const std::pair<const char*, PixelType> files[] = {
         {"a.tif", PixelType::unorm16}, {"a.exr", PixelType::float32}, {"a.tga", PixelType::unorm8}};
     for (const auto& [name, type] : files) {
-        ASSERT_TRUE(writeImage(folder / name, gradient(70, 50, type)));
+        Image map = gradient(70, 50, type);
+        map.frame = "smooth";
+        ASSERT_TRUE(writeImage(folder / name, map));
         const auto here = readImage(folder / name), there = readImage(folder / name, inChild());
         ASSERT_TRUE(here) << here.error().message;
         ASSERT_TRUE(there) << there.error().message;
@@ -131,10 +133,12 @@ TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
         EXPECT_EQ(there->name, here->name);
         EXPECT_EQ(there->width, 70);
         EXPECT_EQ(there->data, here->data) << name;
+        EXPECT_EQ(there->frame, std::string(name) == "a.exr" ? "smooth" : "");
 
         auto rows = openRows(folder / name, inChild());
         ASSERT_TRUE(rows) << rows.error().message;
         EXPECT_EQ((*rows)->name, (folder / name).string());
+        EXPECT_EQ((*rows)->frame, here->frame);
         EXPECT_EQ((*rows)->height, 50);
         EXPECT_TRUE((*rows)->alpha);
         std::vector<std::byte> all;

@@ -54,6 +54,7 @@ Scene everything()
     scene.images.push_back(makeImage(3, 2, PixelType::unorm16, "picture"));
     for (std::size_t i = 0; i < scene.images[0].data.size(); ++i)
         scene.images[0].data[i] = std::byte(i);
+    scene.images[0].frame = "smooth";
     Material& m = scene.materials.emplace_back();
     m.name = "material";
     m.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
@@ -99,6 +100,7 @@ TEST(Wire, aSceneArrivesAsItWasHoweverItsBytesArePutIntoPieces)
         EXPECT_EQ(bytesOf(back), bytes);
         EXPECT_EQ(back.materials[0].normalMap.sampler.wrapV, Wrap::clamp);
         EXPECT_EQ(back.meshes[0].positions, scene.meshes[0].positions);
+        EXPECT_EQ(back.images[0].frame, "smooth");
         EXPECT_EQ(back.cameras[0].target, glm::vec3(4, 5, 6));
         EXPECT_TRUE(checkScene(back, "f"));
     }

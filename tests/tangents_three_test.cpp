@@ -13,10 +13,9 @@ namespace {
 using namespace test;
 
 struct Apart {
-    std::size_t corners = 0, fromThree = 0, fromReference = 0; // over 0.05 degrees, or w different
+    std::size_t corners = 0, fromThree = 0, fromReference = 0; // that differ
 };
 
-// Leaves out corners whose triangle has no direction.
 Apart compareWithNpm(const std::vector<Arrays>& meshes)
 {
     TemporaryFolder folder;
@@ -41,16 +40,12 @@ Apart compareWithNpm(const std::vector<Arrays>& meshes)
         EXPECT_LE(at + 2 * ours.size(), theirs.size());
         if (at + 2 * ours.size() > theirs.size())
             return apart;
-        const auto differs = [&](std::size_t c, glm::vec4 other) {
-            return degreesBetween(glm::dvec3(ours[c]), glm::dvec3(other)) > 0.05 || ours[c].w != -other.w;
-        };
+        const auto turned = [](glm::vec4 t) { return glm::vec4(t.x, t.y, t.z, -t.w); }; // their v runs up
         for (std::size_t c = 0; c < ours.size(); ++c) {
-            if (hasNoDirection(mesh.view(), c))
-                continue;
             const glm::vec4 three = theirs[at + c], reference = theirs[at + ours.size() + c];
             ++apart.corners;
-            apart.fromThree += differs(c, three);
-            apart.fromReference += reference != glm::vec4(0) && differs(c, reference);
+            apart.fromThree += differ(ours[c], turned(three));
+            apart.fromReference += reference != glm::vec4(0) && differ(ours[c], turned(reference));
         }
         at += 2 * ours.size();
     }
@@ -98,18 +93,51 @@ TEST_F(MikktspacePairing, isThatOfThreeWhereTheReferenceMissesNeighbours)
     EXPECT_LT(apart.fromReference, apart.corners / 500); // corners at one vertex of some meshes
 }
 
+// Cells whose uv are one point, a line or those of a neighbour's edge, and triangles with two equal positions: some
+// among sound neighbours, some alone.
+std::vector<Arrays> sheetsWithHoles(int count)
+{
+    std::vector<Arrays> sheets = unevenSheets(count);
+    std::mt19937 random(11);
+    for (Arrays& a : sheets) {
+        const std::size_t triangles = a.indices.size() / 3;
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t* const t = &a.indices[3 * (random() % triangles)];
+            a.texcoords[t[1]] = a.texcoords[t[0]];
+            if (random() % 2 == 0)
+                a.texcoords[t[2]] = a.texcoords[t[0]];
+        }
+        const std::uint32_t* const t = &a.indices[3 * (random() % triangles)];
+        const std::uint32_t p = t[0], q = t[1], alone = a.add({5, 5, 5}, {0, 0, 1}, {0, 0});
+        a.add({6, 5, 5}, {0, 0, 1}, {0, 0});
+        a.add({6, 6, 5}, {0, 0, 1}, {1, 0});
+        a.indices.insert(a.indices.end(), {p, q, q, alone, alone, p, alone, alone + 1, alone + 2});
+    }
+    return sheets;
+}
+
+TEST_F(MikktspacePairing, isThatOfThreeWhereTrianglesHaveNoAreaInUvOrSpace)
+{
+    const Apart apart = compareWithNpm(sheetsWithHoles(400));
+    EXPECT_EQ(apart.fromThree, 0u) << "of " << apart.corners;
+    EXPECT_LT(apart.fromReference, apart.corners / 500); // its last vertex, as above
+}
+
 TEST_F(MikktspacePairing, isThatOfThreeOnModels)
 {
     const std::filesystem::path models = std::filesystem::path(COTAN_SHARED_DATA) / "models";
     if (!std::filesystem::exists(models))
         GTEST_SKIP() << "no " << models;
+    // In the sunglasses 4,268 triangles have one point for texture coordinates.
     for (const char* const name : {"NormalTangentTest/NormalTangentTest.glb", "BoomBox/BoomBox.gltf",
-                                   "FlightHelmet/FlightHelmet.gltf", "ClearCoatTest/ClearCoatTest.glb"}) {
+                                   "FlightHelmet/FlightHelmet.gltf", "ClearCoatTest/ClearCoatTest.glb",
+                                   "SunglassesKhronos/SunglassesKhronos.glb", "VertexColorTest/VertexColorTest.glb"}) {
         const Result<Scene> scene = loadScene(models / name);
         ASSERT_TRUE(scene) << name;
         std::vector<Arrays> meshes;
         for (const Mesh& m : scene->meshes)
-            meshes.push_back({m.positions, m.normals, m.texcoords[0], m.indices});
+            if (!m.texcoords[0].empty())
+                meshes.push_back({m.positions, m.normals, m.texcoords[0], m.indices});
         const Apart apart = compareWithNpm(meshes);
         EXPECT_EQ(apart.fromThree, 0u) << name << ", of " << apart.corners;
         EXPECT_EQ(apart.fromReference, 0u) << name << ", of " << apart.corners; // none of these meets the defect

@@ -148,7 +148,7 @@ TEST(ThreePackage, everySceneIsRightWithWebGLRendererWhereThreesOwnAreAndWhereTh
     ASSERT_TRUE(page.contains("stock")) << page;
     expectStock("stock, ", page["stock"], kWrongOnWebGl);
     EXPECT_GT(page["stock"].size(), 25u);
-    for (const char* way : {"untangled", "triangle"})
+    for (const char* way : {"untangled", "smooth", "triangle"})
         expectOurs(std::string(way) + ", ", page[way], page["stock"].size());
     for (const char* way : {"cotangent", "orthonormal"})
         expectOurs(std::string(way) + ", ", page[way], 9);
@@ -169,7 +169,8 @@ TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
         EXPECT_GT(page[backend + "stock"].size(), 22u);
         for (const std::string way : {"untangled", "triangle"})
             expectOurs(backend + way + ", ", page[backend + way], page[backend + "stock"].size());
-        expectOurs(backend + "orthonormal, ", page[backend + "orthonormal"], 9);
+        for (const std::string way : {"orthonormal", "smooth"})
+            expectOurs(backend + way + ", ", page[backend + way], 9);
         expectDrawnWrong(backend + "reversed", page[backend + "broken"]["front"]);
         EXPECT_EQ(page[backend + "lit"].size(), 5u);
         for (const auto& [scene, picture] : page[backend + "lit"].items()) {
@@ -182,7 +183,7 @@ TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
         }
     }
     EXPECT_EQ(page["plugin"], json({{"tangents", false}, {"node", true}, {"scale", -1}}));
-    EXPECT_NE(page["refused"].get<std::string>().find("needs the option renderer"), std::string::npos);
+    EXPECT_NE(page["refused"].get<std::string>().find("expected a renderer"), std::string::npos);
 }
 
 TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotropyRunsAsGltfMeans)
@@ -204,7 +205,11 @@ TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotrop
     EXPECT_GT(page["loaded"]["stock"]["mean"].get<double>(), 179)
         << "three's bitangents run along v, glTF's against it";
     EXPECT_NE(page["refused"][0].get<std::string>().find("expected an Object3D"), std::string::npos);
-    EXPECT_NE(page["refused"][1].get<std::string>().find("found mikktspace"), std::string::npos);
+    EXPECT_EQ(page["refused"][1], "CotanError usage: options.frame: expected auto, cotangent, orthonormal, smooth, triangle, found 'mikktspace'");
+    EXPECT_EQ(page["refused"][2], "CotanError usage: options.fraem: expected one of frame, convention, note, found fraem");
+    EXPECT_EQ(page["refused"][3], "CotanError usage: options.convention: expected gltf, directx, found 'unity'");
+    EXPECT_EQ(page["refused"][4], page["refused"][1]) << "before a model is loaded";
+    EXPECT_EQ(page["refused"][5], page["refused"][1]);
 }
 
 TEST(ThreePackage, picturesAreThreesOwnAndDoNotChangeInFlippedTargets)

@@ -80,7 +80,7 @@ const directionTexels = (what, sign) =>
   new Float32Array(sheetTexels * sheetTexels * 4).map((_, i) => (i % 4 === (what === 't' ? 0 : 1) ? 127.5 * (1 + sign) : 127.5));
 
 // draw(scene, camera, what, up): RGBA floats, the first row at the bottom of the target. frame: what the map is read with;
-// undefined: orthonormal where there are tangents, else cotangent.
+// 'stock': orthonormal where there are tangents, else cotangent; undefined: also where the map is not repeated.
 function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) {
   const result = {};
   const map = sheetMap(THREE);
@@ -124,7 +124,7 @@ function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) 
       const directions = what === 't' || what === 'b';  // do not depend on the texel
       return sheetErrors({ pixels, size, texels: directions ? directionTexels(what, what === 'b' && stored || 1) : map.image.data, texelCount: sheetTexels,
                            place, angle, scaleX, up, zoom, chart,
-                           frame: directions || frame === 'orthonormal' || !frame && stored ? 'orthonormal' : 'cotangent' });
+                           frame: directions || frame === 'orthonormal' || (!frame || frame === 'stock') && stored || !frame && chartName === 'stretched' ? 'orthonormal' : 'cotangent' });
     };
     const pixels = draw(scene, camera, what, up);
     result[name] = pixels.then ? pixels.then(finish) : finish(pixels);

@@ -22,19 +22,33 @@ cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
     mapsConvertAndTellTheirGreen errorsSayWhatAndWhere badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
+    aModelWithGreenReversedFailsTheCheck newMapsAreForEnginesThatTake2cMinus1 materialsNameTheFrameOfTheirMaps itsCheckHasAThresholdAReportAndAnExitCode
     provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng mapsInKtx2AreNamedWithWhatToDo
     itsCommandLineRunsOurCommands)
+cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
+  CASES greenFollowsReversedTangentsOnNineTenthsOfAMapsArea mixedTangentsLeaveGreenAsDeclaredAndAreNamed
+    tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
+    aSecondCallChangesNothingAndALaterMeshIsReadAsTheFirst autoIsTheFrameThatTheMaterialNamesElseWhatMapsOfModelsMean
+    mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch smoothHasTheCotangentsOfTheLibrary whatIsUnknownIsRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsTakeEveryExportInStrictMode typingsNameWhatThereIsAndNothingElse wrongCallsAreRefusedLineByLine)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
 cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)
 
+# What cotan/three draws by default, from its sources, judged by stock three.js. The cat alone takes a minute.
+foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace)
+  add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
+    ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})
+  set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
+endforeach()
+
 # The page of web/, and what holds of it in Chromium.
 add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
 set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)
 foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToBeAndMended verdictsOnPublishedMapsAreTheirs
-    aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid realModelsAreJudgedAndDrawn
+    aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid
+    whatThePageAdvisesIsWhatItShowsAndSaysOnce theCheckIsTheCommandLinesWithItsReportAsAFile realModelsAreJudgedAndDrawn
     aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo badFilesAreAnsweredInOneLineEach
     theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice theShaderOfTheFrameTriangleIsGivenByStage
     webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl thePatchAnswersKeysAndPointerWithRightDegrees

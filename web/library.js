@@ -24,5 +24,5 @@ async function start() {
     waiting.set(++calls, { done, failed });
     worker.postMessage({ call: calls, name, values });
   });
-  return Object.fromEntries(['decodePicture', 'encodePng', 'detect', 'info', 'convertMap', 'shader', 'smooth', 'lint', 'convert'].map(name => [name, ask(name)]));
+  return Object.fromEntries(['decodePicture', 'encodePng', 'detect', 'info', 'convertMap', 'shader', 'lint', 'overLimits', 'convert'].map(name => [name, ask(name)]));
 }

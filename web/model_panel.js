@@ -6,7 +6,8 @@ import { loadModel } from './model_load.js';
 import { modelView } from './model_view.js';
 
 const kFrames = {
-  stored: 'stored tangents', cotangent: 'cotangent (nothing stored)', triangle: 'triangle (two vectors a triangle)', smooth: 'smooth (cotangents at the vertices)', orthonormal: 'orthonormal (nothing stored)',
+  tangents: 'stored tangents', auto: 'auto: as the maps were made', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
+  smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors a triangle)',
 };
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
 let open; // the view on screen: there is one at a time
@@ -19,23 +20,24 @@ export async function showModel(result, files) {
   const view = open = modelView(canvas);
   let stored = false;
   gltf.scene.traverse(object => { stored ||= object.isMesh && object.geometry.attributes.tangent !== undefined; });
-  const names = stored ? kFrames : { ...kFrames, stored: 'as three.js derives it (the file has no tangents)' };
-  const chosen = { left: 'stored', right: 'cotangent' };
-  const halves = divider(canvas, share => { view.share = share; }, [names.stored, names.cotangent]);
-  const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {});
+  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, made here' };
+  const chosen = { left: 'tangents', right: 'auto' };
+  const halves = divider(canvas, share => { view.share = share; }, [names.tangents, names.auto]);
+  const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {}), notes = el('p', { class: 'small' });
   const pick = (label, side) => choice(label, names, chosen[side], value => { chosen[side] = value; changed(); });
   const mode = el('input', { type: 'checkbox', onchange: () => { view.angle = mode.checked; scale.hidden = !mode.checked; } });
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
   const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, 'Convert and download');
-  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, /--to-frame (\w+)/.exec(lint.run)?.[1] ?? 'cotangent', () => {});
+  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, lint.advice || 'orthonormal', () => {});
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),
-      el('h3', {}, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved),
+      el('h3', {}, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      ...(lint.error ? [] : checkOf(lint, name, library))),
     el('figure', { class: 'view' }, canvas, halves.element,
       el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { style: 'display: flex' }, mode, 'Show the angle between them')),
-      scale, figures, under,
+      scale, figures, notes, under,
       el('figcaption', {}, 'Drag turns, the wheel comes nearer. The number under the pointer is the angle between the normals of both halves.'))));
   view.open(gltf);
   await changed();
@@ -54,6 +56,7 @@ export async function showModel(result, files) {
   async function changed() {
     await view.choose(chosen.left, chosen.right);
     halves.rename([names[chosen.left], names[chosen.right]]);
+    notes.textContent = view.notes.join('. ');
     setTimeout(measure, 0);
   }
   function measure() {
@@ -77,25 +80,51 @@ export async function showModel(result, files) {
   }
 }
 
+// The verdict of the library in a few words, and its own.
 function verdictOf(lint, name) {
   if (lint.error) return [el('p', { class: 'verdict' }, 'The model is drawn, but could not be judged.'), el('p', {}, lint.error.message)];
-  const green = lint.maps.filter(map => map.decided && !map.as_declared), changes = lint.run_would?.maps_converted > 0, empty = lint.maps.length === 0;
-  const distrusted = lint.primitives.some(({ stored_tangents: stored }) => stored && stored.turned + stored.reversed_w > 0.1);
+  const green = lint.maps.some(map => map.decided && !map.as_declared), changes = lint.maps_converted > 0, empty = lint.maps.length === 0;
+  const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
-    : green.length > 0 ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
-      : distrusted ? 'Its stored tangents contradict its texture coordinates.'
-        : changes ? 'Without stored tangents its maps want another frame.' : 'It needs no stored tangents: its maps can be read as they are.';
+    : green && reversed ? 'Green and the stored tangents are both reversed: together they are right, each alone is not.'
+      : green ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
+        : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they mean it' : ''}.`
+          : changes ? `Without stored tangents its maps are to be made anew for the frame ${lint.advice}.`
+            : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
+              : 'Of its normal maps nothing was judged as a whole.';
   const off = frame => {
     const means = lint.fits.map(fit => fit[frame].mean).filter(mean => typeof mean === 'number');
     return means.length > 0 ? degrees(Math.max(...means)) : undefined;
   };
-  return [el('p', { class: `verdict ${green.length > 0 || distrusted ? 'bad' : empty || changes ? '' : 'good'}` }, words),
+  return [el('p', { class: `verdict ${green || distrusted ? 'bad' : empty || changes || !lint.advice ? '' : 'good'}` }, words),
     el('p', {}, lint.recommendation),
     table(`What is found in ${name}`, [
       ['file', name], ['primitives, normal maps', `${lint.primitives.length}, ${lint.maps.length}`],
       ['maps as they are, read by orthonormal: off by', off('orthonormal')], ['by cotangent', off('cotangent')], ['by smooth', off('smooth')],
     ]),
     el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst of the maps, where they were made for MikkTSpace.')];
+}
+
+// The same check that the command line makes: a limit, whether the model keeps it, and the report as a file.
+function checkOf(lint, name, library) {
+  const verdict = el('p', { role: 'status', 'data-check': '' }), lines = el('ul', { class: 'small' });
+  const field = (label, unit, value, max) => {
+    const input = el('input', { type: 'number', min: 0, max, step: 'any', value, onchange: judge });
+    return { element: el('label', {}, label, el('span', { class: 'unit' }, input, unit)), value: () => input.value === '' || !input.validity.valid ? undefined : Number(input.value) };
+  };
+  const limit = field('At most off by, on 95 % of the area', ' °', 2, 180), area = field('At most contradictory', ' % of the area', undefined, 100);
+  const limits = () => ({ limit: limit.value(), limitArea: area.value() });
+  let over = [];
+  async function judge() {
+    over = await library.overLimits(lint, limits());
+    const none = Object.values(limits()).every(value => value === undefined);
+    verdict.textContent = none ? 'No limit is set.' : over.length === 0 ? 'The check passes.' : `The check fails: ${over.length === 1 ? 'one thing is' : `${over.length} things are`} over the limit.`;
+    lines.replaceChildren(...over.slice(0, 5).map(line => el('li', {}, line)), ...(over.length > 5 ? [el('li', {}, `and ${over.length - 5} more`)] : []));
+  }
+  judge();
+  const save = () => download(new TextEncoder().encode(`${JSON.stringify({ model: name, ...lint, limits: limits(), over_limit: over }, null, 2)}\n`), `${name.replace(/\.[^.]*$/, '')}_lint.json`, 'application/json');
+  return [el('h3', {}, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
+    el('button', { type: 'button', onclick: save }, 'Download the report (JSON)')];
 }
 
 function savedWords({ glb, report }, { model, beside }) {

@@ -5,7 +5,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { clone as cloneScene } from 'three/addons/utils/SkeletonUtils.js';
 import { untangle } from 'cotan/three';
-import { useSmooth } from './smooth_frame.js';
+import { giveMikkTSpace } from './mikktspace.js';
 
 // Of a canvas whose size follows its place in the page.
 export function modelView(canvas) {
@@ -21,7 +21,7 @@ export function modelView(canvas) {
   const what = { value: 0 }; // 0: shaded; 1: normals of the view
   const targets = [0, 1].map(() => new three.WebGLRenderTarget(1, 1, { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter }));
   const angles = angleQuad(targets);
-  const state = { gltf: null, variants: new Map(), names: ['stored', 'cotangent'], share: 0.5, angle: false, most: 10 };
+  const state = { gltf: null, variants: new Map(), notes: new Set(), names: ['tangents', 'auto'], share: 0.5, angle: false, most: 10 };
   let asked = 0;
   controls.addEventListener('change', show);
   new ResizeObserver(show).observe(canvas);
@@ -117,6 +117,7 @@ export function modelView(canvas) {
     open(gltf) {
       state.gltf = gltf;
       state.variants.clear();
+      state.notes.clear();
       frameAll(gltf.scene, camera, controls);
       show();
     },
@@ -125,7 +126,7 @@ export function modelView(canvas) {
       const { gltf } = state;
       for (const name of [left, right])
         if (!variant(name)) {
-          const made = await makeVariant(gltf.scene, name, what);
+          const made = await makeVariant(gltf.scene, name, what, state.notes);
           await compiled(made);
           if (gltf !== state.gltf) return;
           state.variants.set(name, made);
@@ -134,6 +135,8 @@ export function modelView(canvas) {
       show();
     },
     get names() { return state.names; },
+    // What cotan/three says of the model.
+    get notes() { return [...state.notes]; },
     set share(value) { state.share = value; show(); },
     set angle(value) { state.angle = value; show(); },
     set most(value) { state.most = value; show(); },
@@ -156,7 +159,8 @@ export function modelView(canvas) {
   };
 }
 
-async function makeVariant(scene, name, what) {
+// name: 'tangents', stored ones or, where there are none, MikkTSpace's; else a frame.
+async function makeVariant(scene, name, what, notes) {
   const copy = cloneScene(scene), materials = new Map(), geometries = new Map();
   const once = (known, source) => known.get(source) ?? known.set(source, source.clone()).get(source);
   copy.traverse(object => {
@@ -165,8 +169,8 @@ async function makeVariant(scene, name, what) {
     object.material = Array.isArray(object.material) ? object.material.map(material => once(materials, material)) : once(materials, object.material);
   });
   for (const material of materials.values()) showNormals(material, what);
-  if (name !== 'stored') untangle(copy, { frame: name === 'smooth' ? 'cotangent' : name });
-  if (name === 'smooth') await useSmooth(copy);
+  if (name === 'tangents') await giveMikkTSpace(copy);
+  else untangle(copy, { frame: name, note: line => notes.add(line) });
   return copy;
 }
 

@@ -4,9 +4,10 @@
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "cotan/convention_words.hpp"
 #include "cotan/convert/put_map.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/verify/views.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
@@ -29,17 +30,46 @@ Json describe(const BakeStatistics& s)
             {"covered", s.covered},
             {"touched", s.touched},
             {"missed", s.missed},
+            {"further_away", s.further},
+            {"not_the_nearest", s.nearer},
             {"negative_z", s.negative},
             {"claimed_twice", s.twice},
             {"rays", s.rays},
             {"ray_distance", s.rayDistance},
+            {"ray_start", s.rayStart},
             {"triangles_mirrored", s.mirroredTriangles},
             {"triangles_without_uv_area", s.degenerateTriangles},
             {"seconds", s.seconds},
             {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
 }
 
-double percent(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : 100.0 * double(part) / double(whole); }
+// What rays did not find, or not as the older rule would have.
+void explainRays(const BakeCommandOptions& o, const BakeStatistics& s)
+{
+    if (s.further > 0 && o.cage.empty())
+        warn(o,
+             "{} of {} covered texels found no high surface within {:g} units; there is one further away "
+             "(--max-distance, --cage; --mask shows where)",
+             s.further, s.covered, s.rayDistance);
+    else if (s.further > 0)
+        warn(o,
+             "{} of {} covered texels found no high surface within the reach of the cage; there is one further away "
+             "(--mask shows where)",
+             s.further, s.covered);
+    if (s.missed > s.further)
+        warn(o,
+             "{} of {} covered texels have no high surface before or behind them at any distance: it has holes, or "
+             "ends before the low mesh does (--mask shows where)",
+             s.missed - s.further, s.covered);
+    if (s.nearer > 0)
+        warn(o,
+             "{} of {} covered texels show the first surface from outside, not the nearest one: parts stand off there "
+             "({})",
+             s.nearer, s.covered,
+             s.rayStart > 0 && o.extrusion == 0
+                 ? fmt::format("measured, up to {:.3g} units; --extrusion sets how far; --search nearest", s.rayStart)
+                 : "--search nearest");
+}
 
 // What the statistics mean for the one who baked.
 void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatistics& s)
@@ -48,19 +78,15 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
         s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
         warn(o, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim);
-    if (s.missed > 0)
-        warn(o,
-             "{:.2f} % of the covered texels found no high surface within {:g} units (--max-distance, --cage; --mask "
-             "shows where)",
-             percent(s.missed, s.covered), s.rayDistance);
+    explainRays(o, s);
     if (s.negative > 0)
         warn(o,
-             "{:.2f} % of the covered texels look below the frame's horizon (negative z): the low mesh is too coarse "
-             "there, or rays hit another part",
-             percent(s.negative, s.covered));
+             "{} of {} covered texels look below the frame's horizon (negative z): the low mesh is too coarse there, "
+             "or rays hit another part",
+             s.negative, s.covered);
     if (s.twice > 0)
-        warn(o, "{:.2f} % of the covered texels are claimed by several triangles; the first in the file won",
-             percent(s.twice, s.covered));
+        warn(o, "{} of {} covered texels are claimed by several triangles; the first in the file won", s.twice,
+             s.covered);
     const bool perTriangle = !readsVertices(job.frame()) && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o,
@@ -90,7 +116,10 @@ Status checkModelOutput(const BakeCommandOptions& o)
 // Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
-    PutMapOptions options{.frame = job.frame(), .material = {}, .keepTangents = job.setup.storedTangents};
+    PutMapOptions options{.frame = job.frame(),
+                          .material = {},
+                          .expansion = job.setup.options.stored.format.expansion,
+                          .keepTangents = job.setup.storedTangents};
     if (o.material >= 0) // a scene numbers its materials as meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
@@ -110,10 +139,9 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
         return ok;
-    const std::string extension = lowerExtension(o.output);
-    if (o.bits == 32 && extension != ".exr" && extension != ".tif" && extension != ".tiff")
-        return usageError(
-            fmt::format("--bits 32: expected a map named .exr, .tif or .tiff; found '{}'", o.output.string()));
+    if (o.bits == 32 && !imageFormatHas(o.output, &ImageFormat::negative))
+        return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
     std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
     if (!o.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
@@ -182,8 +210,18 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("NAME");
     a.option("--size", o.size, "width and height in texels").in("WxH");
     a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
+    a.option(
+         "--search", o.search,
+         "which surface counts: first, that a ray from outside inwards meets, or nearest to the low mesh, either way")
+        .from({"first", "nearest"})
+        .in("NAME");
+    a.option("--extrusion", o.extrusion,
+             "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
+        .within(0.0, 1e9)
+        .in("D");
     a.option("--max-distance", o.maxDistance,
-             "how far rays reach to both sides of the low mesh, in model units; 0: 5 % of the high mesh's diagonal")
+             "high surfaces further from the low mesh do not count, in model units; 0: 10 % of the low mesh's diagonal "
+             "(--search nearest: 5 % of the high mesh's)")
         .within(0.0, 1e9)
         .in("D");
     a.option("--cage", o.cage,
@@ -210,20 +248,24 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.option("--high-convention", o.highConvention,
-             "how the high mesh's map is stored, names as for --convention; default: as its material says, opengl for "
+             "how the high mesh's map is stored, words as for --convention; default: as its material says, opengl for "
              "--high-map")
-        .in("NAME")
-        .offers(presetWords());
-    a.option("--bits", o.bits, "bits per component: 8, 16 or 32 (float; .exr or .tif)").from({8, 16, 32}).in("N");
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--bits", o.bits,
+             "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
+        .from({8, 16, 32})
+        .in("N");
     a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
-    a.option("--convention", o.convention,
-             "how the map is stored: opengl (green up), gltf, directx, unity, unreal, ...")
-        .in("NAME")
-        .offers(presetWords());
+    a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
     a.option("--unsigned", o.expansion,
-             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1)")
+             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1) (default: biased in a "
+             "glTF model, whose readers take it so, else exact)")
         .from({"exact", "biased"})
-        .in("NAME");
+        .in("NAME")
+        .withoutDefault();
     a.option("--padding", o.padding,
              "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)
@@ -246,7 +288,7 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "bake the normal map of a detailed mesh for a simple one, for a named frame",
-         "the map: .png, .exr, .tif, .tga; or the low model with the map in it: .glb, .gltf",
+         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
         declare, run);

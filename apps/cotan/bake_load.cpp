@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/convention.hpp"
+#include "cotan/convention_words.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/stored_green.hpp"
@@ -19,13 +20,11 @@ namespace {
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {
-    const auto convention = conventionFromName(name);
-    if (!convention) {
-        std::string names;
-        for (const ConventionPreset& preset : conventionPresets())
-            names += (names.empty() ? "" : ", ") + std::string(preset.name);
-        return usageError(fmt::format("{}: expected one of {}; found '{}'", option, names, name));
-    }
+    const auto convention = conventionFromWords(name);
+    if (!convention)
+        return usageError(option + ": " + convention.error().message);
+    if (convention->kind != MapKind::tangentSpace)
+        return usageError(fmt::format("{}: expected a map in tangent space; found '{}'", option, name));
     return inScene(*convention);
 }
 
@@ -36,7 +35,12 @@ Result<StoredAs> storedAs(const BakeCommandOptions& o)
         return format.error();
     StoredAs as;
     as.format = *format;
-    as.format.expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact;
+    if (as.format.expansion == Expansion::signedValues)
+        return usageError("--convention: expected exact or biased; found signed");
+    if (o.expansion == "biased" || (o.expansion.empty() && namedAsGltf(o.output)))
+        as.format.expansion = Expansion::biased;
+    else if (o.expansion == "exact")
+        as.format.expansion = Expansion::exact;
     if (namedAsGltf(o.output) && (greenAlongV(as.format) || as.format.channels != Channels::xyz))
         return usageError(
             fmt::format("--convention: a glTF model has three channels, green up; found {}", o.convention));
@@ -87,6 +91,18 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
     return Done{};
 }
 
+// Options about where rays start that contradict each other.
+Status checkRays(const BakeCommandOptions& o)
+{
+    const bool nearest = o.search == "nearest";
+    if (nearest && o.extrusion > 0)
+        return usageError("--extrusion: --search nearest looks both ways from the low mesh; expected one of them");
+    if (!o.cage.empty() && (nearest || o.extrusion > 0))
+        return usageError(fmt::format("--cage: rays start on it and the first surface counts; found {} as well",
+                                      nearest ? "--search nearest" : "--extrusion"));
+    return Done{};
+}
+
 Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
 {
     BakeModelOptions options;
@@ -101,11 +117,15 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
         return stored.error();
     if (Status ok = parseHigh(o, options); !ok)
         return ok.error();
+    if (Status ok = checkRays(o); !ok)
+        return ok.error();
     options.bake.kind = kindOf(o.kind);
     options.bake.frame = *frame;
     options.bake.width = size->first;
     options.bake.height = size->second;
     options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
+    options.bake.search = o.search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
+    options.bake.extrusion = o.extrusion;
     options.bake.maxDistance = o.maxDistance;
     options.bake.occlusionRays = o.occlusionRays;
     options.bake.threads = o.threads;
@@ -133,6 +153,8 @@ Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
         auto image = readImageWithin(o.memory, o.highMaps[i]);
         if (!image)
             return image.error();
+        if (image->channels == 2) // what the file leaves out
+            completeNormals(*image);
         high.maps.push_back(std::move(*image));
     }
     return high;

@@ -13,14 +13,15 @@ namespace cotan::app {
 struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion = "exact",
+    std::string frame = "smooth", kind = "normal", size = "1024x1024", convention = "opengl", expansion, // empty: by -o
                 tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     int memory = kDefaultMemory;
-    float maxDistance = 0;
+    float maxDistance = 0, extrusion = 0;
+    std::string search = "first";
     bool dither = false, matchByName = false;
 };
 

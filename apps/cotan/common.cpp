@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cotan/files/account.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
@@ -110,9 +110,8 @@ void warn(const CommonOptions& options, const std::string& line)
 
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
 {
-    const std::string extension = lowerExtension(map);
-    if (extension == ".jpg" || extension == ".jpeg")
-        warn(options, "JPEG loses degrees on normal maps; PNG or TIFF keep them");
+    if (imageFormatHas(map, &ImageFormat::lossy))
+        warn(options, "{} loses degrees on normal maps; PNG or TIFF keep them", imageFormatOf(map)->name);
 }
 
 } // namespace cotan::app

@@ -42,7 +42,7 @@ Status withThreads(int threads, const std::function<Status()>& work);
 // What a command is, for addCommand.
 struct CommandText {
     const char *name, *summary;
-    const char* output; // what -o writes; empty: nothing
+    std::string output; // what -o writes; empty: nothing
     std::vector<std::string> examples;
 };
 

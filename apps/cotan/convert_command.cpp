@@ -30,6 +30,7 @@ struct ConvertCommandOptions : CommonOptions {
     std::string provoking; // empty: vertices stay
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
+    std::string expansion = "biased";
     std::filesystem::path verify;
     std::string device = "auto";
 };
@@ -56,6 +57,7 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
                                         {"--tangents", o.tangents != unset.tangents},
                                         {"--keep-tangents", o.keepTangents},
                                         {"--bits", o.bits != unset.bits},
+                                        {"--unsigned", o.expansion != unset.expansion},
                                         {"--verify", !o.verify.empty()}})
         if (given)
             return usageError(fmt::format("{}: is about converting maps; expected --to-frame FRAME with it", option));
@@ -109,6 +111,7 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
         return convertModel(document,
                             {.frames = frames,
                              .bits = o.bits,
+                             .expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact,
                              .keepTangents = o.keepTangents,
                              .threads = o.threads,
                              .memory = std::size_t(o.memory) << 20,
@@ -183,7 +186,8 @@ Status run(const ConvertCommandOptions& o)
             return inWords(named.error());
         if (*named && o.from.empty())
             (*frames)->from = **named;
-        report.update({{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}});
+        report.update(
+            {{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
@@ -218,8 +222,11 @@ Status run(const ConvertCommandOptions& o)
 void declare(Arguments& a, ConvertCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
-    a.option("--from-frame", o.from, "frame that the maps were made for (default: the one that the file names, else "
-                                          "mikktspace)").in("FRAME").offers(frameWords());
+    a.option("--from-frame", o.from,
+             "frame that the maps were made for (default: the one that the file names, else "
+             "mikktspace)")
+        .in("FRAME")
+        .offers(frameWords());
     a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
         .in("FRAME")
         .offers(frameWords());
@@ -234,6 +241,12 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .from({8, 16})
         .in("N")
         .withoutDefault();
+    a.option(
+         "--unsigned", o.expansion,
+         "how the engine takes the maps' numbers: biased (2c - 1, as glTF says and stock engines do) or exact (zero "
+         "is 128, as Cotan reads maps that say nothing)")
+        .from({"biased", "exact"})
+        .in("NAME");
     a.option(
          "--provoking", o.provoking,
          "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "

@@ -19,8 +19,7 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
         return usageError(fmt::format("{}: expected a .gltf or .glb model", model));
     if (output.empty())
         return Done{};
-    const auto extension = output.extension();
-    if (extension != ".glb" && extension != ".gltf")
+    if (!namedAsGltf(output))
         return usageError(fmt::format("-o: expected a file that ends in .glb or .gltf; found '{}'", output.string()));
     return Done{};
 }

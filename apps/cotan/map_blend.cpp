@@ -35,12 +35,17 @@ Result<maps::BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
     maps::BlendFileOptions options;
     for (const auto& [words, option, target] :
          {std::tuple(o.from, "--from", &options.base),
-          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail},
-          {o.to.empty() ? o.from : o.to, "--to", &options.to}}) {
+          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail}}) {
         const auto convention = parseConvention(words, option);
         if (!convention)
             return convention.error();
         *target = *convention;
+    }
+    if (!o.to.empty()) {
+        const auto convention = parseConvention(o.to, "--to");
+        if (!convention)
+            return convention.error();
+        options.to = convention->convention;
     }
     const auto mode = valueOf<maps::BlendMode>(
         "--mode", o.mode,
@@ -74,7 +79,7 @@ Status run(const MapBlendCommandOptions& o)
     if (done->invalid > 0)
         warn(o, "{} texels are no direction in one of the maps; the other counts alone there", done->invalid);
     say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
-        describe(options->to));
+        describe(done->to));
     return writeReport(o,
                        {{"command", "map blend"},
                         {"base", o.base},
@@ -83,7 +88,7 @@ Status run(const MapBlendCommandOptions& o)
                         {"mode", o.mode},
                         {"strength", o.strength},
                         {"tiles", {options->tilesX, options->tilesY}},
-                        {"to", describe(options->to)},
+                        {"to", describe(done->to)},
                         {"bits", bitsName(done->bits)},
                         {"invalid", done->invalid}});
 }

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "cotan/image/format_table.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {
 
 void addBits(Arguments& command, MapOptions& options, const std::string& help)
 {
-    command.option("--bits", options.bits, "bits per component: auto" + help + ", 8, 16, half (.exr) or float")
+    command
+        .option("--bits", options.bits,
+                "bits per component: auto" + help + ", 8, 16, half (" + imageEndings(&ImageFormat::halfs, ", ")
+                    + ") or float")
         .offers({"auto", "8", "16", "half", "float"});
 }
 
@@ -15,8 +19,9 @@ void addCompress(Arguments& command, std::string& compress)
 {
     command
         .option("--compress", compress,
-                "for .dds and .ktx2: none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
-                "bc7, x, y, z and alpha")
+                "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
+                    + ": none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
+                      "bc7, x, y, z and alpha")
         .offers({"none", "bc5", "bc7"});
 }
 
@@ -25,13 +30,13 @@ void addDither(Arguments& command, bool& dither)
     command.flag("--dither", dither, "add noise of half a step before rounding; it is the same on every run");
 }
 
-Result<Convention> parseConvention(const std::string& text, const std::string& option)
+Result<StatedConvention> parseConvention(const std::string& text, const std::string& option)
 {
-    auto convention = conventionFromWords(text);
+    auto convention = statedFromWords(text);
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
-Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to)
+Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to)
 {
     const auto first = parseConvention(from, "--from");
     const auto second = parseConvention(to, "--to");

@@ -1,6 +1,7 @@
 // `cotan map convert`: the same directions, stored another way.
 #include <fmt/format.h>
 
+#include "cotan/image/format_table.hpp"
 #include "cotan/map_files/convert.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
@@ -22,7 +23,8 @@ Status run(const MapConvertCommandOptions& o)
     const auto conventions = parseFromTo(o.from, o.to);
     if (!conventions)
         return conventions.error();
-    const auto& [from, to] = *conventions;
+    const StatedConvention& from = conventions->first;
+    const Convention& to = conventions->second.convention;
     if (Status given = needOutput(o, "convert"); !given)
         return given;
     const bool blocks = o.compress != "none";
@@ -63,7 +65,7 @@ Status run(const MapConvertCommandOptions& o)
                        {{"command", "map convert"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"from", describe(from)},
+                        {"from", describe(done->from)},
                         {"to", describe(stored)},
                         {"width", done->width},
                         {"height", done->height},
@@ -105,7 +107,7 @@ void addMapConvert(Arguments& map)
         map,
         {"convert",
          "store the same directions another way",
-         "the new map: .png .exr .tif .tga .jpg .hdr .dds .ktx2",
+         "the new map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }),
          {"cotan map convert rocks.png --from directx --to gltf -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},
         declare, run);

@@ -33,8 +33,8 @@ Status run(const MapDiffCommandOptions& o)
                        {{"command", "map diff"},
                         {"a", o.a},
                         {"b", o.b},
-                        {"convention_a", describe(conventions->first)},
-                        {"convention_b", describe(conventions->second)},
+                        {"convention_a", describe(compared->a)},
+                        {"convention_b", describe(compared->b)},
                         {"skipped", compared->skipped},
                         {"angles", toJson(compared->angles)}});
 }

@@ -74,7 +74,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
         return metres.error();
     const auto done = onFilesToMap(o, o.file, [&](const maps::FileOptions& files) {
         return maps::normalsFromHeightFile(o.file, o.output,
-                                           {.to = *to,
+                                           {.to = to->convention,
                                             .kernel = *kernel,
                                             .wrap = *wrap,
                                             .metres = *metres,
@@ -90,12 +90,13 @@ Status runFrom(const MapFromHeightCommandOptions& o)
         warn(o, "{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid);
     if (done->heights == PixelType::unorm8)
         warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
-    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to));
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits),
+        describe(to->convention));
     return writeReport(o,
                        {{"command", "map from-height"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"to", describe(*to)},
+                        {"to", describe(to->convention)},
                         {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
                         {"bits", bitsName(done->bits)},
                         {"invalid", done->invalid}});
@@ -157,7 +158,7 @@ Status runTo(const MapToHeightCommandOptions& o)
                        {{"command", "map to-height"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"from", describe(*from)},
+                        {"from", describe(done->from)},
                         {"lowest", lowest},
                         {"highest", highest},
                         {"unit", unit},

@@ -24,7 +24,7 @@ Status run(const MapMipsCommandOptions& o)
     const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
     if (!conventions)
         return conventions.error();
-    const auto& [from, to] = *conventions;
+    const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
     using enum maps::SpreadModel;
     const auto model =
         valueOf<maps::SpreadModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
@@ -33,14 +33,15 @@ Status run(const MapMipsCommandOptions& o)
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const maps::MipFileOptions options{from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
-    const auto chain = onFiles(o, "filtering levels", [&](const maps::FileOptions& files) {
+    const maps::MipFileOptions options{conventions->first, to,     *model,     o.roughness,
+                                       o.keepLengths,      o.bits, o.compress, plan};
+    const auto done = onFiles(o, "filtering levels", [&](const maps::FileOptions& files) {
         return maps::writeMips(o.file, o.output, options, files);
     });
-    if (!chain)
-        return chain.error();
+    if (!done)
+        return done.error();
     Json levels = Json::array();
-    for (const maps::MipLevelFigures& level : *chain) {
+    for (const maps::MipLevelFigures& level : done->levels) {
         levels.push_back({{"width", level.width},
                           {"height", level.height},
                           {"mean_length", level.meanLength},
@@ -52,8 +53,8 @@ Status run(const MapMipsCommandOptions& o)
                        {{"command", "map mips"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"from", describe(from)},
-                        {"to", describe(to)},
+                        {"from", describe(done->from)},
+                        {"to", describe(done->to)},
                         {"model", o.model},
                         {"roughness", o.roughness},
                         {"levels", levels}});

@@ -22,11 +22,11 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help);
 void addCompress(Arguments& command, std::string& compress);
 void addDither(Arguments& command, bool& dither);
 
-// conventionFromWords with the option in front of its message.
-Result<Convention> parseConvention(const std::string& text, const std::string& option);
+// statedFromWords with the option in front of its message.
+Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
 // The two of --from and --to.
-Result<std::pair<Convention, Convention>> parseFromTo(const std::string& from, const std::string& to);
+Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to);
 
 // For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
 // if empty.

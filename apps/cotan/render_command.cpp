@@ -7,6 +7,7 @@
 
 #include "cotan/image/animation.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
@@ -37,8 +38,8 @@ Result<Image> drawPicture(Painter& painter, const Picture& picture, const Render
     return image;
 }
 
-// What the pictures of a sequence share: the view that is made for the first, with its camera and surroundings that
-// take a second to make; and the file of all, where there is one.
+// What the pictures of a sequence share: the view that is made for the first, with its camera, which frames all of the
+// animation, and surroundings that take a second to make; and the file of all, where there is one.
 struct Sequence {
     std::optional<View> view;
     std::unique_ptr<AnimationWriter> animation;
@@ -186,10 +187,9 @@ void declare(Arguments& a, RenderCommandOptions& o)
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
     addShowOption(a, o.picture.show);
-    a.option(
-         "--frames", o.frames,
-         "pictures A to B of --animation with the camera of the first, written as NAME-0000.png and so on, or into one "
-         ".webp or .gif")
+    a.option("--frames", o.frames,
+             "pictures A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
+                 + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
     a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
 }
@@ -202,8 +202,10 @@ void addRenderCommand(Arguments& tool)
         tool,
         {"render",
          "draw a model, or the built-in scene, to a picture",
-         "picture to write: .png, .jpg, .tga (8 bit); .exr, .tif, .hdr keep floats; .webp, .gif: all "
-         "of --frames",
+         fmt::format("picture to write: {} (8 bit); {} keep floats; {}: all of --frames",
+                     imageEndings([](const ImageFormat& f) { return f.writes && !f.floats; }, ", "),
+                     imageEndings([](const ImageFormat& f) { return f.writes && f.floats; }, ", "),
+                     imageEndings(&ImageFormat::animation, ", ")),
          {"cotan render model.glb -o picture.png --frame cotangent --view normal",
           "cotan render --size 640x360 -o scene.png"}},
         declare, run);

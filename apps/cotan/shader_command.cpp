@@ -29,8 +29,8 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
     Convention c;
     Words<Convention> presets;
     for (const ConventionPreset& p : conventionPresets())
-        presets.push_back({p.name, p.convention});
-    // Godot's importer may drop blue; a text that reads it would fail without a word.
+        presets.push_back({p.name, onCard(p)});
+    // Godot's importer may drop blue; a text that reads it would fail without an error.
     const std::string preset = o.preset.empty() && o.language == "godot" ? o.language : o.preset;
     if (Status ok = choose(c, "--preset", preset, presets); !ok)
         return ok.error();
@@ -163,9 +163,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
         .in("NAME")
         .offers({"fragment", "vertex", "mesh", "compute"});
     a.option("--preset", o.preset,
-             "how the normal map is stored: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
-             "3dsmax, source; the next three options replace parts of it. Default: 3 channels, green against "
-             "v, exact; for Godot: godot")
+             "how the normal map is sampled: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
+             "3dsmax, source; unity, unreal and godot keep two channels of the imported file. The next three options "
+             "replace parts of it. Default: 3 channels, green against v, exact; for Godot: godot")
         .in("NAME")
         .offers(presetWords());
     a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/model/load.hpp"
 #include "cotan/verify/conversion.hpp"
 #include "cotan/verify/views.hpp"
 #include "loading.hpp"
@@ -19,12 +20,27 @@ Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file
     });
 }
 
+// A map that was made for 2c - 1 stands for one that was read so.
+Status readAsAfter(Scene& before, const VerifyOptions& o)
+{
+    LoadLimits limits = limitsFor(o.memory);
+    limits.pixels = Pixels::none;
+    const auto after = loadScene(o.after, limits);
+    if (!after)
+        return after.error();
+    for (std::size_t i = 0; i < std::min(before.materials.size(), after->materials.size()); ++i)
+        before.materials[i].normalFormat.expansion = after->materials[i].normalFormat.expansion;
+    return Done{};
+}
+
 // One model at a time is in memory.
 Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions& common, std::string& device)
 {
     auto before = loadSceneWithin(o.memory, o.before);
     if (!before)
         return before.error();
+    if (Status read = readAsAfter(*before, o); !read)
+        return read.error();
     const auto painter = openDevice(o.device, common);
     if (!painter)
         return painter.error();
@@ -86,7 +102,25 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
         return written.error();
     say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
         toText(compared->all));
-    return Json{{"device", (*painter)->device()}, {"all", toJson(compared->all)}, {"views", viewsOf(*compared)}};
+    const std::size_t others = compared->others, pixels = compared->pixels;
+    const bool lost = !showsHighSurface(*compared);
+    if (lost)
+        warn(common,
+             "--verify: {} of {} pixels show another surface than the high mesh does there (magenta in error-N.png): "
+             "the "
+             "map is wrong{}",
+             others, pixels,
+             bake.options.search == BakeSearch::nearest ? "; --search first takes what is in front"
+                                                        : " (--extrusion, --max-distance, --cage)");
+    else if (pixels == 0)
+        warn(common, "--verify compared nothing: the camera sees no high surface where the low one is");
+    Json all = toJson(compared->all);
+    all["surface_known"] = pixels;
+    all["another_surface"] = others;
+    return Json{{"device", (*painter)->device()},
+                {"all", all},
+                {"shows_the_high_surface", pixels > 0 && !lost},
+                {"views", viewsOf(*compared)}};
 }
 
 } // namespace cotan::app

@@ -9,7 +9,7 @@
 #include "command_words.hpp"
 #include "cotan/convention_words.hpp"
 #include "cotan/draw/camera_words.hpp"
-#include "cotan/files/extension.hpp"
+#include "cotan/image/format_table.hpp"
 #include "files.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
@@ -23,8 +23,10 @@ Status openFile(State& state, const std::string& file)
     if (file.empty())
         return expected("open", "a file", "");
     if (isPicture(file)) {
-        const std::string ending = lowerExtension(file);
-        if (ending == ".hdr" || (ending == ".exr" && !state.picture.model.empty())) {
+        const ImageFormat& format = *imageFormatOf(file);
+        // Light; of formats that hold directions below zero only beside a model, without one they are taken for a map.
+        const bool light = format.floats && !format.bits8;
+        if (light && (!format.negative || !state.picture.model.empty())) {
             state.picture.environment = file;
             state.metered = 0;
             return Done{};

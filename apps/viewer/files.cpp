@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cotan/files/extension.hpp"
+#include "cotan/image/format_table.hpp"
 
 namespace cotan::viewer {
 
@@ -31,12 +32,7 @@ int digit(char c)
 
 } // namespace
 
-bool isPicture(const fs::path& file)
-{
-    constexpr std::array<std::string_view, 12> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".exr",
-                                                           ".hdr", ".tif", ".tiff", ".tga",  ".bmp",  ".dds"};
-    return endsWithOneOf(file, kEndings);
-}
+bool isPicture(const fs::path& file) { return imageFormatHas(file, &ImageFormat::reads); }
 
 bool isModel(const fs::path& file)
 {

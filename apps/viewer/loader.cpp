@@ -86,9 +86,11 @@ void giveUp(State& state, const Loaded& loaded)
 
 void takePosed(State& state, const Loaded& loaded)
 {
+    const bool other = !state.model || state.model->read.animation != loaded.model->read.animation;
     state.model = loaded.model;
-    state.cameraMoved = true; // it stays where it is, and does not go with the model's bounds
-    if (state.playing)        // the moment has gone on
+    if (other && !state.cameraMoved) // it frames all of the animation, and stays for all of its moments
+        resetCamera(state);
+    if (state.playing) // the moment has gone on
         return;
     state.hotSpots.reset();
     if (state.hotSpotsShown)

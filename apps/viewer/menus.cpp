@@ -214,6 +214,8 @@ void addLightEntries(Entries& e, const State& s)
     e.line();
     const bool four = s.picture.samples == 4;
     e.add("Four samples a pixel", "a", four ? "set samples 1" : "set samples 4", four);
+    const bool sixteen = s.picture.samples == 16;
+    e.add("Sixteen samples a pixel", "", sixteen ? "set samples 4" : "set samples 16", sixteen);
     e.flag("Highlights antialiased", "", "specular-antialiasing");
 }
 

@@ -41,7 +41,7 @@ std::span<const Setting> settings()
         {"no-normal-maps", &Options::noNormalMaps},
         {"point-sampled", &Options::pointSampled},
         {"specular-antialiasing", &Options::specularAntialiasing},
-        {"samples", &Options::samples, {"1", "4"}, 1, 4},
+        {"samples", &Options::samples, {"1", "4", "16"}, 1, 16},
         {"edges", &Options::edges, {"none", "triangles", "seams", "all"}},
         {"shading", &Options::shading, {"pbr", "blinn-phong"}},
         {"derivatives", &Options::derivatives, {"fine", "coarse"}},

@@ -8,6 +8,7 @@
 
 #include "camera.hpp"
 #include "cotan/draw/camera_words.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/picture/words.hpp"
 #include "cotan/scene/bounds.hpp"

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "input.hpp"
 
 namespace cotan::viewer {

@@ -68,6 +68,7 @@ export const { detect, info, convertMap, blend, fromHeight, toHeight, mips } = m
 export const { apply, encode, frames, shader } = frameFunctions(library);
 export const { lint, convert } = modelFunctions(library, host);
 export const version = () => library.version;
+export { overLimits } from './src/verdict.js';
 export { decodePng, encodePng } from './src/png.js';
 export { decodePicture } from './src/pictures.js';
 export { CotanError };

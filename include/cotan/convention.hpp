@@ -51,15 +51,21 @@ struct Convention {
 // points against it, and so on (docs/conventions.md has the table of four).
 constexpr bool greenAlongV(const Convention& c) { return c.greenUp == (c.v == VDirection::up); }
 
+// How an engine or program wants the file that a person gives it. All have three channels.
 struct ConventionPreset {
     std::string_view name;
     Convention convention;
+    bool twoOnCard;        // the engine's importer keeps x and y alone, which is what its shaders sample
     std::string_view note; // one line: whose, and what is special
 };
 
 // gltf, opengl, directx, unity, unreal, blender, godot, maya, 3dsmax, source.
 std::span<const ConventionPreset> conventionPresets();
 std::optional<Convention> conventionFromName(std::string_view name);
+
+// What the engine's shaders sample once the file is imported: orthographic where it keeps two channels. A shader that
+// takes z from x and y also reads a map of unit vectors whose blue was kept.
+Convention onCard(const ConventionPreset& preset);
 
 // One line for reports, such as "tangent space, xyz, green up, v down, exact expansion".
 std::string describe(const Convention& convention);

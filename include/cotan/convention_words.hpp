@@ -10,9 +10,26 @@
 
 namespace cotan {
 
-// A convention in words separated by commas: a preset's name, then what differs from it, such as "unity,xyz" or
+// A convention in words separated by commas: a preset's name, then what differs from it, such as "unity,xy" or
 // "opengl,biased". Errors (ErrorKind::usage): a word that is not known, or none.
 Result<Convention> conventionFromWords(std::string_view text);
+
+// A convention as somebody says it. What a preset says of channels is no more than what is usual: a file that stores
+// two is believed.
+struct StatedConvention {
+    Convention convention{};
+    bool channels = false; // they were said by a word of their own: a file that stores others contradicts
+
+    StatedConvention() = default;
+    StatedConvention(const Convention& c, bool said = false) : convention(c), channels(said) {}
+};
+
+// As conventionFromWords, with whether a word for the channels (xyz, xy and so on, or object) was among them.
+Result<StatedConvention> statedFromWords(std::string_view text);
+
+// As conventionFromWords, for a shader: a preset without a word for its channels means what its engine samples
+// (onCard).
+Result<Convention> sampledFromWords(std::string_view text);
 
 // All words that it knows, for help texts.
 std::string conventionWords();

@@ -34,10 +34,10 @@ struct MeshView {
 // Corners that share a vertex may differ (mirrored texcoords): see splitVertices.
 // xyz is perpendicular to the normal of the vertex, and unit as far as floats are; to be used as
 // cotan_frame_mikktspace says, not normalised between the vertices.
-// Degenerate input: a triangle with two equal positions takes its corners' tangents from the first
-// sound triangle at the vertex. One with no area in uv takes part in its neighbours'; where it has
-// none, and where tangents cancel out, we depart from the source, which gives (1,0,0) or zero:
-// the tangent is some unit vector perpendicular to the normal, w = +1.
+// Degenerate input, as the source has it: a triangle with two equal positions takes its corners' tangents from
+// the first sound triangle at the vertex. One with no area in uv takes part in its neighbours'; where there are
+// none the tangent is (1,0,0), whatever the normal, and w = +1 (the source's -1; its v runs up). Where tangents
+// cancel out, xyz is zero. Input that is not finite: as without neighbours.
 // Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
 // mikktspace.h with its default angular threshold of 180 degrees, mended as in three.js 0.187: every shared
 // edge joins its triangles, where mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast)

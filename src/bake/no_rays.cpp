@@ -1,5 +1,6 @@
 // The detailed surface where there is no Embree to find it: nobody can make one.
 #include "cotan/bake/high_surface.hpp"
+#include "cotan/bake/low_tree.hpp"
 #include "cotan/not_built.hpp"
 
 namespace cotan {
@@ -20,11 +21,32 @@ void HighSurface::curve(int) {}
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
 void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
-void HighSurface::outermost(const Probes&, float, HighNormals, Hits&) const {}
+void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
+void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
 bool HighSurface::blocked(const Ray&) const { return false; }
+HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }
 glm::vec3 HighSurface::low() const { return glm::vec3(0); }
 glm::vec3 HighSurface::high() const { return glm::vec3(0); }
+
+struct LowTree::State {};
+
+Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>, int)
+{
+    return *HighSurface::unavailable();
+}
+LowTree::LowTree(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LowTree::LowTree(LowTree&&) noexcept = default;
+LowTree& LowTree::operator=(LowTree&&) noexcept = default;
+LowTree::~LowTree() = default;
+LowTree::Nearest LowTree::nearestOf(glm::vec3, float, const void*, bool (*)(const void*, std::uint32_t)) const
+{
+    return {};
+}
+LowTree::Met LowTree::first(const Ray&) const { return {}; }
+glm::vec3 LowTree::corner(std::uint32_t, std::size_t) const { return glm::vec3(0); }
+glm::vec3 LowTree::face(std::uint32_t) const { return glm::vec3(0); }
+std::size_t LowTree::triangleCount() const { return 0; }
 
 } // namespace cotan

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/bake/bake_model.hpp"
+#include "cotan/covector.hpp"
 #include "cotan/scene/check.hpp"
 #include "cotan/scene/put_picture.hpp"
 #include "cotan/scene/stored_green.hpp"
@@ -28,6 +29,13 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (!(b.maxDistance <= kFarthest))
         return usageError(
             fmt::format("options.maxDistance: expected at most {:g}; found {:g}", kFarthest, b.maxDistance));
+    if (!(b.extrusion >= 0 && b.extrusion <= kFarthest))
+        return usageError(fmt::format("options.extrusion: expected 0 to {:g}; found {:g}", kFarthest, b.extrusion));
+    if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
+        return usageError(fmt::format("options.{}: a cage says already where rays start, and the first surface counts",
+                                      b.extrusion > 0 ? "extrusion" : "search"));
+    if (b.search == BakeSearch::nearest && b.extrusion > 0)
+        return usageError("options.extrusion: the search nearest looks both ways from the low surface");
     if (options.material >= int(low.materials.size()))
         return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1,
                                       options.material));
@@ -108,6 +116,28 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
     return Done{};
 }
 
+// The triangles of the other materials.
+LowRest restOf(const Scene& low, int material)
+{
+    LowRest rest;
+    for (std::size_t i = 0; i < low.instances.size() && material >= 0; ++i) {
+        const Instance& instance = low.instances[i];
+        const Mesh& mesh = low.meshes[std::size_t(instance.mesh)];
+        if (mesh.material == material)
+            continue;
+        const auto base = std::uint32_t(rest.positions.size());
+        const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
+        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+            rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
+            rest.normals.push_back(covectors * mesh.normals[v]);
+        }
+        for (const std::uint32_t v : mesh.indices)
+            rest.indices.push_back(base + v);
+        rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), std::uint32_t(i));
+    }
+    return rest;
+}
+
 // Whether what is baked has tangents everywhere and they count.
 bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
 {
@@ -185,6 +215,9 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             return matched.error();
         bake.matched = std::move(*matched);
     }
+    bake.starts = nullptr;
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options.material)); !ready)
+        return ready.error();
     return setup;
 }
 

@@ -13,6 +13,7 @@
 #include "cotan/files/bytes.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/sandbox/confine.hpp"
 #include "thumbnail.hpp"
 
@@ -59,7 +60,7 @@ std::filesystem::path pictureOf(const ChildRequest& request, const ChildAnswer& 
                                 const std::function<int(const std::vector<std::string>&)>& command)
 {
     for (const std::string& file : answer.outputs)
-        if (hasExtension(file, {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".hdr", ".tga", ".bmp", ".webp"}))
+        if (imageFormatHas(file, &ImageFormat::reads))
             return file;
     if (request.thumbnails != Thumbnails::models)
         return {};

@@ -1,6 +1,9 @@
 // cotan.h: baking, from arrays and from models.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "call.hpp"
 #include "cotan/bake/bake_model.hpp"
@@ -53,6 +56,9 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
 {
     BakeModelOptions options;
     require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
+    require(std::isfinite(o.extrusion) && o.extrusion >= 0, "options.extrusion: expected 0 or more");
+    const std::string_view search = o.search ? o.search : "first";
+    require(search == "first" || search == "nearest", "options.search: expected first or nearest");
     require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
     require(o.threads >= 0, "options.threads: expected 0 or more");
     require(o.padding >= -1, "options.padding: expected -1 or more");
@@ -66,6 +72,8 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     b.width = map.width;
     b.height = map.height;
     b.samples = o.samples != 0 ? o.samples : 1;
+    b.search = search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
+    b.extrusion = o.extrusion;
     b.maxDistance = o.max_distance;
     b.cageReach = o.cage_reach;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
@@ -98,7 +106,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     const cotan_picture& out = checkedPicture(map, "map");
     const cotan_bake_options o = optionsOf(given, "options");
     if (result)
-        checked(result, "result");
+        requireSize(result->size, offsetof(cotan_bake_result, further), "result");
     if (o.mask)
         checkMask(*o.mask, out);
     BakeModelOptions options = bakeOptionsOf(o, out);
@@ -110,7 +118,10 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
         put(baked.maps[0].mask, *o.mask);
     if (result) {
         const BakeStatistics& s = baked.maps[0].statistics;
-        *result = {result->size, s.texels, s.covered, s.missed, s.negative, s.twice, s.rays, s.rayDistance};
+        const std::size_t size = result->size;
+        const cotan_bake_result all{size,   s.texels,      s.covered, s.missed, s.negative, s.twice,
+                                    s.rays, s.rayDistance, s.further, s.nearer, s.rayStart};
+        std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter one
     }
 }
 

@@ -72,6 +72,7 @@ template<class T> const T& checked(const T* argument, const char* name)
 // The least size of options: what they had in the version that brought them.
 template<class T> inline constexpr std::size_t kFirstSize = sizeof(T);
 template<> inline constexpr std::size_t kFirstSize<cotan_bake_options> = offsetof(cotan_bake_options, cage);
+template<> inline constexpr std::size_t kFirstSize<cotan_convert_options> = offsetof(cotan_convert_options, expansion);
 template<> inline constexpr std::size_t kFirstSize<cotan_lint_options> = offsetof(cotan_lint_options, limit);
 template<> inline constexpr std::size_t kFirstSize<cotan_model_files> = offsetof(cotan_model_files, name);
 

@@ -68,6 +68,9 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
                       TangentOrigin::generated};
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
+    const std::string_view expansion = o.expansion ? o.expansion : "biased";
+    require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
+    convert.expansion = expansion == "biased" ? Expansion::biased : Expansion::exact;
     convert.threads = o.threads;
     convert.limits = source.limits();
     convert.encode = source.encoder();

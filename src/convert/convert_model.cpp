@@ -33,6 +33,7 @@ public:
             return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
                                           gltfPath(document_).string(), name(**named), name(options_.frames.from)));
+        named_ = named->has_value();
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
             return jobs.error();
@@ -91,6 +92,30 @@ private:
         return Done{};
     }
 
+    struct Expansions {
+        Expansion read, written;
+    };
+
+    // How the uses of a map read it, as the engines do that are converted for, and how it is to be written.
+    Expansions expansionsOf(const MapJob& job) const
+    {
+        const bool ofCoat =
+            std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
+        const Expansion written = ofCoat ? Expansion::exact : options_.expansion;
+        const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
+            return gltf::expansionOf(document_.root["materials"][place.material]) == Expansion::biased;
+        });
+        return {said ? Expansion::biased : written, written};
+    }
+
+    // What readers of a new map must know.
+    void sayExpansion(const MapJob& job, Expansion expansion)
+    {
+        for (const MapPlace& place : job.places)
+            if (place.slot == NormalSlot::surface)
+                setExpansion(document_.root["materials"][place.material], expansion);
+    }
+
     // Converts one image and puts it back.
     Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
     {
@@ -101,11 +126,19 @@ private:
         auto map = decodeImage(*bytes, field, options_.limits);
         if (!map)
             return map.error();
+        // The materials have been asked; an image says it where they say nothing.
+        if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
+            return inputError(fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
+                                          "convert from, found {}",
+                                          field, map->frame, name(options_.frames.from)));
         completeNormals(*map);
         ConvertedMap done{job.image, job.name, surfacesOf(job), map->width, map->height};
-        const auto uses = usesOf(document_, job, options_.frames);
+        auto uses = usesOf(document_, job, options_.frames);
         if (!uses)
             return uses.error();
+        const Expansions expansions = expansionsOf(job);
+        for (MapUse& use : *uses)
+            use.stored.expansion = expansions.read;
         done.alsoElsewhere = job.alsoElsewhere;
         done.bytesBefore = done.bytesAfter = bytes->size();
         // Where the old map serves as well as a rounded new one, it stays, byte for byte.
@@ -118,15 +151,17 @@ private:
                                           field, copies, kMostCopies));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
-        const Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows);
+        Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows, expansions.written);
         if (rows.stopped())
             return stoppedError();
+        r.image.frame = name(options_.frames.to);
         auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
         if (!png)
             return png.error();
         done.figures = r;
         done.bytesAfter = png->size();
         replaceMap(document_, job, std::move(*png), report_.notes);
+        sayExpansion(job, expansions.written);
         noteWhatStaysOff(done);
         return done;
     }
@@ -192,6 +227,7 @@ private:
     const ConvertModelOptions& options_;
     GltfDocument document_; // a copy, so that an error leaves the caller's as it was
     ConvertModelReport report_;
+    bool named_ = false; // the materials say for which frame their maps are
 };
 
 } // namespace

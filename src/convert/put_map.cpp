@@ -100,8 +100,10 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         materials = allMaterials(document.root);
     }
     putMap(document, materials, std::move(png));
-    for (const std::size_t material : materials)
+    for (const std::size_t material : materials) {
         nameFrame(document, material, options.frame);
+        setExpansion(document.root["materials"][material], options.expansion);
+    }
     if (Status settled = settleTangents(document, options, notes); !settled)
         return settled;
     if (options.frame != Frame::mikktspace)

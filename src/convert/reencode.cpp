@@ -37,11 +37,13 @@ struct RowCounts {
 
 class Reencoder {
 public:
-    Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits)
+    Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
+              std::optional<Expansion> expansion)
         : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)), owner_(map.pixelCount(), kNoTexel)
     {
-        const Convention stored = uses.empty() ? Convention{} : uses.front().stored;
+        Convention stored = uses.empty() ? Convention{} : uses.front().stored;
         plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
+        expansion_ = stored.expansion = expansion.value_or(stored.expansion);
         written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
         plain_.green = written_.green = 1;
         for (const MapUse& use : uses)
@@ -82,7 +84,7 @@ public:
         for (const MapUse& use : uses_)
             shown.push_back(&use);
         result_.unconverted = mapError(map_, map_, shown, frames_);
-        result_.error = mapError(map_, result_.image, shown, frames_);
+        result_.error = mapError(map_, result_.image, shown, frames_, expansion_);
         return std::move(result_);
     }
 
@@ -258,6 +260,7 @@ private:
     std::span<const MapUse> uses_;
     FramePair frames_;
     f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
+    Expansion expansion_ = Expansion::exact;       // of the result
     std::vector<UseRaster> rasters_;
     std::vector<RowCounts> rows_;
     std::vector<std::uint32_t> owner_;
@@ -268,10 +271,10 @@ private:
 } // namespace
 
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads,
-                   CountedSteps* rows)
+                   CountedSteps* rows, std::optional<Expansion> expansion)
 {
     Reencoded result;
-    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits).run(rows); });
+    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits, expansion).run(rows); });
     return result;
 }
 

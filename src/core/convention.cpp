@@ -9,25 +9,39 @@ namespace {
 using enum MapKind;
 
 // Zero is the middle code in all of them: where every baker puts a flat texel, whatever engines expand with.
-constexpr Convention tangent(Channels c, bool greenUp, VDirection v)
+// Three channels: every importer is given blue, also where it drops it.
+constexpr Convention tangent(bool greenUp, VDirection v)
 {
-    return {tangentSpace, Expansion::exact, c, greenUp, v};
+    return {tangentSpace, Expansion::exact, Channels::xyz, greenUp, v};
 }
 
+// What a person gives to each importer, by the documents and sources of the engines:
+// glTF: specification 2.0, 3.9.3: "+X is right and +Y is up"; uv begin at the top left.
+// Unity: manual, "Normal map": "Unity uses Y+ normal maps, sometimes known as OpenGL format"; the texture type Normal
+// map
+//   makes two channels of the file (DXT5nm: x in alpha, y in green; or BC5).
+// Unreal: its exporter of glTF, whose maps are Y+, flips green (GLTFExportOptions.adjust_normalmaps); TC_Normalmap is
+//   BC5. NormalMapIdentification.cpp tells a normal map by texels near (0, 0, 1), blue included: without blue it is
+//   taken for a picture of colours.
+// Godot: "Godot requires the normal map to use the X+, Y+ and Z+ coordinates, which is known as an OpenGL-style normal
+//   map"; "only the red and green channels of normal maps are used for better compression";
+//   resource_importer_texture.cpp compresses it so (COMPRESS_SOURCE_NORMAL) where compress/normal_map says or detects
+//   it.
+// Blender: manual, Normal Map node: OpenGL by default, green up.
+// Maya: green up, by the table of conventions of Verge3D, an exporter for it; Autodesk's own pages do not say.
+// 3ds Max: help, Normal Bump Map: "green indicates down (larger values) versus up".
+// Source: Valve Developer Community, Bump map: "vector directions X+ Y- Z+".
 constexpr std::array kPresets = {
-    ConventionPreset{"gltf", tangent(Channels::xyz, true, VDirection::down), "glTF 2.0: green up, v down"},
-    ConventionPreset{"opengl", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
-    ConventionPreset{"directx", tangent(Channels::xyz, false, VDirection::down), "green down, v down"},
-    ConventionPreset{"unity", tangent(Channels::orthographic, true, VDirection::up),
-                     "green up, v up; two channels after import"},
-    ConventionPreset{"unreal", tangent(Channels::orthographic, false, VDirection::down),
-                     "green down, v down; two channels (BC5) after import"},
-    ConventionPreset{"blender", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
-    ConventionPreset{"godot", tangent(Channels::orthographic, true, VDirection::down),
-                     "green up, v down; two channels after import"},
-    ConventionPreset{"maya", tangent(Channels::xyz, true, VDirection::up), "green up, v up"},
-    ConventionPreset{"3dsmax", tangent(Channels::xyz, false, VDirection::up), "green down, v up"},
-    ConventionPreset{"source", tangent(Channels::xyz, false, VDirection::down), "green down, v down"},
+    ConventionPreset{"gltf", tangent(true, VDirection::down), false, "glTF 2.0: green up, v down"},
+    ConventionPreset{"opengl", tangent(true, VDirection::up), false, "green up, v up"},
+    ConventionPreset{"directx", tangent(false, VDirection::down), false, "green down, v down"},
+    ConventionPreset{"unity", tangent(true, VDirection::up), true, "green up, v up; two channels on the card"},
+    ConventionPreset{"unreal", tangent(false, VDirection::down), true, "green down, v down; two channels on the card"},
+    ConventionPreset{"blender", tangent(true, VDirection::up), false, "green up, v up"},
+    ConventionPreset{"godot", tangent(true, VDirection::down), true, "green up, v down; two channels on the card"},
+    ConventionPreset{"maya", tangent(true, VDirection::up), false, "green up, v up"},
+    ConventionPreset{"3dsmax", tangent(false, VDirection::up), false, "green down, v up"},
+    ConventionPreset{"source", tangent(false, VDirection::down), false, "green down, v down"},
 };
 
 std::string_view word(Expansion e)
@@ -67,6 +81,14 @@ std::optional<Convention> conventionFromName(std::string_view name)
         if (p.name == name)
             return p.convention;
     return std::nullopt;
+}
+
+Convention onCard(const ConventionPreset& preset)
+{
+    Convention c = preset.convention;
+    if (preset.twoOnCard)
+        c.channels = Channels::orthographic;
+    return c;
 }
 
 std::string describe(const Convention& c)

@@ -10,6 +10,7 @@ namespace {
 struct Word {
     const char* name;
     void (*apply)(Convention&);
+    bool channels = false; // says them
 };
 
 constexpr Word kWords[] = {
@@ -18,20 +19,23 @@ constexpr Word kWords[] = {
     {"exact", [](Convention& c) { c.expansion = Expansion::exact; }},
     {"biased", [](Convention& c) { c.expansion = Expansion::biased; }},
     {"signed", [](Convention& c) { c.expansion = Expansion::signedValues; }},
-    {"xyz", [](Convention& c) { c.channels = Channels::xyz; }},
-    {"orthographic", [](Convention& c) { c.channels = Channels::orthographic; }},
-    {"stereographic", [](Convention& c) { c.channels = Channels::stereographic; }},
-    {"slope", [](Convention& c) { c.channels = Channels::slope; }},
+    {"xyz", [](Convention& c) { c.channels = Channels::xyz; }, true},
+    {"xy", [](Convention& c) { c.channels = Channels::orthographic; }, true},
+    {"orthographic", [](Convention& c) { c.channels = Channels::orthographic; }, true}, // the same
+    {"stereographic", [](Convention& c) { c.channels = Channels::stereographic; }, true},
+    {"slope", [](Convention& c) { c.channels = Channels::slope; }, true},
     // Axes of a mesh: all three are needed, and green has no picture to be turned against.
-    {"object", [](Convention& c) { c.kind = MapKind::objectSpace, c.channels = Channels::xyz, c.greenUp = true; }},
+    {"object", [](Convention& c) { c.kind = MapKind::objectSpace, c.channels = Channels::xyz, c.greenUp = true; },
+     true},
 };
 
-bool applyWord(std::string_view text, Convention& convention)
+bool applyWord(std::string_view text, StatedConvention& stated)
 {
     const auto word = std::ranges::find_if(kWords, [&](const Word& w) { return text == w.name; });
     if (word == std::end(kWords))
         return false;
-    word->apply(convention);
+    word->apply(stated.convention);
+    stated.channels = stated.channels || word->channels;
     return true;
 }
 
@@ -68,19 +72,37 @@ std::vector<std::string> conventionWordList()
 
 Result<Convention> conventionFromWords(std::string_view text)
 {
+    const auto stated = statedFromWords(text);
+    return stated ? Result<Convention>(stated->convention) : stated.error();
+}
+
+Result<Convention> sampledFromWords(std::string_view text)
+{
+    const auto stated = statedFromWords(text);
+    if (!stated || stated->channels)
+        return stated ? Result<Convention>(stated->convention) : stated.error();
+    Convention convention = stated->convention;
+    for (const ConventionPreset& p : conventionPresets())
+        if (p.name == text.substr(0, text.find(',')))
+            convention.channels = onCard(p).channels;
+    return convention;
+}
+
+Result<StatedConvention> statedFromWords(std::string_view text)
+{
     if (text.empty())
         return unknownWord(text);
-    Convention convention;
+    StatedConvention stated;
     for (bool first = true; !text.empty(); first = false) {
         const std::string_view word = text.substr(0, text.find(','));
         const auto preset = first ? conventionFromName(word) : std::nullopt;
         if (preset)
-            convention = *preset;
-        else if (!applyWord(word, convention))
+            stated.convention = *preset;
+        else if (!applyWord(word, stated))
             return unknownWord(word);
         text.remove_prefix(std::min(word.size() + 1, text.size()));
     }
-    return convention;
+    return stated;
 }
 
 } // namespace cotan

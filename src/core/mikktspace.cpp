@@ -51,11 +51,15 @@ bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std:
     return inOneHalf;
 }
 
-glm::vec4 storedTangent(glm::vec3 sum, glm::vec3 n, bool preserving)
+// What a corner has that no group reaches, as mikktspace.c has it.
+constexpr glm::vec4 kNoGroup{1, 0, 0, 1};
+
+// A sum that cancels out stays zero; one that is not finite, which mikktspace.c hands on, is dropped.
+glm::vec4 storedTangent(glm::vec3 sum, bool preserving)
 {
     const glm::vec3 unit = normalizeOrZero(sum);
-    if (!(glm::dot(unit, unit) > 0.5f)) // zero or not finite
-        return {tangents::anyPerpendicular(n), 1};
+    if (!std::isfinite(glm::dot(unit, unit)))
+        return kNoGroup;
     return {unit, preserving ? -1.0f : 1.0f}; // v runs down, glTF's bitangent up
 }
 
@@ -95,14 +99,14 @@ void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Memb
     const bool preserving = t.has(group[0] / 3, kPreserving);
     glm::vec3 sum;
     if (sumInOneHalf(t, group, out, n, sum) || group.size() > kLargeGroup) {
-        const glm::vec4 tangent = storedTangent(sum, n, preserving);
+        const glm::vec4 tangent = storedTangent(sum, preserving);
         for (const std::uint32_t c : group)
             out[c] = tangent;
         return;
     }
     members.project(t, group, out, n);
     for (std::size_t i = 0; i < group.size(); ++i)
-        out[group[i]] = storedTangent(members.sumFor(t, group, i), n, preserving);
+        out[group[i]] = storedTangent(members.sumFor(t, group, i), preserving);
 }
 
 // ---- groups ---------------------------------------------------------------------------------
@@ -257,7 +261,7 @@ bool join(Triangles& t, std::size_t corner, bool preserving)
 }
 
 // Which group a triangle without a direction joins depends on the order of the corners: one after the
-// other. What no group reaches gets any tangent.
+// other. What no group reaches gets kNoGroup.
 void averageInOrder(Triangles& t, CornersAt& at, std::span<glm::vec4> out)
 {
     const auto [left, right] = allRings(t, at);
@@ -278,7 +282,7 @@ void averageInOrder(Triangles& t, CornersAt& at, std::span<glm::vec4> out)
     }
     for (std::size_t c = 0; c < out.size(); ++c)
         if (!t.has(c / 3, takenFlag(c)))
-            out[c] = {tangents::anyPerpendicular(t.normal(c)), 1};
+            out[c] = kNoGroup;
 }
 
 // A triangle with two equal positions takes over what the first sound triangle at each vertex has.

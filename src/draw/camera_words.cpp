@@ -81,7 +81,7 @@ Result<Camera> lookingFromTo(const std::string& text)
 Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height)
 {
     if (text == "fit")
-        return fitCamera(bounds(scene), width, height);
+        return fitCamera(framedBounds(scene), width, height);
     if (text == "front")
         return frontCamera(scene, width, height);
     int number = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cotan/scene/picture_text.hpp"
+#include "cotan/scene/sample_places.hpp"
 
 namespace cotan {
 
@@ -67,6 +68,8 @@ Result<float> meterExposure(Painter& painter, View view)
     view.height = std::max(1, int(view.height * scale));
     view.output = Output::shaded;
     view.linearOutput = false;
+    view.dither = false;
+    view.samples = std::min(view.samples, kMostSharedSamples);
     view.background = false;
     view.ground.reset();
     view.exposure = kProbe;

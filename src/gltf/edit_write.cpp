@@ -7,8 +7,10 @@
 #include <system_error>
 
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "edit_state.hpp"
 #include "parse.hpp"
 
@@ -79,11 +81,8 @@ std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file
 // Empty: no picture that glTF knows.
 std::string mimeTypeOf(std::span<const std::byte> bytes)
 {
-    static const std::map<std::string, std::string> kTypes = {{"PNG", "image/png"},   {"JPEG", "image/jpeg"},
-                                                              {"WebP", "image/webp"}, {"KTX2", "image/ktx2"},
-                                                              {"AVIF", "image/avif"}, {"DDS", "image/vnd-ms.dds"}};
-    const auto found = kTypes.find(pictureFormat(bytes));
-    return found == kTypes.end() ? "" : found->second;
+    const ImageFormat* const format = imageFormatOf(bytes);
+    return std::string(format ? format->mime : "");
 }
 
 // An image file used twice is embedded once.
@@ -231,7 +230,9 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
             continue;
         const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
-        const std::string ending = image.value("mimeType", std::string()) == "image/jpeg" ? ".jpg" : ".png";
+        const auto format =
+            std::ranges::find(kImageFormats, image.value("mimeType", std::string("image/png")), &ImageFormat::mime);
+        const std::string ending(format == kImageFormats.end() ? ".png" : format->endings[0]);
         const auto taken = [&](const fs::path& target) {
             std::error_code error;
             const bool here =
@@ -296,7 +297,7 @@ Status writeTogether(std::span<const Output> outputs)
 
 GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits& limits)
 {
-    const bool binary = file.extension() == ".glb";
+    const bool binary = lowerExtension(file) == ".glb";
     std::error_code error;
     if (!fs::is_directory(folderOf(file), error))
         throw outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
@@ -367,7 +368,7 @@ Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits&
 
 Result<GltfWritten> writeGltf(const GltfDocument& document, const fs::path& file, const LoadLimits& limits)
 {
-    if (file.extension() != ".glb" && file.extension() != ".gltf")
+    if (lowerExtension(file) != ".glb" && lowerExtension(file) != ".gltf")
         return usageError(fmt::format("{}: expected a name that ends in .glb or .gltf", file.string()));
     return caughtWriting(document, file.string(), [&] { return write(document, file, limits); });
 }

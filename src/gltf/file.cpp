@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/files/folder.hpp"
 #include "parse.hpp"
 
@@ -184,7 +185,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     if (!file.readFile)
         file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
-    if (!file.isBinary && path.extension() == ".glb")
+    if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
     if (file.isBinary)
         splitChunks(file, warnings);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/scene/check.hpp"
 #include "edit_state.hpp"
@@ -134,6 +135,7 @@ Json materialOf(GltfDocument& document, const Material& m)
         material["doubleSided"] = true;
     if (m.normalFrame)
         material["extras"][gltf::kFrameExtra] = name(*m.normalFrame);
+    setExpansion(material, m.normalFormat.expansion);
     return material;
 }
 

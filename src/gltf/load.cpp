@@ -2,6 +2,7 @@
 #include <map>
 #include <new>
 #include <tuple>
+#include <utility>
 
 #include "animate.hpp"
 #include "cotan/gltf/animated.hpp"
@@ -10,6 +11,7 @@
 #include "material.hpp"
 #include "mesh.hpp"
 #include "nodes.hpp"
+#include "reach.hpp"
 
 namespace cotan {
 
@@ -203,6 +205,7 @@ struct AnimatedGltf::Work {
     GltfWarnings warnings;
     std::size_t bytesTaken = 0;
     std::vector<GltfAnimation> animations;
+    std::map<std::string, std::vector<glm::vec3>> reached;
 };
 
 AnimatedGltf::AnimatedGltf(std::unique_ptr<Work> work) : work_(std::move(work)) {}
@@ -238,6 +241,18 @@ Result<Scene> AnimatedGltf::at(const Pose& pose, const std::vector<Image>* image
         poseGltf(model);
         return build(model, work_->path, images);
     });
+}
+
+Result<std::vector<glm::vec3>> AnimatedGltf::reach(const std::string& animation)
+{
+    if (const auto known = work_->reached.find(animation); known != work_->reached.end())
+        return known->second;
+    const Pixels pixels = std::exchange(work_->model.limits.pixels, Pixels::none);
+    Result<std::vector<glm::vec3>> points = pointsReached(*this, animation);
+    work_->model.limits.pixels = pixels;
+    if (points)
+        work_->reached[animation] = *points;
+    return points;
 }
 
 } // namespace cotan

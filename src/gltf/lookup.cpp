@@ -76,6 +76,19 @@ Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)
     return const_cast<Json&>(*slotOf(root["materials"][material], slot));
 }
 
+void setExpansion(nlohmann::ordered_json& material, Expansion expansion)
+{
+    if (expansion == Expansion::biased) {
+        if (!material.contains("extras") || !material["extras"].is_object())
+            material["extras"] = nlohmann::ordered_json::object();
+        material["extras"][gltf::kUnsignedKey] = "biased";
+    } else if (const auto extras = material.find("extras"); extras != material.end() && extras->is_object()) {
+        extras->erase(gltf::kUnsignedKey);
+        if (extras->empty())
+            material.erase("extras");
+    }
+}
+
 gltf::Texture textureAt(const Json& root, int texture)
 {
     return gltf::readTexture(root["textures"][std::size_t(texture)], countOf(root, "images"));

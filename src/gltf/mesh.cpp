@@ -122,9 +122,9 @@ int handednessFromUv(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::si
     return (area < 0) == (side > 0) ? 1 : -1;
 }
 
-void checkHandedness(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
+void checkHandedness(const Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
-    const std::vector<glm::vec2>& uv = mesh.texcoords[static_cast<std::size_t>(set)];
+    const std::vector<glm::vec2>& uv = mesh.texcoords[0];
     if (mesh.tangents.empty() || uv.empty())
         return;
     std::size_t known = 0;
@@ -182,9 +182,10 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
     }
     normalizeTangents(mesh, source.field, warnings);
     const bool usable = normalMapSet == 0 || normalMapSet == 1;
-    checkHandedness(mesh, usable ? normalMapSet : 0, source.field, warnings);
     if (usable)
         checkUvArea(mesh, normalMapSet, source.field, warnings);
+    else // where there is a normal map, followStoredTangents judges all that read it together
+        checkHandedness(mesh, source.field, warnings);
     return mesh;
 }
 

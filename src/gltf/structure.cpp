@@ -118,6 +118,7 @@ MaterialSource readMaterial(const Json& source)
             m.emissive[i] = unitRange((*color)[std::size_t(i)].get<double>()) * strength;
     m.occlusionStrength = unitRange(read.occlusion.strength);
     m.normalScale = static_cast<float>(read.normal.scale);
+    m.normalFormat.expansion = expansionOf(source);
     const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
     m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
     m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);

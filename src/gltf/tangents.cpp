@@ -84,6 +84,15 @@ std::vector<glm::vec4> generate(const GltfPrimitiveGeometry& read, const Tangent
     return generateTangents(options.frame, read.view(), options.threads);
 }
 
+// glTF asks for unit tangents: where MikkTSpace has zero, since directions cancel out, any will do.
+std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
+{
+    for (glm::vec4& t : tangents)
+        if (glm::vec3(t) == glm::vec3(0))
+            t.x = 1;
+    return tangents;
+}
+
 } // namespace
 
 Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document)
@@ -112,7 +121,7 @@ Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions
             ++given.kept;
         } else {
             row.generated = true;
-            tangents.push_back({row.mesh, row.primitive, generate(read, options)});
+            tangents.push_back({row.mesh, row.primitive, unitForFile(generate(read, options))});
         }
     });
     if (!rows)

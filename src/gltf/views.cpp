@@ -71,6 +71,13 @@ const Json* member(const Json& object, std::string_view name)
     return found == object.end() ? nullptr : &*found;
 }
 
+Expansion expansionOf(const Json& material)
+{
+    const Json* const extras = member(material, "extras");
+    const Json* const said = extras && extras->is_object() ? member(*extras, kUnsignedKey) : nullptr;
+    return said && *said == "biased" ? Expansion::biased : Expansion::exact;
+}
+
 const Json* extension(const Json& object, std::string_view name)
 {
     const Json* const extensions = member(object, "extensions");

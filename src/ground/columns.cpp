@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "cotan/scene/bounds.hpp"
 #include "cotan/scene/texture_sample.hpp"
@@ -15,6 +16,8 @@
 namespace cotan::ground {
 
 namespace {
+
+constexpr float kOpaque = 0.996f; // 254 of 255
 
 // A vertex: its place in the grid, in columns, and its height above the plane.
 struct Standing {
@@ -26,13 +29,15 @@ class Filling {
 public:
     Filling(const Scene& scene, double plane, Columns& columns) : scene_(scene), plane_(plane), columns_(columns) {}
 
-    void add(const Instance& instance, const Mesh& mesh);
+    // odd: its veils are told from those of other things.
+    void add(const Instance& instance, const Mesh& mesh, bool odd);
 
 private:
     Standing standing(const glm::mat4& toWorld, const glm::vec3& p) const;
     void fill(int x, int z, float height);
-    void fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners);
-    bool cutOut(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const;
+    void veil(int x, int z, float height, float stops, std::size_t layer);
+    void fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, bool odd);
+    float alphaAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const;
 
     const Scene& scene_;
     double plane_;
@@ -57,12 +62,20 @@ void Filling::fill(int x, int z, float height)
     columns_.to[at] = std::max(columns_.to[at], height);
 }
 
-// Whether the mask of the material has a hole there.
-bool Filling::cutOut(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const
+void Filling::veil(int x, int z, float height, float stops, std::size_t layer)
+{
+    if (columns_.veils.empty())
+        columns_.veils.assign(columns_.from.size(),
+                              {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), {}});
+    Columns::Veil& veil = columns_.veils[std::size_t(z) * std::size_t(columns_.side) + std::size_t(x)];
+    veil.from = std::min(veil.from, height);
+    veil.to = std::max(veil.to, height);
+    veil.stops[layer] = std::max(veil.stops[layer], stops);
+}
+
+float Filling::alphaAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const
 {
     const Material& material = scene_.materials[std::size_t(mesh.material)];
-    if (material.alphaMode != AlphaMode::mask)
-        return false;
     float alpha = material.baseColor.w;
     const auto mixed = [&](const auto& values) {
         return values[corners[0]] * weights.x + values[corners[1]] * weights.y + values[corners[2]] * weights.z;
@@ -79,11 +92,12 @@ bool Filling::cutOut(const Mesh& mesh, const std::array<std::uint32_t, 3>& corne
                          return storedComponents(image, x, y);
                      }).w;
     }
-    return !(alpha >= material.alphaCutoff);
+    return alpha;
 }
 
-void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners)
+void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, bool odd)
 {
+    const Material& material = scene_.materials[std::size_t(mesh.material)];
     const Standing a = vertices_[corners[0]], b = vertices_[corners[1]], c = vertices_[corners[2]];
     const glm::vec2 low = glm::min(glm::min(a.place, b.place), c.place) - 0.5f;
     const glm::vec2 high = glm::max(glm::max(a.place, b.place), c.place) + 0.5f;
@@ -108,15 +122,28 @@ void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>&
             const float v = (p.x * ac.y - p.y * ac.x) * inverse, w = (ab.x * p.y - ab.y * p.x) * inverse, u = 1 - v - w;
             if (u < leastU || v < leastV || w < leastW)
                 continue;
-            glm::vec3 weights = glm::max(glm::vec3(u, v, w), 0.0f);
-            weights /= weights.x + weights.y + weights.z;
-            if (cutOut(mesh, corners, weights))
+            const auto inside = [](glm::vec3 weights) {
+                weights = glm::max(weights, 0.0f);
+                return weights / (weights.x + weights.y + weights.z);
+            };
+            const glm::vec3 middle = inside(glm::vec3(u, v, w));
+            const float height = std::clamp(glm::dot(middle, glm::vec3(a.height, b.height, c.height)), lowest, highest);
+            if (material.alphaMode == AlphaMode::mask && !(alphaAt(mesh, corners, middle) >= material.alphaCutoff))
                 continue;
-            fill(x, z, std::clamp(glm::dot(weights, glm::vec3(a.height, b.height, c.height)), lowest, highest));
+            float stops = material.alphaMode == AlphaMode::blend ? 0 : 1;
+            for (int k = 0; k < 4 && material.alphaMode == AlphaMode::blend; ++k) {
+                const glm::vec2 q = p + glm::vec2(k & 1 ? 0.25f : -0.25f, k & 2 ? 0.25f : -0.25f);
+                const float qv = (q.x * ac.y - q.y * ac.x) * inverse, qw = (ab.x * q.y - ab.y * q.x) * inverse;
+                stops += 0.25f * std::clamp(alphaAt(mesh, corners, inside({1 - qv - qw, qv, qw})), 0.0f, 1.0f);
+            }
+            if (stops > kOpaque)
+                fill(x, z, height);
+            else if (stops > 0)
+                veil(x, z, height, stops, (area > 0 ? 0 : 1) + (odd ? 2 : 0));
         }
 }
 
-void Filling::add(const Instance& instance, const Mesh& mesh)
+void Filling::add(const Instance& instance, const Mesh& mesh, bool odd)
 {
     vertices_.clear();
     for (const glm::vec3& p : mesh.positions)
@@ -124,7 +151,7 @@ void Filling::add(const Instance& instance, const Mesh& mesh)
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
         if (std::max({corners[0], corners[1], corners[2]}) < vertices_.size())
-            fillTriangle(mesh, corners);
+            fillTriangle(mesh, corners, odd);
     }
 }
 
@@ -151,7 +178,7 @@ void setExtent(const Scene& scene, double plane, Columns& columns)
 
 } // namespace
 
-bool Columns::stops(glm::vec2 place, glm::vec2 speed) const
+float Columns::stopped(glm::vec2 place, glm::vec2 speed) const
 {
     const glm::vec2 start = (place - low) / extent * float(side), pace = speed / extent * float(side);
     // Heights between which the ray is above the grid.
@@ -159,7 +186,7 @@ bool Columns::stops(glm::vec2 place, glm::vec2 speed) const
     for (int i = 0; i < 2; ++i) {
         if (std::abs(pace[i]) < 1e-20f) {
             if (start[i] < 0 || start[i] >= float(side))
-                return false;
+                return 0;
             continue;
         }
         const float in = -start[i] / pace[i], out = (float(side) - start[i]) / pace[i];
@@ -168,6 +195,7 @@ bool Columns::stops(glm::vec2 place, glm::vec2 speed) const
     }
     const float fastest = std::max(std::abs(pace.x), std::abs(pace.y));
     const float column = fastest > 0 ? 1 / fastest : top; // height gained within one column
+    glm::vec4 met(0);                                     // the densest veil of each layer
     // Each step is at least a sixteenth of the height: they end.
     for (float height = first, next; height < last; height = next) {
         // Steps grow with the way from the start, as what is met there spreads over a wider part of the sky.
@@ -176,9 +204,12 @@ bool Columns::stops(glm::vec2 place, glm::vec2 speed) const
         const int x = std::clamp(int(at.x), 0, side - 1), z = std::clamp(int(at.y), 0, side - 1);
         const std::size_t i = std::size_t(z) * std::size_t(side) + std::size_t(x);
         if (from[i] <= next && to[i] > height)
-            return true;
+            return 1;
+        if (!veils.empty() && veils[i].from <= next && veils[i].to > height)
+            met = glm::max(met, glm::make_vec4(veils[i].stops.data()));
     }
-    return false;
+    met = 1.0f - met;
+    return 1 - met.x * met.y * met.z * met.w;
 }
 
 Columns makeColumns(const Scene& scene, double plane, glm::vec2 lean, int side)
@@ -191,10 +222,16 @@ Columns makeColumns(const Scene& scene, double plane, glm::vec2 lean, int side)
     columns.from.assign(count, std::numeric_limits<float>::infinity());
     columns.to.assign(count, -std::numeric_limits<float>::infinity());
     Filling filling(scene, plane, columns);
-    for (const Instance& instance : scene.instances)
-        if (const Mesh* mesh = meshPlacedBy(scene, instance))
-            if (scene.materials[std::size_t(mesh->material)].alphaMode != AlphaMode::blend)
-                filling.add(instance, *mesh);
+    bool odd = false; // of what is translucent
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (!mesh)
+            continue;
+        const Material& material = scene.materials[std::size_t(mesh->material)];
+        if (material.throwsShadow())
+            filling.add(instance, *mesh, odd);
+        odd = odd != material.translucent();
+    }
     return columns;
 }
 

@@ -19,9 +19,10 @@ namespace {
 using namespace ground;
 
 constexpr int kColumns = 192;                       // a side
-constexpr int kLightPlaces = 256, kSkyPlaces = 128; // of the map, a side
+constexpr int kLightPlaces = 320, kSkyPlaces = 128; // of the map, a side
 constexpr int kLightRays = 16 * 24, kSkyRays = 16 * 32;
 constexpr float kLowest = 0.17f; // sine of the height of a light over the horizon below which its shadow is left out
+constexpr float kAround = 1.2f;  // heights of what stands: how far the sky is darkened beside it
 constexpr float kGolden = 2.399963f;
 
 float luminance(glm::vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
@@ -98,11 +99,10 @@ std::vector<float> passing(const Columns& columns, const Speeds& speeds, const R
         for (int x = 0; x < side; ++x) {
             const glm::vec2 place = rectangle.place(x, z, side);
             const std::size_t kind = std::size_t(4 * (z & 3) + (x & 3));
-            int stopped = 0;
+            float stopped = 0;
             for (std::size_t i = kind; i < speeds.size(); i += 16)
-                stopped += columns.stops(place, speeds[i]);
-            shares[std::size_t(z) * std::size_t(side) + std::size_t(x)] =
-                1 - float(16 * stopped) / float(speeds.size());
+                stopped += columns.stopped(place, speeds[i]);
+            shares[std::size_t(z) * std::size_t(side) + std::size_t(x)] = 1 - 16 * stopped / float(speeds.size());
         }
     });
     smoothOut(shares, side);
@@ -136,11 +136,21 @@ float skyLight(const View& view)
                               : luminance(f32::cotan_environment(up, 1));
 }
 
-// 0 at the edge of the map, 1 from a tenth of it inwards.
+// 0 at the edge of the map, 1 from a twentieth of it inwards: nothing ends there that is not over.
 float inside(glm::vec2 uv)
 {
     const float edge = std::min(std::min(uv.x, uv.y), std::min(1 - uv.x, 1 - uv.y));
-    return f32::cotan_smooth(0, 0.1f, edge);
+    return f32::cotan_smooth(0, 0.05f, edge);
+}
+
+// The darkening of the sky has no end of its own. This is its weight: 1 under what stands, and falling from there on,
+// equally to all sides and without an edge, to 0 at the distance `around`. Half of it is left at half the distance.
+float weightOfSky(const Columns& upright, float around, glm::vec2 place)
+{
+    const glm::vec2 middle = upright.low + upright.extent * 0.5f;
+    const glm::vec2 beside = glm::max(glm::abs(place - middle) - upright.extent * 0.5f, 0.0f);
+    const float part = std::min(glm::length(beside) / around, 1.0f);
+    return 1 - part * part * part * (10 - part * (15 - 6 * part)); // without a bend at either end (K. Perlin, 2002)
 }
 
 float asHalf(float x) { return glm::unpackHalf1x16(glm::packHalf1x16(x)); }
@@ -165,7 +175,7 @@ std::optional<GroundMap> makeGround(const Scene& scene, const View& view, const 
     Rectangle rectangle{upright.low, upright.low + upright.extent};
     // What stands higher than wide darkens the sky of hardly more than its width around it.
     const float width = std::max(upright.extent.x, upright.extent.y);
-    const float around = std::max(0.1f * width, std::min(upright.top, width)) * 0.75f;
+    const float around = std::max(0.1f * width, std::min(upright.top, width)) * kAround;
     rectangle.low -= around;
     rectangle.high += around;
     std::vector<float> light;
@@ -188,7 +198,9 @@ std::optional<GroundMap> makeGround(const Scene& scene, const View& view, const 
         for (int x = 0; x < kLightPlaces; ++x) {
             const std::size_t at = std::size_t(z) * kLightPlaces + std::size_t(x);
             const glm::vec2 uv = glm::vec2(float(x) + 0.5f, float(z) + 0.5f) / float(kLightPlaces);
-            const float arriving = fromSky * between(sky, kSkyPlaces, uv) + (lit ? fromLight * light[at] : 0);
+            const float weight = weightOfSky(upright, around, rectangle.place(x, z, kLightPlaces));
+            const float seen = glm::mix(1.0f, between(sky, kSkyPlaces, uv), weight);
+            const float arriving = fromSky * seen + (lit ? fromLight * light[at] : 0);
             const float share = glm::mix(1.0f, arriving / (fromLight + fromSky), inside(uv));
             float* texel = map.shares.floats() + 4 * at;
             texel[0] = texel[1] = texel[2] = asHalf(share);

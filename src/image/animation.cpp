@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/convert.hpp"
+#include "cotan/image/format_table.hpp"
 #include "formats.hpp"
 #include "webp.hpp"
 
@@ -16,7 +16,11 @@ namespace cotan {
 
 namespace {
 
-bool isGif(const std::filesystem::path& file) { return lowerExtension(file) == ".gif"; }
+bool isGif(const std::filesystem::path& file)
+{
+    const ImageFormat* const format = imageFormatOf(file);
+    return format && format->name == "GIF";
+}
 
 // A GIF is written beside its place by the module.
 class GifFile : public AnimationWriter {
@@ -97,7 +101,7 @@ Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& 
 
 } // namespace
 
-bool isAnimation(const std::filesystem::path& file) { return isGif(file) || lowerExtension(file) == ".webp"; }
+bool isAnimation(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::animation); }
 
 double animationRate(const std::filesystem::path& file, double rate)
 {

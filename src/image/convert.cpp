@@ -46,6 +46,8 @@ Image toUnorm8(const Image& image)
     if (image.type == PixelType::unorm8)
         return image;
     Image out = makeImage(image.width, image.height, PixelType::unorm8, image.name);
+    out.frame = image.frame;
+    out.channels = image.channels;
     const std::size_t count = image.pixelCount() * 4;
     if (image.type == PixelType::float32) {
         for (std::size_t i = 0; i < count; ++i)

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "cotan/files/bytes.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/convert.hpp"
+#include "cotan/image/format_table.hpp"
 #include "formats.hpp"
 #include "jpeg.hpp"
 #include "ktx2.hpp"
@@ -21,19 +21,8 @@ namespace cotan {
 
 std::string pictureFormat(std::span<const std::byte> bytes)
 {
-    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 12));
-    if (head.starts_with("\x89PNG\r\n\x1a\n"))
-        return "PNG";
-    if (head.starts_with("\xff\xd8\xff"))
-        return "JPEG";
-    if (head.starts_with("RIFF") && head.ends_with("WEBP"))
-        return "WebP";
-    if (head.starts_with("\xabKTX 20\xbb"))
-        return "KTX2";
-    if (head.starts_with("DDS "))
-        return "DDS";
-    const bool box = head.starts_with(std::string_view("\0\0", 2)); // its first box is shorter than 64 KiB
-    return box && head.size() == 12 && head.ends_with("ftypavif") ? "AVIF" : "";
+    const ImageFormat* const format = imageFormatOf(bytes);
+    return format && !format->mime.empty() ? std::string(format->name) : "";
 }
 
 bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }
@@ -78,8 +67,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
                   "ktxdecompress IN.glb OUT.glb\" such a model"
                 : ""));
     if (format.empty() && !knownImage(bytes, name))
-        return inputError(fmt::format(
-            "{}: expected an image (PNG, JPEG, WebP, KTX2, TIFF, EXR, HDR, TGA, BMP, DDS), found other data", name));
+        return inputError(fmt::format("{}: expected an image ({}), found other data", name, readableFormatNames()));
     if (!limits.sandbox.program.empty())
         return decodeSandboxed(bytes, name, limits);
     if (format == "WebP")
@@ -116,7 +104,7 @@ namespace {
 
 Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    if (lowerExtension(file) == ".png")
+    if (writesItself(file))
         return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
     const auto formats = imageFormats();
     if (!formats)
@@ -129,9 +117,8 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
 Status writeImage(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
-    if (!writableImage(file))
-        return usageError(fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"", name,
-                                      file.extension().string()));
+    if (Status writable = checkImageName(file); !writable)
+        return writable;
     if (image.width <= 0 || image.height <= 0 || image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name, image.width,
                                       image.height, image.data.size()));

@@ -1,14 +1,10 @@
 #include "formats.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
-#include <string_view>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/module.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/not_built.hpp"
-#include "format_starts.hpp"
 
 namespace cotan {
 
@@ -53,14 +49,16 @@ Result<const ImageFormats*> imageFormats()
 
 bool knownImage(std::span<const std::byte> bytes, const std::string& name)
 {
-    return formatStart(bytes) || (lowerExtension(name) == ".tga" && !bytes.empty());
+    if (const ImageFormat* const format = imageFormatOf(bytes))
+        return !format->openImageIo.empty();
+    const ImageFormat* const named = imageFormatOf(fs::path(name));
+    return named && named->openImageIo == kNoStart && !bytes.empty();
 }
 
-bool writableImage(const fs::path& file)
+bool writesItself(const fs::path& file)
 {
-    constexpr std::array<std::string_view, 8> kExtensions = {".png", ".exr", ".tif",  ".tiff",
-                                                             ".tga", ".jpg", ".jpeg", ".hdr"};
-    return std::ranges::find(kExtensions, lowerExtension(file)) != kExtensions.end();
+    const ImageFormat* const format = imageFormatOf(file);
+    return format && format->writes && format->openImageIo.empty();
 }
 
 } // namespace cotan

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cotan/files/limits.hpp"
 #include "cotan/image/animation.hpp"
@@ -25,11 +26,10 @@ struct ImageFormats {
     // TGA (which has none, by the extension of `name`).
     Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-    // Writes .exr .tif .tiff .tga .jpg .jpeg .hdr. JPEG and HDR have no alpha and drop it; TGA and
-    // JPEG take floats clamped to [0,1] at 8 bits. `name` is for messages.
+    // As writeImage, for formats with a name of OpenImageIO. `name` is for messages.
     Status (*write)(const std::filesystem::path& file, const Image& image, const std::string& name);
 
-    // As openRows, for files that start as TIFF, OpenEXR or Radiance HDR; `head` is how this one starts.
+    // As openRows, for files of a format that readsRows; `head` is how this one starts.
     Result<std::unique_ptr<RowReader>> (*openRows)(const std::filesystem::path& file, std::span<const std::byte> head,
                                                    const LoadLimits& limits);
 
@@ -48,10 +48,15 @@ bool readsOtherFormats();
 // The module. Errors: ErrorKind::unavailable where it is missing or does not load.
 Result<const ImageFormats*> imageFormats();
 
-// Whether the bytes, or the extension of `name`, are of a format that the module reads; and whether
-// it writes files of that name. What nothing knows is refused without loading it.
+// OpenImageIO's name of the format whose files begin in no way of their own: the name of the file says it.
+inline constexpr std::string_view kNoStart = "targa";
+
+// Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
+// without loading it.
 bool knownImage(std::span<const std::byte> bytes, const std::string& name);
-bool writableImage(const std::filesystem::path& file);
+
+// Whether writeImage and createRows write files of that name without the module: PNG.
+bool writesItself(const std::filesystem::path& file);
 
 } // namespace cotan
 

@@ -144,6 +144,7 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
     if (auto error = checkImageSize(width, height, PixelType::unorm8, name, limits))
         return *error;
     Image image = makeImage(width, height, PixelType::unorm8, name);
+    image.channels = stored == JCS_GRAYSCALE ? 1 : 3;
     if (!readPixels(decoder, image.bytes8(), std::size_t(width) * 4))
         return broken();
     return image;

@@ -97,6 +97,14 @@ void arrange(const Ktx2Picture& picture, Image& image)
                          image.data.begin() + (image.height - 1 - y) * row);
 }
 
+// Image::channels: of more than two that a swizzle leaves without blue it is two.
+int channelsOf(const Ktx2Picture& picture)
+{
+    const std::string& s = picture.swizzle;
+    const bool noBlue = s.size() == 4 && (s[2] == '0' || s[2] == '1') && (s[3] == '0' || s[3] == '1');
+    return noBlue ? std::min(picture.format.channels, 2) : picture.format.channels;
+}
+
 } // namespace
 
 Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits,
@@ -128,8 +136,11 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
     }
     Result<Image> image =
         format.bytes > 0 ? plainPixels(*picture, plain, name) : readDds(asDds(*picture, plain), name, limits);
-    if (image)
+    if (image) {
         arrange(*picture, *image);
+        image->frame = picture->frame;
+        image->channels = channelsOf(*picture);
+    }
     return image;
 }
 

@@ -34,6 +34,7 @@ struct Ktx2Picture {
     std::size_t bytes = 0;             // once unpacked
     std::string swizzle;               // four of "rgba01"; empty: none is stated
     bool bottomUp = false;             // the first row is the lowest
+    std::string frame;                 // Image::frame
 };
 
 // Whether this is a KTX2 whose pixels are stored in a way that nothing here decodes, for messages: "BasisU (ETC1S)",

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/image/frame_key.hpp"
 #include "ktx2.hpp"
 #include "numbers.hpp"
 
@@ -87,6 +88,8 @@ Status readKeys(Numbers& file, std::span<const std::byte> bytes, Ktx2Picture& pi
             if (value != "rd" && value != "ru")
                 return inputError("KTXorientation: expected \"rd\" or \"ru\"");
             picture.bottomUp = value == "ru";
+        } else if (entry.substr(0, zero) == kFrameKey) {
+            picture.frame = frameText(value);
         }
         at += 4 + (size + 3) / 4 * 4;
     }
@@ -128,7 +131,7 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     if (levels > std::uint64_t(std::bit_width(std::max(width, height))))
         return inputError(fmt::format("it has {} levels, {} x {} pixels have {}", levels, width, height,
                                       std::bit_width(std::max(width, height))));
-    Ktx2Picture picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false};
+    Ktx2Picture picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false, {}};
     if (picture.packing == 1 || picture.packing > 3)
         return inputError(
             fmt::format("its supercompression {} is not that of its format, or not known", picture.packing));

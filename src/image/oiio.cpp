@@ -10,10 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/image/convert.hpp"
+#include "cotan/image/frame_key.hpp"
 #include "cotan/image/size.hpp"
-#include "format_starts.hpp"
 #include "formats.hpp"
 
 namespace cotan {
@@ -46,8 +45,8 @@ std::string oneLine(std::string text)
 
 std::string formatOf(std::span<const std::byte> bytes)
 {
-    const FormatStart* const known = formatStart(bytes);
-    return known ? std::string(known->name) : "targa";
+    const ImageFormat* const known = imageFormatOf(bytes);
+    return std::string(known ? known->openImageIo : kNoStart);
 }
 
 PixelType pixelType(OIIO::TypeDesc format)
@@ -90,30 +89,39 @@ OIIO::ImageSpec readConfig()
     return config;
 }
 
-OutputFormat outputFormat(const std::string& extension)
+const ImageFormat& outputFormat(const std::filesystem::path& name) { return *imageFormatOf(name); }
+
+int channelsOf(const ImageFormat& format) { return format.alpha ? 4 : 3; }
+
+OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
 {
-    if (extension == ".exr")
-        return OutputFormat{.floatOnly = true};
-    if (extension == ".hdr")
-        return OutputFormat{.channels = 3, .floatOnly = true};
-    if (extension == ".tif" || extension == ".tiff")
-        return OutputFormat{};
-    if (extension == ".tga")
-        return OutputFormat{.eightBitOnly = true};
-    return OutputFormat{.channels = 3, .eightBitOnly = true}; // JPEG
+    if (!format.bits16 && !format.floats)
+        return OIIO::TypeDesc::UINT8;
+    return format.bits8 ? typeDesc(type) : OIIO::TypeDesc::FLOAT;
 }
 
-OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension)
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
+                           const std::string& frame)
 {
     OIIO::ImageSpec spec(width, height, channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
     // The same picture gives the same bytes: no time of writing.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (extension == ".exr" || extension == ".tif" || extension == ".tiff")
+    if (format.openImageIo == "openexr" || format.openImageIo == "tiff")
         spec.attribute("compression", "zip");
-    if (extension == ".jpg" || extension == ".jpeg")
+    if (format.openImageIo == "jpeg")
         spec.attribute("CompressionQuality", 95);
+    if (format.frame && !frame.empty())
+        spec.attribute(std::string(kFrameKey), frame);
     return spec;
+}
+
+std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
+{
+    if (format != "openexr")
+        return {};
+    const std::string value = spec.get_string_attribute(std::string(kFrameKey));
+    return std::string(frameText(value));
 }
 
 Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
@@ -244,6 +252,8 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
         spreadTwo(image);
     else
         completeChannels(image, channels);
+    image.frame = frameOf(spec, format);
+    image.channels = channels;
     return image;
 }
 
@@ -259,17 +269,17 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
 
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    const std::string extension = lowerExtension(file);
-    const OutputFormat format = outputFormat(extension);
-    if (format.eightBitOnly && image.type != PixelType::unorm8)
+    const ImageFormat& format = outputFormat(name);
+    const OIIO::TypeDesc type = typeToWrite(format, image.type);
+    if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
         return writeWithOiio(file, toUnorm8(image), name);
     try {
-        const auto output = OIIO::ImageOutput::create(extension.substr(1));
+        const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
         if (!output)
             return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
         output->threads(1);
-        const auto type = format.floatOnly ? OIIO::TypeDesc::FLOAT : typeDesc(image.type);
-        const OIIO::ImageSpec spec = outputSpec(image.width, image.height, format.channels, type, extension);
+        const OIIO::ImageSpec spec =
+            outputSpec(image.width, image.height, channelsOf(format), type, format, image.frame);
         if (!output->open(file.string(), spec)
             || !output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             || !output->close())

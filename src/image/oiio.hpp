@@ -10,6 +10,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "cotan/image/animation.hpp"
+#include "cotan/image/format_table.hpp"
 #include "cotan/image/rows.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
@@ -45,15 +46,19 @@ std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string&
 // How values are to be read: as they are stored.
 OIIO::ImageSpec readConfig();
 
-struct OutputFormat {
-    int channels = 4; // at most
-    bool eightBitOnly = false;
-    bool floatOnly = false;
-};
-OutputFormat outputFormat(const std::string& extension);
+// The format that a file of that name is written in: one that checkImageName accepted.
+const ImageFormat& outputFormat(const std::filesystem::path& name);
 
-// channels: no more than the format has.
-OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const std::string& extension);
+// The most channels that it holds, and how components of `type` are stored.
+int channelsOf(const ImageFormat& format);
+OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type);
+
+// channels: no more than the format has. frame: Image::frame, for the formats that hold it.
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
+                           const std::string& frame);
+
+// Image::frame of a file.
+std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format);
 
 // ImageFormats::openRows and createRows.
 Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,

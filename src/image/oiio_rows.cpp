@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/image/size.hpp"
 #include "oiio.hpp"
 
@@ -159,6 +158,8 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         reader->height = spec.height;
         reader->type = pixelType(spec.format);
         reader->alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        reader->frame = frameOf(spec, format);
+        reader->channels = std::min(spec.nchannels, 4);
         return std::unique_ptr<RowReader>(std::move(reader));
     } catch (const std::exception& e) {
         return broken(e.what());
@@ -168,19 +169,15 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name)
 {
-    const std::string extension = lowerExtension(name);
-    const OutputFormat limits = outputFormat(extension);
+    const ImageFormat& stored = outputFormat(name);
     try {
-        auto output = OIIO::ImageOutput::create(extension.substr(1));
+        auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
         if (!output)
             return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
         output->threads(threads);
-        const int channels = std::min(format.alpha ? 4 : 3, limits.channels);
-        const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF)
-            : limits.floatOnly        ? OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)
-            : limits.eightBitOnly     ? OIIO::TypeDesc(OIIO::TypeDesc::UINT8)
-                                      : typeDesc(format.type);
-        if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, extension)))
+        const int channels = std::min(format.alpha ? 4 : 3, channelsOf(stored));
+        const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
+        if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, stored, format.frame)))
             return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
         return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(output), format, name));
     } catch (const std::exception& e) {

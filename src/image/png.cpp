@@ -44,6 +44,8 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
         return *error;
 
     Image image = makeImage(int(header.width), int(header.height), header.type, name);
+    image.frame = reader.session.frame;
+    image.channels = header.channels;
     const std::size_t rowBytes = std::size_t(header.width) * image.bytesPerPixel();
     if (!readPixels(reader, header, image.bytes8(), rowBytes))
         return pngError(name, reader.session);
@@ -55,7 +57,7 @@ namespace {
 bool writePixels(PngWriter& writer, const Image& image, PngEffort effort)
 {
     const std::size_t rowBytes = std::size_t(image.width) * image.bytesPerPixel();
-    return startPng(writer, {image.width, image.height, image.type, !isOpaque(image)}, effort)
+    return startPng(writer, {image.width, image.height, image.type, !isOpaque(image), image.frame.c_str()}, effort)
         && writePngRows(writer, image.bytes8(), std::size_t(image.height), rowBytes) && endPng(writer);
 }
 

@@ -51,7 +51,8 @@ public:
     {
         if (!writer_.info)
             return outputError(fmt::format("{}: out of memory", name_));
-        return check(startPng(writer_, {format.width, format.height, format.type, format.alpha}, kQuickPng));
+        return check(startPng(writer_, {format.width, format.height, format.type, format.alpha, format.frame.c_str()},
+                              kQuickPng));
     }
     Status write(const Image& strip) override
     {
@@ -103,6 +104,8 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const fs::path& fi
     rows->height = int(header.height);
     rows->type = header.type;
     rows->alpha = header.alpha;
+    rows->channels = header.channels;
+    rows->frame = rows->reader().session.frame;
     return std::unique_ptr<RowReader>(std::move(rows));
 }
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <string_view>
 
 namespace cotan {
 
@@ -41,6 +42,42 @@ void onWrite(png_structp png, png_bytep source, std::size_t size)
 
 void onFlush(png_structp) {}
 
+// The value of a text chunk whose key is kFrameKey; empty for others, and where it is compressed.
+std::string_view frameOfChunk(std::string_view type, std::string_view data)
+{
+    const std::size_t zero = data.find('\0');
+    if (zero == data.npos || data.substr(0, zero) != kFrameKey)
+        return {};
+    data.remove_prefix(zero + 1);
+    if (type == "tEXt")
+        return data;
+    // iTXt: compressed or not, the method, a language, the key in that language.
+    if (data.size() < 2 || data[0] != 0)
+        return {};
+    data.remove_prefix(2);
+    for (int i = 0; i < 2; ++i) {
+        const std::size_t end = data.find('\0');
+        if (end == data.npos)
+            return {};
+        data.remove_prefix(end + 1);
+    }
+    return data;
+}
+
+// Every chunk that is not about pixels, one at a time. 1: nothing else is to be done with it.
+int onChunk(png_structp png, png_unknown_chunkp chunk)
+{
+    auto* session = static_cast<PngSession*>(png_get_user_chunk_ptr(png));
+    const std::string_view type(reinterpret_cast<const char*>(chunk->name), 4);
+    if (type == "tEXt" || type == "iTXt") {
+        const std::string_view frame =
+            frameText(frameOfChunk(type, {reinterpret_cast<const char*>(chunk->data), chunk->size}));
+        if (!frame.empty())
+            session->frame[frame.copy(session->frame, kMaxFrameText)] = '\0';
+    }
+    return 1;
+}
+
 } // namespace
 
 PngReader::PngReader(std::span<const std::byte> bytes)
@@ -73,6 +110,7 @@ bool readPngHeader(PngReader& reader, PngHeader& header)
     // The size is checked by us; the chunks that are not about pixels are skipped.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_set_read_user_chunk_fn(png, &reader.session, onChunk);
     png_read_info(png, reader.info);
 
     header.width = png_get_image_width(png, reader.info);
@@ -82,6 +120,8 @@ bool readPngHeader(PngReader& reader, PngHeader& header)
     header.interlaced = png_get_interlace_type(png, reader.info) != PNG_INTERLACE_NONE;
     header.alpha = (png_get_color_type(png, reader.info) & PNG_COLOR_MASK_ALPHA) != 0
         || png_get_valid(png, reader.info, PNG_INFO_tRNS) != 0;
+    const bool coloured = (png_get_color_type(png, reader.info) & PNG_COLOR_MASK_COLOR) != 0;
+    header.channels = (coloured ? 3 : 1) + (header.alpha ? 1 : 0);
 
     png_set_expand(png);
     png_set_gray_to_rgb(png);
@@ -144,6 +184,14 @@ bool startPng(PngWriter& writer, const PngPixels& pixels, PngEffort effort)
     png_set_IHDR(png, writer.info, png_uint_32(pixels.width), png_uint_32(pixels.height), wide ? 16 : 8,
                  pixels.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (pixels.frame[0] != '\0') {
+        png_text text = {};
+        text.compression = PNG_TEXT_COMPRESSION_NONE;
+        text.key = const_cast<png_charp>(kFrameKey.data()); // libpng copies both
+        text.text = const_cast<png_charp>(pixels.frame);
+        text.text_length = std::strlen(pixels.frame);
+        png_set_text(png, writer.info, &text, 1);
+    }
     png_write_info(png, writer.info);
     if (!pixels.alpha)
         png_set_filler(png, 0, PNG_FILLER_AFTER);

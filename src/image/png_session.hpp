@@ -9,6 +9,7 @@
 
 #include <png.h>
 
+#include "cotan/image/frame_key.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/image.hpp"
 
@@ -21,6 +22,7 @@ struct PngSession {
     std::FILE* in = nullptr;  // reading from a file
     std::FILE* out = nullptr; // writing
     char message[128] = "";
+    char frame[kMaxFrameText + 1] = ""; // reading: Image::frame, of chunks met so far
 };
 
 struct PngReader {
@@ -44,6 +46,7 @@ struct PngHeader {
     PixelType type = PixelType::unorm8;
     bool interlaced = false;
     bool alpha = false; // of its own, or a transparent colour
+    int channels = 4;   // Image::channels
 };
 
 // Reads up to the pixel data and asks for RGBA. False: PngSession::message says why.
@@ -81,6 +84,7 @@ struct PngPixels {
     int width = 0, height = 0;
     PixelType type = PixelType::unorm8; // or unorm16
     bool alpha = false;                 // otherwise that of the rows is dropped
+    const char* frame = "";             // Image::frame
 };
 
 bool startPng(PngWriter& writer, const PngPixels& pixels, PngEffort effort);

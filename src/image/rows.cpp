@@ -9,10 +9,9 @@
 #include <fmt/format.h>
 
 #include "cotan/files/bytes.hpp"
-#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/file.hpp"
-#include "format_starts.hpp"
+#include "cotan/image/format_table.hpp"
 #include "formats.hpp"
 #include "png.hpp"
 #include "png_rows.hpp"
@@ -52,6 +51,8 @@ public:
         type = image_.type;
         alpha = usesAlpha(image_);
         whole = true;
+        frame = image_.frame;
+        channels = image_.channels;
     }
 
     Status read(Image& strip) override
@@ -111,7 +112,7 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
     if (isPng(head)) {
         if (auto rows = openPngRows(file, std::move(stream), limits))
             return *std::move(rows);
-    } else if (const FormatStart* const known = formatStart(head); known && known->rows) {
+    } else if (const ImageFormat* const known = imageFormatOf(head); known && known->readsRows) {
         if (!limits.sandbox.program.empty())
             return openRowsSandboxed(file, limits);
         const auto formats = imageFormats();
@@ -125,13 +126,12 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
 Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFormat& format, int threads)
 {
     const std::string name = file.string();
-    if (!writableImage(file))
-        return usageError(fmt::format("{}: expected the extension .png .exr .tif .tga .jpg or .hdr, found \"{}\"", name,
-                                      file.extension().string()));
+    if (Status writable = checkImageName(file); !writable)
+        return writable.error();
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();
-    if (lowerExtension(file) != ".png") {
+    if (!writesItself(file)) {
         const auto formats = imageFormats();
         if (!formats)
             return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};

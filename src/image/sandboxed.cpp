@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/image/frame_key.hpp"
 #include "cotan/image/size.hpp"
 #include "cotan/sandbox/process.hpp"
 #include "cotan/sandbox/scene_wire.hpp"
@@ -14,6 +15,8 @@ Status checkPicture(const Image& image, const std::string& file, const LoadLimit
 {
     if (auto error = checkImageSize(image.width, image.height, image.type, file, limits))
         return *error;
+    if (image.channels < 1 || image.channels > 4)
+        return inputError(fmt::format("{}: expected 1 to 4 channels, found {}", file, image.channels));
     if (image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return inputError(fmt::format("{}: expected the bytes of {} x {} pixels, found {}", file, image.width,
                                       image.height, image.data.size()));
@@ -28,6 +31,9 @@ public:
     {
         name = file;
         exchangeRowFacts(process_->answer(), *this);
+        frame = std::string(frameText(frame));
+        if (channels < 1 || channels > 4)
+            process_->answer().refuse();
         if (width <= 0 || height <= 0 || width > limits.imageSide || height > limits.imageSide)
             process_->answer().refuse();
         if (!process_->answer().good())
@@ -71,6 +77,7 @@ Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::strin
         return found.error();
     Image image;
     exchangeImage((*process)->answer(), image);
+    image.frame = std::string(frameText(image.frame));
     if (!(*process)->answer().good())
         return (*process)->failure();
     if (Status sound = checkPicture(image, name, limits); !sound)

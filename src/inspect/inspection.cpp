@@ -344,6 +344,7 @@ View inspectionView(View view)
     view.ground.reset();
     view.background = false;
     view.linearOutput = false;
+    view.dither = false; // colours tell numbers
     view.toneMapping = ToneMapping::none;
     view.exposure = 1;
     view.normalMaps = false;

@@ -15,12 +15,13 @@ constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each
 constexpr std::size_t kMost = kPointsOfSurface, kLeast = 64;
 
 // The normal that a frame makes of a map at a place.
-glm::dvec3 normalOf(const Image& map, const MapUse& use, Frame frame, TangentOrigin tangents, const SurfacePoint& p)
+glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
+                    const SurfacePoint& p)
 {
     Texture texture;
     texture.sampler.wrapU = use.wrapU;
     texture.sampler.wrapV = use.wrapV;
-    const auto format = toFormat<f64::cotan_normal_format>(use.stored, map.type, use.strength);
+    const auto format = toFormat<f64::cotan_normal_format>(stored, map.type, use.strength);
     const glm::dvec3 m = decodedAt(map, texture, format, uvAt(use.surface, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
@@ -70,7 +71,7 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count, 
 }
 
 std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames)
+                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter)
 {
     const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
     std::vector<std::vector<std::pair<double, double>>> errors(frames.size());
@@ -79,11 +80,14 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
             continue;
         double area = 0;
         const std::vector<SurfacePoint> points = pointsOver(use->surface, count, &area);
+        Convention stored = use->stored; // of `after`
+        stored.expansion = expansionAfter.value_or(stored.expansion);
         for (const SurfacePoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].emplace_back(
-                    lint::degreesBetween(normalOf(before, *use, frames[i].from, frames[i].fromTangents, p),
-                                         normalOf(after, *use, frames[i].to, frames[i].toTangents, p)),
+                    lint::degreesBetween(
+                        normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
+                        normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<Spread> spreads;
@@ -93,9 +97,9 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
 }
 
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames)
+                const FramePair& frames, std::optional<Expansion> expansionAfter)
 {
-    return mapErrors(before, after, uses, {&frames, 1}).front();
+    return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
 }
 
 Spread directionTurn(const MappedSurface& surface, const std::vector<SurfacePoint>& points, const FramePair& frames)

@@ -20,8 +20,16 @@ EdgeSteps edgeSteps(const MappedSurface& surface, std::size_t mostEdges = kMostE
 
 StoredTangents storedTangents(const MappedSurface& surface);
 
-// The map decoded at the points (pointsOver) and read with each frame. Angles to the
-// frame that it was made for, with generated tangents.
+// Of how many of 14 directions the surface, alone, shows each point; where it shows none of them, all alike.
+// bothSides: whether back faces are drawn.
+std::vector<double> seen(const MappedSurface& surface, const std::vector<SurfacePoint>& points, bool bothSides);
+
+// What `seen` takes, whatever the surface.
+inline constexpr std::size_t kSeenBytes = std::size_t(14) * 512 * 512 * sizeof(double);
+
+// The map decoded at the points (pointsOver) and read with each frame, weighted by what is seen of them (`seen`). Angles
+// to the frame that it was made for, with generated tangents; of a map for MikkTSpace to what the tangents of the file
+// show where they point along u, with the sign of the uv. Of "stored" to generated MikkTSpace.
 std::vector<Reading> readings(const MappedSurface& surface, const std::vector<SurfacePoint>& points, Frame madeFor,
                               const Material& material, const Image& map);
 

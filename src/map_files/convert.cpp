@@ -14,7 +14,7 @@ namespace {
 
 Status checkOptions(const ConvertFileOptions& o)
 {
-    const bool turns = o.from.kind != o.to.kind;
+    const bool turns = o.from.convention.kind != o.to.kind;
     if (turns != o.mesh.has_value())
         return usageError(turns ? "options.mesh: between tangent and object space the mesh is needed; found none"
                                 : "options.mesh: is for maps between tangent and object space; found both in one");
@@ -30,10 +30,10 @@ Status checkOptions(const ConvertFileOptions& o)
 Result<Image> byMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
                      const FileOptions& files, ConvertedFile& done)
 {
-    const auto map = readMap(file, settings.from, files.limits);
+    const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
         return map.error();
-    auto turned = throughMesh(*map, settings, mesh, files.progress, done.counts, done.shown);
+    auto turned = throughMesh(map->image, settings, mesh, files.progress, done.counts, done.shown);
     if (turned && done.shown == 0)
         return inputError(
             fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
@@ -43,13 +43,13 @@ Result<Image> byMesh(const std::filesystem::path& file, const MeshOfMap& mesh, c
 Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
                     ConvertedFile& done)
 {
-    const auto map = readMap(file, settings.from, files.limits);
+    const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
         return map.error();
     CountedSteps steps(files.progress, 2);
     if (!steps.step())
         return stoppedError();
-    Image turned = recode(*map, settings, done.counts);
+    Image turned = recode(map->image, settings, done.counts);
     if (!steps.step())
         return stoppedError();
     return turned;
@@ -58,7 +58,15 @@ Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& set
 // A texture of one level.
 Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
 {
-    return writeTextureFile(out, code, {levelOf(map, code, to)});
+    return writeTextureFile(out, code, {levelOf(map, code, to)}, map.frame);
+}
+
+// The frame of the result: in tangent space what the map says, or what the mesh was read with; in object space none.
+std::string frameAfter(const std::string& said, const ConvertFileOptions& o)
+{
+    if (o.to.kind != MapKind::tangentSpace)
+        return {};
+    return o.mesh ? std::string(name(o.mesh->frame)) : said;
 }
 
 // Streams a picture through.
@@ -67,17 +75,18 @@ Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, 
 {
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0, clamped = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half},
-                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
-                                             unswizzle(strip, swizzle);
-                                             RecodeSettings here = settings;
-                                             here.firstRow = firstRow;
-                                             RecodeCounts found;
-                                             Image rows = recode(strip, here, found);
-                                             invalid += found.invalid;
-                                             clamped += found.clamped;
-                                             return rows;
-                                         });
+    const Status streamed =
+        streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
+                     files.threads, files.progress, [&](Image& strip, int firstRow) {
+                         unswizzle(strip, swizzle);
+                         RecodeSettings here = settings;
+                         here.firstRow = firstRow;
+                         RecodeCounts found;
+                         Image rows = recode(strip, here, found);
+                         invalid += found.invalid;
+                         clamped += found.clamped;
+                         return rows;
+                     });
     done.counts = {invalid, clamped};
     return streamed;
 }
@@ -89,33 +98,31 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
 {
     if (Status fits = checkOptions(o); !fits)
         return fits.error();
-    const auto swizzle = swizzleOfFile(map, o.from, files.limits);
-    if (!swizzle)
-        return swizzle.error();
-    const auto reader = openRows(map, files.limits);
-    if (!reader)
-        return reader.error();
-    RowReader& in = **reader;
+    auto opened = openMap(map, o.from, "options.from", files.limits);
+    if (!opened)
+        return opened.error();
+    RowReader& in = *opened->rows;
     const auto code = codeFor(o.compress, o.bits, o.to, out);
     if (!code)
         return code.error();
     const auto bits = isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
-    const RecodeSettings settings{.from = o.from,
+    const RecodeSettings settings{.from = opened->convention,
                                   .to = codeConvention(*code, o.to),
                                   .type = *code == TexelCode::rgba8 ? bits->type : PixelType::float32,
                                   .strength = o.strength,
                                   .normalise = o.normalise,
                                   .dither = o.dither};
-    ConvertedFile done{in.width, in.height, *bits, {}, 0};
+    ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention};
     if (!o.mesh && !isTextureFile(out)) {
-        const Status streamed = byRows(in, out, *swizzle, settings, files, done);
+        const Status streamed = byRows(in, out, opened->swizzle, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
-    const auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
+    auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
     if (!turned)
         return turned.error();
+    turned->frame = done.frame;
     const Status written =
         isTextureFile(out) ? writeTexture(out, *turned, *code, o.to) : writeMap(out, *turned, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();

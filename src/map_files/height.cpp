@@ -100,9 +100,10 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
 Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, const std::filesystem::path& out,
                                            const ToHeightFileOptions& o, const FileOptions& files)
 {
-    const auto map = readMap(file, o.from, files.limits);
-    if (!map)
-        return map.error();
+    const auto read = readMap(file, o.from, "options.from", files.limits);
+    if (!read)
+        return read.error();
+    const Image* const map = &read->image;
     const auto bits = bitsOfHeights(o.bits, map->type, out);
     if (!bits)
         return bits.error();
@@ -117,13 +118,14 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     CountedSteps steps(files.progress, 3); // read, solved, written
     if (!steps.step())
         return stoppedError();
-    Heights h = heightFromNormals(*map, {.from = o.from, .boundary = o.boundary, .kernel = o.kernel, .aspect = aspect});
+    Heights h = heightFromNormals(
+        *map, {.from = read->convention, .boundary = o.boundary, .kernel = o.kernel, .aspect = aspect});
     if (!steps.step())
         return stoppedError();
     if (Status written = writeMap(out, picture(h, *map, bits->type, unit), *bits); !written)
         return written.error();
     steps.step();
-    return ToHeightFile{map->width, map->height, *bits, std::move(h), unit};
+    return ToHeightFile{map->width, map->height, *bits, std::move(h), unit, read->convention};
 }
 
 } // namespace cotan::maps

@@ -19,7 +19,8 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
         if (!reader)
             return reader.error();
         RowReader& in = **reader;
-        found.width = in.width, found.height = in.height, found.type = in.type;
+        found.width = in.width, found.height = in.height, found.type = in.type, found.frame = in.frame,
+        found.channels = in.channels;
         const bool second = pass == &MapSurvey::second;
         const Status read =
             inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
@@ -45,18 +46,17 @@ Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOpti
     return GreenOfFile{greenOf(sampler), sampler.patches().size()};
 }
 
-Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Convention& conventionA,
-                                   const std::filesystem::path& fileB, const Convention& conventionB,
+Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const StatedConvention& statedA,
+                                   const std::filesystem::path& fileB, const StatedConvention& statedB,
                                    const std::filesystem::path& heat, const FileOptions& files)
 {
-    const auto swizzleA = swizzleOfFile(fileA, conventionA, files.limits),
-               swizzleB = swizzleOfFile(fileB, conventionB, files.limits);
-    if (!swizzleA || !swizzleB)
-        return swizzleA ? swizzleB.error() : swizzleA.error();
-    const auto a = openRows(fileA, files.limits), b = openRows(fileB, files.limits);
-    if (!a || !b)
-        return a ? b.error() : a.error();
-    RowReader* const readers[] = {a->get(), b->get()};
+    const auto a = openMap(fileA, statedA, "options.from", files.limits);
+    if (!a)
+        return a.error();
+    const auto b = openMap(fileB, statedB, "options.to", files.limits);
+    if (!b)
+        return b.error();
+    RowReader* const readers[] = {a->rows.get(), b->rows.get()};
     const int width = readers[0]->width, height = readers[0]->height;
     if (width != readers[1]->width || height != readers[1]->height)
         return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height,
@@ -70,9 +70,9 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Con
     }
     AngleHistogram angles;
     const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
-        unswizzle(strips[0], *swizzleA);
-        unswizzle(strips[1], *swizzleB);
-        auto degrees = anglesBetween(strips[0], conventionA, strips[1], conventionB);
+        unswizzle(strips[0], a->swizzle);
+        unswizzle(strips[1], b->swizzle);
+        auto degrees = anglesBetween(strips[0], a->convention, strips[1], b->convention);
         Image rows = picture ? heatMap(degrees, width, strips[0].height) : Image{};
         return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {
             for (float d : degrees)
@@ -86,7 +86,7 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Con
         if (Status written = picture->finish(); !written)
             return written.error();
     const AngleStatistics s = angles.statistics();
-    return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count};
+    return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};
 }
 
 } // namespace cotan::maps

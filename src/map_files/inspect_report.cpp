@@ -65,6 +65,10 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
     const auto line = [&](std::string text) { lines.push_back(std::move(text)); };
     line(fmt::format("{}: {} x {}, {}", file, image.width, image.height, bitsName(image.type)));
     line("contents: " + describe(s.content));
+    if (image.channels == 2)
+        line("the file stores two channels");
+    if (!image.frame.empty())
+        line("made for the frame: " + image.frame);
     if (s.background > 0)
         line(fmt::format(
             "background (alpha 0, black, white, or fields of a colour that is no normal): {:.2f} %; left out below",
@@ -101,6 +105,7 @@ Json toJson(const SurveyedFile& image)
     Json j = {{"width", image.width},
               {"height", image.height},
               {"bits", bitsName(image.type)},
+              {"stored_channels", image.channels},
               {"contents", describe(s.content)},
               {"channels", name(s.swizzle)},
               {"centre", name(s.centre)},
@@ -118,6 +123,8 @@ Json toJson(const SurveyedFile& image)
               {"highest", s.highest},
               {"mean_tilt_degrees", s.meanTilt},
               {"tilt_by_10_degrees", s.tilt}};
+    if (!image.frame.empty())
+        j["frame"] = image.frame;
     if (!measured(s)) // figures of nothing
         for (const char* figure :
              {"mean_length", "length_spread", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})

@@ -2,18 +2,26 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/image/format_table.hpp"
 #include "stream.hpp"
 
 namespace cotan::maps {
 
+namespace {
+
+bool holds(const ImageFormat& format, PixelType type)
+{
+    return type == PixelType::unorm8 ? format.bits8 : type == PixelType::unorm16 ? format.bits16 : format.floats;
+}
+
+} // namespace
+
 Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::filesystem::path& file)
 {
-    const std::string extension = lowerExtension(file);
-    const bool floats = extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-    const bool only8 = extension == ".jpg" || extension == ".jpeg" || extension == ".tga";
-    const bool onlyFloat = extension == ".exr" || extension == ".hdr";
+    if (Status writable = checkImageName(file); !writable)
+        return writable.error();
+    const ImageFormat& format = *imageFormatOf(file);
     PixelType type = input;
     if (wanted == "8")
         type = PixelType::unorm8;
@@ -23,17 +31,12 @@ Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::file
         type = PixelType::float32;
     else if (wanted != "auto")
         return usageError(fmt::format("options.bits: expected auto, 8, 16, half or float; found '{}'", wanted));
-    else if (onlyFloat)
-        type = PixelType::float32;
-    else if (only8)
-        type = PixelType::unorm8;
-    else if (type == PixelType::float32 && !floats)
-        type = PixelType::unorm16;
+    else if (!holds(format, type))
+        type = format.bits16 ? PixelType::unorm16 : format.bits8 ? PixelType::unorm8 : PixelType::float32;
     const bool half = wanted == "half";
-    if ((type == PixelType::float32 && !floats) || (type != PixelType::float32 && onlyFloat)
-        || (type != PixelType::unorm8 && only8) || (half && extension != ".exr"))
+    if (half ? !format.halfs : !holds(format, type))
         return usageError(
-            fmt::format("options.bits: {} files cannot hold {}", extension, half ? "half" : bitsName(type)));
+            fmt::format("options.bits: {} files cannot hold {}", format.endings[0], half ? "half" : bitsName(type)));
     return Bits{type, half};
 }
 
@@ -46,10 +49,11 @@ std::string bitsName(const Bits& bits) { return bits.half ? "half" : bitsName(bi
 
 Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file)
 {
-    const std::string extension = lowerExtension(file);
-    if (to.expansion == Expansion::signedValues && (bits.type != PixelType::float32 || extension == ".hdr"))
-        return usageError(fmt::format("options.to: signed values need a .exr or .tif of floats; found {}, {}",
-                                      extension, bitsName(bits)));
+    if (to.expansion == Expansion::signedValues
+        && (bits.type != PixelType::float32 || !imageFormatHas(file, &ImageFormat::negative)))
+        return usageError(fmt::format("options.to: signed values need a {} of floats; found {}, {}",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), file.extension().string(),
+                                      bitsName(bits)));
     return Done{};
 }
 
@@ -63,19 +67,25 @@ Result<Bits> bitsFor(const std::string& wanted, PixelType input, const Conventio
     return fits ? bits : fits.error();
 }
 
-Result<Image> readMap(const std::filesystem::path& file, const Convention& convention, const LoadLimits& limits)
+Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                          const LoadLimits& limits)
 {
     auto image = readImage(file, limits);
-    if (image && convention.channels != Channels::xyz)
+    if (!image)
+        return image.error();
+    const auto convention = conventionOf(stated, image->name, image->channels, option);
+    if (!convention)
+        return convention.error();
+    if (convention->channels != Channels::xyz)
         unswizzle(*image, swizzleOf(*image));
-    return image;
+    return LoadedMap{*std::move(image), *convention};
 }
 
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits)
 {
     if (!bits.half)
         return writeImage(file, image);
-    auto writer = createRows(file, {image.width, image.height, image.type, true, true});
+    auto writer = createRows(file, {image.width, image.height, image.type, true, true, image.frame});
     if (!writer)
         return writer.error();
     if (Status written = (*writer)->write(image); !written)
@@ -83,19 +93,28 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
     return (*writer)->finish();
 }
 
-Result<Swizzle> swizzleOfFile(const std::filesystem::path& file, const Convention& convention, const LoadLimits& limits)
+Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                        const LoadLimits& limits)
 {
-    if (convention.channels == Channels::xyz)
-        return Swizzle::rg;
-    const auto reader = openRows(file, limits);
+    auto reader = openRows(file, limits);
     if (!reader)
         return reader.error();
-    if (!(*reader)->alpha)
-        return Swizzle::rg;
+    const auto convention = conventionOf(stated, (*reader)->name, (*reader)->channels, option);
+    if (!convention)
+        return convention.error();
+    OpenMap map{*std::move(reader), *convention};
+    if (convention->channels == Channels::xyz || !map.rows->alpha)
+        return map;
     ChannelRange range;
-    if (Status read = inOrder(**reader, {}, [&](const Image& strip, int) { range.add(strip); }); !read)
+    if (Status read = inOrder(*map.rows, {}, [&](const Image& strip, int) { range.add(strip); }); !read)
         return read.error();
-    return range.swizzle();
+    map.swizzle = range.swizzle();
+    map.rows.reset(); // what it holds goes first
+    auto again = openRows(file, limits);
+    if (!again)
+        return again.error();
+    map.rows = *std::move(again);
+    return map;
 }
 
 } // namespace cotan::maps

@@ -17,7 +17,7 @@ TextureLevel levelWithRoughness(const MipLevel& level, TexelCode code, const Mip
             both.floats()[4 * i + 3] = level.roughness.floats()[4 * i];
         else
             both.bytes8()[4 * i + 3] = level.roughness.bytes8()[4 * i];
-    return levelOf(both, code, o.to, o.keepLengths);
+    return levelOf(both, code, *o.to, o.keepLengths);
 }
 
 std::filesystem::path marked(const std::filesystem::path& file, const std::string& mark)
@@ -33,17 +33,17 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
     if (code != TexelCode::bc5) {
         for (const MipLevel& level : chain)
             normals.push_back(levelWithRoughness(level, code, o));
-        return writeTextureFile(out, code, normals);
+        return writeTextureFile(out, code, normals, chain[0].normals.frame);
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
         if (Status may = o.mayWrite(second); !may)
             return may;
     for (const MipLevel& level : chain) {
-        normals.push_back(levelOf(level.normals, code, o.to));
+        normals.push_back(levelOf(level.normals, code, *o.to));
         roughness.push_back(bc4Level(level.roughness));
     }
-    if (Status w = writeTextureFile(out, TexelCode::bc5, normals); !w)
+    if (Status w = writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame); !w)
         return w;
     return writeTextureFile(second, TexelCode::bc4, roughness);
 }
@@ -74,7 +74,7 @@ Result<Bits> bitsOfMips(TexelCode code, PixelType input, const std::filesystem::
 {
     if (code != TexelCode::rgba8)
         return Bits{PixelType::float32, false};
-    return isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, input, o.to, out);
+    return isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, input, *o.to, out);
 }
 
 } // namespace
@@ -84,17 +84,24 @@ std::filesystem::path firstMipFile(const std::filesystem::path& out)
     return isTextureFile(out) ? out : numbered(out, "", 0);
 }
 
-Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file, const std::filesystem::path& out,
-                                               const MipFileOptions& o, const FileOptions& files)
+Result<MippedFile> writeMips(const std::filesystem::path& file, const std::filesystem::path& out,
+                             const MipFileOptions& asked, const FileOptions& files)
 {
-    const auto code = codeFor(o.compress, o.bits, o.to, out);
+    MipFileOptions o = asked;
+    if (o.compress == "bc5" && o.keepLengths)
+        return usageError("options.keepLengths: bc5 has no channel for lengths");
+    if (o.to) // before the work
+        if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
+            return code.error();
+    const auto read = readMap(file, o.from, "options.from", files.limits);
+    if (!read)
+        return read.error();
+    const Image* const map = &read->image;
+    const Convention from = read->convention, to = o.to.value_or(from);
+    o.to = to;
+    const auto code = codeFor(o.compress, o.bits, to, out);
     if (!code)
         return code.error();
-    if (*code == TexelCode::bc5 && o.keepLengths)
-        return usageError("options.keepLengths: bc5 has no channel for lengths");
-    const auto map = readMap(file, o.from, files.limits);
-    if (!map)
-        return map.error();
     const auto bits = bitsOfMips(*code, map->type, out, o);
     if (!bits)
         return bits.error();
@@ -106,23 +113,25 @@ Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& file
     CountedSteps steps(files.progress, 3); // read, filtered, written
     if (!steps.step())
         return stoppedError();
-    const auto chain = mipChain(*map,
-                                {.from = o.from,
-                                 .to = codeConvention(*code, o.to),
-                                 .keepLengths = o.keepLengths,
-                                 .model = o.model,
-                                 .roughness = o.roughness,
-                                 .type = bits->type});
+    auto chain = mipChain(*map,
+                          {.from = from,
+                           .to = codeConvention(*code, to),
+                           .keepLengths = o.keepLengths,
+                           .model = o.model,
+                           .roughness = o.roughness,
+                           .type = bits->type});
+    for (MipLevel& level : chain)
+        level.normals.frame = map->frame;
     if (!steps.step())
         return stoppedError();
     if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);
         !written)
         return written.error();
     steps.step();
-    std::vector<MipLevelFigures> figures;
+    MippedFile done{from, to, {}};
     for (const MipLevel& level : chain)
-        figures.push_back({level.normals.width, level.normals.height, level.meanLength, level.meanRoughness});
-    return figures;
+        done.levels.push_back({level.normals.width, level.normals.height, level.meanLength, level.meanRoughness});
+    return done;
 }
 
 } // namespace cotan::maps

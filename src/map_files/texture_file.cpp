@@ -8,9 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/dds.hpp"
+#include "cotan/image/format_table.hpp"
+#include "cotan/image/frame_key.hpp"
 #include "cotan/maps/block.hpp"
 
 namespace cotan::maps {
@@ -86,11 +87,14 @@ std::string descriptor(TexelCode code, const CodeFacts& facts)
 }
 
 // Header, where each level is, descriptor, keys, levels from the smallest.
-std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels)
+std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels, const std::string& frame)
 {
     const CodeFacts facts = factsOf(code);
     std::string described = descriptor(code, facts), keys;
-    for (const std::string& entry : {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)}) {
+    std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
+    if (!frame.empty()) // sorted by key; like the others, text with its zero
+        entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
+    for (const std::string& entry : entries) {
         appendNumber(keys, entry.size(), 4);
         keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
     }
@@ -131,15 +135,13 @@ CodeScale scaleOf(Expansion expansion)
 
 } // namespace
 
-bool isTextureFile(const std::filesystem::path& file)
-{
-    const std::string extension = lowerExtension(file);
-    return extension == ".dds" || extension == ".ktx2";
-}
+bool isTextureFile(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::texture); }
 
-Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels)
+Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
+                        const std::string& frame)
 {
-    return writeFileWhole(file, lowerExtension(file) == ".dds" ? ddsBytes(code, levels) : ktx2Bytes(code, levels));
+    const bool dds = imageFormatOf(file)->name == "DDS";
+    return writeFileWhole(file, dds ? ddsBytes(code, levels) : ktx2Bytes(code, levels, frame));
 }
 
 TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths)
@@ -162,17 +164,18 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
     if (compress != "none" && compress != "bc5" && compress != "bc7")
         return usageError(fmt::format("options.compress: expected none, bc5 or bc7; found '{}'", compress));
     if (!isTextureFile(file) && compress != "none")
-        return usageError(fmt::format("options.compress: blocks are for .dds and .ktx2 files; found '{}'",
-                                      file.extension().string()));
+        return usageError(fmt::format("options.compress: blocks are for {} files; found '{}'",
+                                      imageEndings(&ImageFormat::texture, ", ", " and "), file.extension().string()));
     if (isTextureFile(file) && bits != "auto" && bits != "8")
-        return usageError(
-            fmt::format("options.bits: {} files are written with 8 bits; found '{}'", lowerExtension(file), bits));
+        return usageError(fmt::format("options.bits: {} files are written with 8 bits; found '{}'",
+                                      imageFormatOf(file)->endings[0], bits));
     if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
         return usageError("options.to: bc5 holds x and y of unit vectors; found another form of two channels");
     if (compress == "bc7" && to.channels != Channels::xyz)
         return usageError("options.to: bc7 holds x, y and z; found two channels, which bc5 is for");
     if (isTextureFile(file) && to.expansion == Expansion::signedValues)
-        return usageError("options.to: signed values need a .exr or .tif of floats");
+        return usageError(fmt::format("options.to: signed values need a {} of floats",
+                                      imageEndings(&ImageFormat::negative, ", ", " or ")));
     return compress == "bc5" ? TexelCode::bc5 : compress == "bc7" ? TexelCode::bc7 : TexelCode::rgba8;
 }
 

@@ -21,8 +21,10 @@ struct TextureLevel {
 // Whether a file of that name is one of them.
 bool isTextureFile(const std::filesystem::path& file);
 
-// levels: each half as large as the one before, the largest first. Errors: as writeFileWhole.
-Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels);
+// levels: each half as large as the one before, the largest first. frame: Image::frame, which KTX2 holds and DDS does
+// not. Errors: as writeFileWhole.
+Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
+                        const std::string& frame = {});
 
 // Normals as a level of a texture that is read as `to`. image: unorm8 for rgba8, else float32 as codeConvention has it.
 // lengths: of bc7, are kept.

@@ -105,6 +105,8 @@ std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const S
     GroundOptions under;
     if (view.ground) // the model moves, not the ground
         under.height = view.ground->height;
+    else if (!scene.reach.empty())
+        under.height = framedBounds(scene).low.y;
     auto map = makeGround(scene, view, under);
     return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
 }

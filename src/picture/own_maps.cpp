@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "cotan/convention_words.hpp"
+#include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/maps/stated.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/put_picture.hpp"
@@ -35,12 +37,12 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     return readImage(file, limitsFor(memory));
 }
 
-Result<Convention> conventionOf(const OwnMaps& maps)
+Result<StatedConvention> conventionOf(const OwnMaps& maps)
 {
-    auto convention = conventionFromWords(maps.convention.empty() ? "gltf" : maps.convention);
+    auto convention = statedFromWords(maps.convention.empty() ? "gltf" : maps.convention);
     if (!convention)
         return usageError("--convention: " + convention.error().message);
-    if (convention->kind != MapKind::tangentSpace)
+    if (convention->convention.kind != MapKind::tangentSpace)
         return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
     return convention;
 }
@@ -57,7 +59,7 @@ Status readOtherwise(const OwnMaps& maps, Scene& scene)
         Material& m = scene.materials[i];
         if (!m.normalMap.present() || (maps.material >= 0 && int(i) != maps.material))
             continue;
-        m.normalFormat = inScene(*convention);
+        m.normalFormat = inScene(convention->convention);
         any = true;
     }
     if (!any)
@@ -67,12 +69,17 @@ Status readOtherwise(const OwnMaps& maps, Scene& scene)
 
 Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
 {
-    const auto convention = conventionOf(maps);
-    if (!convention)
-        return convention.error();
+    const auto stated = conventionOf(maps);
+    if (!stated)
+        return stated.error();
     auto image = readFor(maps, maps.normal, &Material::normalMap, memory, scene);
     if (!image)
         return image.error();
+    const auto convention = maps::conventionOf(*stated, maps.normal, image->channels, "--convention");
+    if (!convention)
+        return convention.error();
+    if (!stated->channels) // x and y in a file of three channels, blue the middle everywhere: no such directions exist
+        completeNormals(*image);
     if (convention->channels != Channels::xyz)
         maps::unswizzle(*image, maps::swizzleOf(*image));
     putNormalMap(scene, std::move(*image), inScene(*convention), maps.material);

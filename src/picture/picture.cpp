@@ -9,6 +9,7 @@
 
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/draw/exposure.hpp"
+#include "cotan/files/account.hpp"
 #include "cotan/files/extension.hpp"
 #include "cotan/inspect/inspection.hpp"
 #include "cotan/model/load.hpp"
@@ -84,12 +85,6 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     return view;
 }
 
-bool keepsFloats(const std::filesystem::path& file)
-{
-    const std::string extension = file.extension().string();
-    return extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff";
-}
-
 bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
 
 namespace {
@@ -117,6 +112,17 @@ LoadLimits limitsOf(const PictureOptions& options)
     return limits;
 }
 
+Status addReach(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
+{
+    if (options.animation.empty())
+        return Done{};
+    auto points = model.reach(options.animation);
+    if (!points)
+        return points.error();
+    scene.reach = std::move(*points);
+    return Done{};
+}
+
 Result<Scene> checkedScene(Result<Scene> scene)
 {
     if (scene)
@@ -140,7 +146,8 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
 {
     MovingModel model;
     const std::string ending = lowerExtension(options.model);
-    if ((ending != ".gltf" && ending != ".glb") || !checkModelOptions(options)) {
+    const bool gltf = options.readFile || ending == ".gltf" || ending == ".glb";
+    if (!gltf || !checkModelOptions(options)) {
         auto scene = openModel(options);
         if (!scene)
             return scene.error();
@@ -155,6 +162,10 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
     if (!scene)
         return scene.error();
     model.scene = std::move(*scene);
+    if (Status moved = addReach(**opened, options, model.scene); !moved)
+        return moved.error();
+    if (const auto refused = refusal())
+        return *refused;
     if (!(*opened)->animations().empty())
         model.animated = std::move(*opened);
     return model;
@@ -162,7 +173,11 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
 
 Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images)
 {
-    return model.at({options.animation, options.time}, &images);
+    auto scene = model.at({options.animation, options.time}, &images);
+    if (scene)
+        if (Status moved = addReach(model, options, *scene); !moved)
+            return moved.error();
+    return scene;
 }
 
 Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene)
@@ -191,6 +206,17 @@ Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std
     return frames;
 }
 
+namespace {
+
+Result<Scene> sceneOf(Result<MovingModel> model)
+{
+    if (!model)
+        return model.error();
+    return std::move(model->scene);
+}
+
+} // namespace
+
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like)
 {
@@ -203,7 +229,9 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings;
     if (!like)
         surroundings = std::async(std::launch::async, openSurroundings, options);
-    auto scene = openModel(options);
+    // The first picture of a sequence has the camera of all.
+    const bool moves = !like && !options.animation.empty();
+    auto scene = moves ? sceneOf(openMovingModel(options)) : openModel(options);
     if (!scene)
         return scene.error();
     picture.scene = std::move(*scene);

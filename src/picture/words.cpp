@@ -177,7 +177,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--size", o.size, "width and height in pixels").in("WxH");
     a.option(
          "--camera", o.camera,
-         "front (filling the picture), fit (the whole box around the model), the number of a camera of the file, or "
+         "front (filling the picture), fit (the whole box around the model), both with all of an --animation in it, "
+         "the number of a camera of the file, or "
          "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" "
          "for "
          "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
@@ -203,7 +204,12 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     addTangentsOption(
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
-    a.option("--samples", o.samples, "samples per pixel of the shaded picture: 1 or 4").from({1, 4}).in("N");
+    a.option("--samples", o.samples,
+             "samples per pixel of the shaded picture: 1; 4 for smooth edges; or 16, each lit by itself, for smooth "
+             "highlights "
+             "too, at the cost of 16 pictures")
+        .from({1, 4, 16})
+        .in("N");
     addLightOptions(a, o);
     a.option("--rows", o.rows,
              "whether the rows of the render target run down or up; the picture is upright either way")

@@ -85,9 +85,9 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
     return draw;
 }
 
-bool isBlended(const Scene& scene, const Draw& draw)
+bool isTranslucent(const Scene& scene, const Draw& draw)
 {
-    return scene.materials[std::size_t(draw.material)].alphaMode == AlphaMode::blend;
+    return scene.materials[std::size_t(draw.material)].translucent();
 }
 
 } // namespace
@@ -104,7 +104,8 @@ std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, boo
             draws.push_back(makeDraw(mesh, instance.toWorld, eye, frame));
     }
     if (blending)
-        std::stable_partition(draws.begin(), draws.end(), [&](const Draw& draw) { return !isBlended(scene, draw); });
+        std::stable_partition(draws.begin(), draws.end(),
+                              [&](const Draw& draw) { return !isTranslucent(scene, draw); });
     return draws;
 }
 

@@ -25,10 +25,10 @@ struct Draw {
     std::vector<glm::vec3> cotangentsV;
 };
 
-// The draws of a scene: opaque and masked instances in the scene's order, then blended ones likewise:
+// The draws of a scene: opaque and masked instances in the scene's order, then translucent ones likewise:
 // these can be tested against all that hides them, and keep no depth themselves. Instances without a valid mesh or
-// triangles are left out. frame: only the attributes that it reads are made. blending: false draws blended materials as
-// opaque ones, in the scene's order.
+// triangles are left out. frame: only the attributes that it reads are made. blending: false draws translucent
+// materials as opaque ones, in the scene's order.
 std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending);
 
 } // namespace cotan::reference

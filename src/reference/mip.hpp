@@ -21,6 +21,7 @@ struct MipChain {
     const Image* image = nullptr;
     Content content = Content::linear;
     std::vector<Image> smaller;
+    float apart = 1; // pixels from one sample to the next: what is read for one is as large
 
     int levels() const { return 1 + int(smaller.size()); }
     const Image& level(int i) const { return i == 0 ? *image : smaller[std::size_t(i - 1)]; }

@@ -81,6 +81,16 @@ Projection cameraProjection(const View& view, const Ball& ball)
     return p;
 }
 
+Projection movedBy(Projection p, glm::dvec2 place)
+{
+    glm::dmat4 rows = glm::transpose(p.toRaster);
+    rows[0] -= rows[3] * place.x;
+    rows[1] -= rows[3] * place.y;
+    p.toRaster = glm::transpose(rows);
+    p.moved = place;
+    return p;
+}
+
 Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 origin, int texels)
 {
     Projection p;
@@ -109,7 +119,7 @@ glm::dvec3 sideways(const Projection& p, double x, double y)
     glm::dmat4 rows = glm::transpose(p.toRaster);
     double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
     double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
-    return p.right * ((x - 0.5 * p.width) / pixelsX) + p.up * ((y - 0.5 * p.height) / pixelsY);
+    return p.right * ((x + p.moved.x - 0.5 * p.width) / pixelsX) + p.up * ((y + p.moved.y - 0.5 * p.height) / pixelsY);
 }
 
 } // namespace

@@ -23,6 +23,7 @@ struct Projection {
     int height = 0;
     bool orthographic = false;
     bool rowsUpward = false; // raster row 0 is the bottom of the picture
+    glm::dvec2 moved{0};     // pixels: what the middle of one sees lies there
 };
 
 // The sphere around a scene.
@@ -38,6 +39,9 @@ Ball boundingBall(const Scene& scene);
 // that models seen from inside are cut as late as possible. Degenerate cameras (no direction, up
 // along it, no field of view) are replaced by the nearest usable ones.
 Projection cameraProjection(const View& view, const Ball& ball);
+
+// The same with the middle of each pixel seeing what lies `place` pixels from it in the raster.
+Projection movedBy(Projection projection, glm::dvec2 place);
 
 // A square map of that many texels that looks along `direction` at the whole ball. Positions
 // stay relative to `origin`.

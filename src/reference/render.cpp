@@ -12,6 +12,7 @@
 #include "cotan/parallel/loops.hpp"
 #include "cotan/scene/bounds.hpp"
 #include "cotan/scene/geometry.hpp"
+#include "cotan/scene/sample_places.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
@@ -95,9 +96,14 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
     }
 }
 
-void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index, Image& picture)
+// Samples that are lit one by one are drawn as pictures of one sample.
+bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMostSharedSamples; }
+
+// Calls store(x, y, value) for the pixels of a tile, x and y in the upright picture.
+template<class Store>
+void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index, const Store& store)
 {
-    SamplePattern pattern = samplePattern(view.output == Output::shaded ? view.samples : 1);
+    SamplePattern pattern = samplePattern(view.output == Output::shaded && !oneByOne(view) ? view.samples : 1);
     PixelInputs all{view, f.projection, f.lights, f.shadow};
     Rectangle area = f.tiled.area(index, view.width, view.height);
     Tile tile(area, pattern.count);
@@ -111,7 +117,20 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
     }
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
-            storePixel(picture, x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
+            store(x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
+}
+
+// Draws all tiles; false where it was stopped.
+template<class Store>
+bool drawTiles(const Scene& scene, const View& view, const Frozen& frozen, CountedSteps& done, const Store& store)
+{
+    parallelFor(std::size_t(0), frozen.tiled.tiles.size(), [&](std::size_t index) {
+        if (done.stopped())
+            return;
+        drawTile(scene, view, frozen, index, store);
+        done.step();
+    });
+    return !done.stopped();
 }
 
 Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
@@ -120,15 +139,26 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     Image picture = makeImage(view.width, view.height, bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
     Frozen frozen = prepare(scene, view);
     const std::size_t tiles = frozen.tiled.tiles.size();
-    CountedSteps done(progress, tiles);
-    parallelFor(std::size_t(0), tiles, [&](std::size_t index) {
-        if (done.stopped())
-            return;
-        drawTile(scene, view, frozen, index, picture);
-        done.step();
-    });
-    if (done.stopped())
-        return stoppedError();
+    const auto store = [&](int x, int y, glm::vec4 value) { storePixel(picture, x, y, value, view.dither); };
+    if (!oneByOne(view)) {
+        CountedSteps done(progress, tiles);
+        return drawTiles(scene, view, frozen, done, store) ? Result<Image>(std::move(picture)) : stoppedError();
+    }
+    std::vector<glm::vec4> sums(picture.pixelCount(), glm::vec4(0));
+    CountedSteps done(progress, tiles * kPlaces);
+    const Projection still = frozen.projection;
+    for (int sample = 0; sample < kPlaces; ++sample) {
+        frozen.projection = movedBy(still, samplePlace(sample));
+        frozen.tiled = setUpTriangles(scene, frozen.draws, frozen.projection, Cull::backFaces);
+        const bool drawn = drawTiles(scene, view, frozen, done, [&](int x, int y, glm::vec4 value) {
+            sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] += value;
+        });
+        if (!drawn)
+            return stoppedError();
+    }
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            store(x, y, sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] / float(kPlaces));
     return picture;
 }
 

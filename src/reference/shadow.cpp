@@ -23,19 +23,28 @@ struct ShadowPass {
     const std::vector<Draw>& draws;
     const TextureLibrary& textures;
     ShadowMap& map;
+    std::size_t firstTranslucent; // of the draws
 
+    std::uint32_t layerOf(const RasterTriangle& triangle) const;
     void drawQuad(const RasterTriangle& triangle, const Quad& quad) const;
     void drawTile(const TiledTriangles& tiled, std::size_t tile) const;
 };
+
+// Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of two
+// things that follow one another, are told apart.
+std::uint32_t ShadowPass::layerOf(const RasterTriangle& triangle) const
+{
+    return (triangle.front ? 0u : 1u) + 2 * (std::uint32_t(triangle.draw - firstTranslucent) & 1u);
+}
 
 void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) const
 {
     const Draw& draw = draws[triangle.draw];
     const Material& material = scene.materials[std::size_t(draw.material)];
     const MaterialMaps& maps = textures.materials[std::size_t(draw.material)];
-    bool masked = material.alphaMode == AlphaMode::mask;
+    const bool masked = material.alphaMode == AlphaMode::mask, blended = material.alphaMode == AlphaMode::blend;
     QuadPoints points;
-    if (masked)
+    if (masked || blended)
         points = interpolate(draw, triangle, quad.x, quad.y);
     for (int lane = 0; lane < 4; ++lane) {
         if (!quad.covered[std::size_t(lane)])
@@ -45,7 +54,10 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
         float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
         if (!(z > stored))
             continue;
-        if (masked && baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w < material.alphaCutoff)
+        const auto alpha = [&] { return baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w; };
+        if (masked && alpha() < material.alphaCutoff)
+            continue;
+        if (blended && !(alpha() > f32::cotan_shadow_threshold(unsigned(x), unsigned(y), layerOf(triangle))))
             continue;
         stored = z;
     }
@@ -57,7 +69,7 @@ void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
     for (std::uint32_t index : tiled.tiles[tile]) {
         const RasterTriangle& triangle = tiled.triangles[index];
         const Draw& draw = draws[triangle.draw];
-        if (scene.materials[std::size_t(draw.material)].translucent())
+        if (!scene.materials[std::size_t(draw.material)].throwsShadow())
             continue;
         forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
     }
@@ -78,7 +90,11 @@ ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<
     map.texel = float(2 * ball.radius / (map.size - 2));
     map.depthUnit = float(0.5 / (ball.radius * 1.01));
     TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
-    ShadowPass pass{scene, view, draws, textures, map};
+    const auto translucent = [&](const Draw& draw) {
+        return scene.materials[std::size_t(draw.material)].translucent();
+    };
+    const auto first = std::find_if(draws.begin(), draws.end(), translucent);
+    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin())};
     parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tiled, tile); });
     return map;
 }

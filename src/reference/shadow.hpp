@@ -20,7 +20,8 @@ struct ShadowMap {
 };
 
 // Draws the scene as the light sees it, 2048 texels a side, fitted to the ball. Masked materials
-// cast the shadow of what their mask leaves; blended ones cast none.
+// cast the shadow of what their mask leaves; blended ones cover as many texels as their alpha says, by
+// cotan_shadow_threshold; what transmits casts none.
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
                         const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin);
 

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/sample_places.hpp"
 #include "cotan/scene/texture_sample.hpp"
 
 namespace cotan::reference {
@@ -62,7 +63,7 @@ struct Footprint {
 Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferences& at)
 {
     glm::vec2 size(chain.image->width, chain.image->height);
-    glm::vec2 dx = usable(at.dx), dy = usable(at.dy);
+    glm::vec2 dx = usable(at.dx) * chain.apart, dy = usable(at.dy) * chain.apart;
     float alongX = glm::length(dx * size), alongY = glm::length(dy * size);
     float longer = std::max(alongX, alongY), shorter = std::min(alongX, alongY);
     Footprint f;
@@ -78,7 +79,7 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
 }
 
 const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture, Content content,
-                        Convention format, bool withLevels)
+                        Convention format, bool withLevels, float apart)
 {
     if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
         return nullptr;
@@ -88,6 +89,7 @@ const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Textu
     const MipChain*& known = library.made[{texture.image, content, format.expansion, format.channels}];
     if (!known) {
         library.chains.push_back(makeMipChain(image, content, format, withLevels));
+        library.chains.back().apart = apart;
         known = &library.chains.back();
     }
     return known;
@@ -113,9 +115,10 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
 {
     TextureLibrary library;
     bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
+    const float apart = shaded && view.samples > kMostSharedSamples ? kPlacesApart : 1;
     for (const Material& m : scene.materials) {
         auto get = [&](const Texture& texture, Content content, Convention format = {}) {
-            return chainOf(library, scene, texture, content, format, levels);
+            return chainOf(library, scene, texture, content, format, levels, apart);
         };
         MaterialMaps maps;
         if (view.normalMaps)

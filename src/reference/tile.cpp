@@ -16,8 +16,6 @@ float nearnessAt(const Plane& z, int x, int y, glm::ivec2 offset)
     return float(z.at(x + offset.x / double(kSubPixels), y + offset.y / double(kSubPixels)));
 }
 
-std::uint8_t toByte(float x) { return std::uint8_t(std::lround(f32::cotan_saturate(x) * 255.0f)); }
-
 } // namespace
 
 Tile::Tile(Rectangle area, int samples) : area_(area), samples_(samples)
@@ -102,22 +100,6 @@ glm::vec4 Tile::resolve(int x, int y) const
         sum += glm::vec4(light, 1 - passing * (1 - value_[at(x, y) + s].w));
     }
     return sum / float(samples_);
-}
-
-void storePixel(Image& image, int x, int y, glm::vec4 value)
-{
-    std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    if (image.type == PixelType::float32) {
-        for (int c = 0; c < 4; ++c)
-            image.floats()[at + std::size_t(c)] = value[c];
-        return;
-    }
-    float share = value.w > 0 && value.w < 1 ? 1 / value.w : 1;
-    for (int c = 0; c < 3; ++c) {
-        float linear = f32::cotan_saturate(value[c] * share);
-        image.bytes8()[at + std::size_t(c)] = toByte(f32::cotan_linear_to_srgb(linear));
-    }
-    image.bytes8()[at + 3] = toByte(value.w);
 }
 
 } // namespace cotan::reference

@@ -63,8 +63,4 @@ private:
     std::vector<std::uint32_t> newest_; // of each pixel; empty before the first layer
 };
 
-// Writes a pixel as the image's type: float32 as it is; unorm8 with colours sRGB-encoded and, as
-// image files want them, not multiplied by alpha.
-void storePixel(Image& image, int x, int y, glm::vec4 value);
-
 } // namespace cotan::reference

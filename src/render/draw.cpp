@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -14,12 +13,6 @@
 namespace cotan {
 
 namespace {
-
-double now()
-{
-    const auto t = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(t).count();
-}
 
 bool finite(const glm::mat4& m)
 {
@@ -65,55 +58,6 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
         return ~0u;
     const std::uint32_t alpha = key.alphaMode == AlphaMode::opaque ? 0u : COTAN_MAP_BASE_COLOR;
     return alpha | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
-}
-
-Status checkView(const Device& device, const View& view)
-{
-    if (view.lighting != Lighting::world)
-        return unavailableError("lighting in tangent space: only the reference renderer does it "
-                                "(--device reference)");
-    if (view.normalMapping != NormalMapping::shading)
-        return unavailableError("normal mapping by rays: only the reference renderer does it (--device reference)");
-    const std::uint32_t largest = std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
-                                            device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
-                                            device.limits.maxViewportDimensions[1]});
-    const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
-    if (view.width < 1 || view.height < 1 || std::uint32_t(view.width) > largest
-        || std::uint32_t(view.height) > largest)
-        return usageError("size " + size + ": " + device.name + " draws 1 to " + std::to_string(largest)
-                          + " pixels a side");
-    vk::DeviceSize room = 0;
-    for (std::uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
-        room = std::max(room, device.memory.memoryHeaps[i].size);
-    const vk::DeviceSize needed = Targets::bytes(targetKind(device, view));
-    if (needed > room / 10 * 9)
-        return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: " + device.name + " has "
-                          + std::to_string(room >> 20));
-    if (!isFrame(int(view.frame)))
-        return usageError("frame " + std::to_string(int(view.frame)) + ": expected 0 to "
-                          + std::to_string(kFrameCount - 1));
-    if (info(view.frame).source == FrameSource::triangle && !device.exact)
-        return unavailableError("the frame " + std::string(name(view.frame))
-                                + " needs the features geometryShader and "
-                                  "bufferDeviceAddress: "
-                                + device.name + " lacks them");
-    return Done{};
-}
-
-// Blending onto transparent black leaves colours multiplied by alpha; pictures with 8 bits are
-// stored without.
-void divideByAlpha(Image& image)
-{
-    std::uint8_t* p = image.bytes8();
-    for (std::size_t i = 0; i < image.pixelCount(); ++i, p += 4) {
-        if (p[3] == 0 || p[3] == 255)
-            continue;
-        const float alpha = float(p[3]) / 255.0f;
-        for (int c = 0; c < 3; ++c) {
-            const float linear = f32::cotan_srgb_to_linear(float(p[c]) / 255.0f) / alpha;
-            p[c] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(std::min(linear, 1.0f))));
-        }
-    }
 }
 
 } // namespace
@@ -183,6 +127,8 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
         if (item.material->translucent) {
             item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
             lists.translucent.push_back(item);
+            if (item.material->throwsShadow)
+                lists.veils.push_back(item);
         } else {
             (item.material->alphaMode == AlphaMode::mask ? lists.mask : lists.opaque).push_back(item);
         }
@@ -225,7 +171,6 @@ void Drawer::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
-    const bool multisampled = targets_->multisampled();
     const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(),
                                           vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
@@ -249,7 +194,8 @@ void Drawer::writePictureSet(bool layered)
                                              {});
     };
     write(pictureSet_, shadow, environment);
-    write(composeSet_, layered && multisampled ? depth : shadow, multisampled ? samples : environment);
+    write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
+          targets_->resolves() ? samples : environment);
 }
 
 void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
@@ -271,10 +217,10 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
 PipelineKey Drawer::keyOf(PipelineKey key, const Item& item)
 {
     key.extended = key.pass != Pass::shadow && item.material->extended();
-    if (!isShadow(key.pass)) {
+    if (key.pass != Pass::shadow)
         key.alphaMode = item.material->alphaMode;
+    if (!isShadow(key.pass))
         key.maps = item.material->maps & mapsNeeded(key);
-    }
     return key;
 }
 
@@ -301,10 +247,10 @@ void Drawer::beginPipelines(const DrawLists& lists, const View& view, bool layer
     }
     if (shaded && (view.background || view.ground)) {
         keys.push_back(backgroundKey(view));
-        if (targets_->multisampled())
+        if (targets_->resolves())
             keys.push_back(surroundKey(view));
     }
-    if (targets_->multisampled())
+    if (targets_->resolves())
         keys.push_back(resolveKey());
     pipelines_.begin(keys);
 }
@@ -348,81 +294,11 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         drawItems(commands, scene, lists.translucent, key);
 }
 
-PipelineKey Drawer::resolveKey() const
-{
-    PipelineKey key;
-    key.pass = Pass::resolve;
-    key.format = targets_->kind().format;
-    return key;
-}
-
-// Resolves what was drawn in the area, and copies the picture.
-void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
-{
-    if (targets_->multisampled()) {
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
-        targets_->beginResolve(commands, rectangle(area));
-        drawOver(commands, resolveKey());
-        commands.endRendering();
-    }
-    targets_->copy(commands);
-}
-
 const vk::raii::CommandBuffer& Drawer::begin()
 {
     const vk::raii::CommandBuffer& commands = commands_.begin();
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, pictureSet_, {});
     return commands;
-}
-
-Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
-{
-    if (const Status ok = checkView(*device_, view); !ok)
-        return ok.error();
-    if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
-        return ok.error();
-    const Targets::Kind kind = targetKind(*device_, view);
-    if (!targets_ || !(targets_->kind() == kind)) {
-        targets_.reset(); // its memory may be needed for the new ones
-        targets_ = std::make_unique<Targets>(*device_, kind);
-    }
-    const Axes axes = cameraAxes(view.camera);
-    scene.setPointSampled(view.pointSampled);
-    DrawLists lists = makeLists(scene, view, axes);
-    const bool layered = view.output == Output::shaded && !lists.translucent.empty();
-    const gpu::CotanView constants = viewConstants(view, axes, scene.bounds);
-    beginPipelines(lists, view, layered);
-    prepare(view, axes, constants, layered);
-    setAreas(lists, view, constants);
-    PixelArea area{0, 0, view.width, view.height};
-    if (targets_->multisampled())
-        area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;
-
-    const double start = now();
-    const vk::raii::CommandBuffer& commands = begin();
-    recordShadow(commands, scene, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
-    if (targets_->multisampled())
-        recordSurround(commands, view, area);
-    targets_->begin(commands, rectangle(area), layered);
-    recordPicture(commands, scene, lists, view);
-    if (layered) {
-        targets_->endOpaque(commands);
-        commands_.submitAndWait();
-        if (const Status ok = drawLayers(scene, lists, view); !ok)
-            return ok.error();
-        finish(begin(), area);
-    } else {
-        commands.endRendering();
-        finish(commands, area);
-    }
-    commands_.submitAndWait();
-    const double drawn = now();
-    Image image = targets_->image(view.rowsUpward);
-    if (image.type == PixelType::unorm8 && !view.background)
-        divideByAlpha(image);
-    timings.draw = drawn - start;
-    timings.readBack = now() - drawn;
-    return image;
 }
 
 } // namespace cotan

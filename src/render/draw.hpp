@@ -33,7 +33,7 @@ class Drawer {
     // What a shadow map depends on, besides the scene.
     struct ShadowView {
         gpu::vec4 x, y, z;
-        bool pointSampled = false;
+        bool pointSampled = false, finer = false;
         bool operator==(const ShadowView&) const = default;
     };
 
@@ -58,10 +58,13 @@ private:
         std::vector<Item> opaque;      // near to far
         std::vector<Item> mask;        // near to far
         std::vector<Item> translucent; // as in the scene
+        std::vector<Item> veils;       // of these what throws a shadow
         PixelArea area;                // of the picture, that all may cover
         PixelArea translucentArea;
     };
 
+    // sample: the one of kPlaces that is drawn as the only one.
+    Result<Image> drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings);
     DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
     void setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const;
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);

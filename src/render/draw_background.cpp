@@ -54,6 +54,8 @@ PipelineKey Drawer::surroundKey(const View& view) const
     PipelineKey key = backgroundKey(view);
     key.pass = Pass::surround;
     key.samples = vk::SampleCountFlagBits::e1;
+    key.levels = targets_->kind().shown == vk::Format::eR8G8B8A8Unorm;
+    key.format = targets_->kind().shown;
     return key;
 }
 

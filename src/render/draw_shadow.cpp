@@ -58,6 +58,7 @@ void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScen
         drawItems(commands, scene, lists.opaque, key);
         key.pass = Pass::shadowMask;
         drawItems(commands, scene, lists.mask, key);
+        drawItems(commands, scene, lists.veils, key);
         commands.endRendering();
     }
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,

@@ -23,8 +23,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 17> values;
-    std::array<vk::SpecializationMapEntry, 17> entries;
+    std::array<std::uint32_t, 18> values;
+    std::array<vk::SpecializationMapEntry, 18> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -44,7 +44,8 @@ struct Specialization {
                  static_cast<std::uint32_t>(key.backdrop),
                  key.ground,
                  key.samples != vk::SampleCountFlagBits::e1,
-                 key.specularAntialiasing}
+                 key.specularAntialiasing,
+                 key.levels}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
@@ -78,7 +79,8 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
     case Pass::compose:
         return {Shader::composeVert,
                 key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
-    case Pass::resolve: return {Shader::composeVert, Shader::resolveFrag};
+    case Pass::resolve:
+        return {Shader::composeVert, key.multisampledSource ? Shader::resolveMultisampledFrag : Shader::resolveFrag};
     case Pass::forward: break;
     }
     return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};

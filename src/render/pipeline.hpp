@@ -40,8 +40,9 @@ struct Layouts {
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
                               const vk::raii::DescriptorSetLayout& layout);
 
-// layers: translucent fragments into their lists; compose: these lists over the picture.
-// surround: the background in one sample, without depths; resolve: the samples of a pixel into one.
+// shadowMask: of what covers texels of the shadow map by its alpha. layers: translucent fragments into their lists;
+// compose: these lists over the picture. surround: the background in one sample, without depths; resolve: the samples
+// of a pixel into one.
 enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose, resolve };
 
 constexpr bool isShadow(Pass pass) { return pass == Pass::shadow || pass == Pass::shadowMask; }
@@ -65,8 +66,10 @@ struct PipelineKey {
     ToneMapping tone = ToneMapping::aces;
     int backdrop = 0; // BACKDROP_... of background.frag
     bool ground = false;
-    std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
-    bool extended = false;  // of materials with extensions
+    std::uint32_t maps = 0;          // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
+    bool extended = false;           // of materials with extensions
+    bool levels = false;             // writes a picture of 8 bits
+    bool multisampledSource = false; // of Pass::resolve
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
 

@@ -314,6 +314,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         gpu.alphaMode = m.alphaMode;
         gpu.doubleSided = m.doubleSided;
         gpu.translucent = m.translucent();
+        gpu.throwsShadow = m.throwsShadow();
         gpu.maps = mapsOf(m, textures_);
         gpu.set = allocateSet(*device_, pool_, layouts.materialOf(gpu.extended()));
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
@@ -351,17 +352,19 @@ void GpuScene::writeTextures(std::size_t material)
     std::vector<vk::WriteDescriptorSet> writes;
     for (std::uint32_t k = 0; k < count; ++k) {
         const BoundMap& map = maps_[material][k];
-        images[k] = {samplers_.get(map.sampler, pointSampled_), map.view, vk::ImageLayout::eShaderReadOnlyOptimal};
+        images[k] = {samplers_.get(map.sampler, pointSampled_, finer_), map.view,
+                     vk::ImageLayout::eShaderReadOnlyOptimal};
         writes.emplace_back(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
     }
     device_->device.updateDescriptorSets(writes, {});
 }
 
-void GpuScene::setPointSampled(bool pointSampled)
+void GpuScene::setSampling(bool pointSampled, bool finer)
 {
-    if (pointSampled == pointSampled_)
+    if (pointSampled == pointSampled_ && finer == finer_)
         return;
     pointSampled_ = pointSampled;
+    finer_ = finer;
     for (std::size_t i = 0; i < materials.size(); ++i)
         writeTextures(i);
 }

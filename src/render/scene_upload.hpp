@@ -43,6 +43,7 @@ struct GpuMaterial {
     AlphaMode alphaMode = AlphaMode::opaque;
     bool doubleSided = false;
     bool translucent = false;
+    bool throwsShadow = true;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...
     vk::DescriptorSet set;  // owned by the scene's pool; as Layouts::materialOf(extended())
 
@@ -64,8 +65,8 @@ public:
     // For the next scene; this one cannot be drawn any more.
     Textures takeTextures() { return std::move(textures_); }
 
-    // Switches the textures of all materials between the samplers' filters and nearest texels.
-    void setPointSampled(bool pointSampled);
+    // Switches the textures of all materials between the samplers' filters and nearest texels, and to finer levels.
+    void setSampling(bool pointSampled, bool finer);
 
     std::vector<Buffer> buffers;
     std::vector<GpuMesh> meshes;
@@ -92,7 +93,7 @@ private:
     Buffer materialBuffer_;
     std::vector<std::array<BoundMap, COTAN_MAP_COUNT>> maps_; // of each material, in the order of the bindings
     vk::raii::DescriptorPool pool_{nullptr};
-    bool pointSampled_ = false;
+    bool pointSampled_ = false, finer_ = false;
 };
 
 } // namespace cotan

@@ -19,6 +19,7 @@
 #include "cotanForwardMaskedFrag.h"
 #include "cotanForwardVert.h"
 #include "cotanResolveFrag.h"
+#include "cotanResolveMultisampledFrag.h"
 #include "cotanShadowFrag.h"
 #include "cotanShadowVert.h"
 
@@ -44,6 +45,7 @@ std::span<const std::uint32_t> spirv(Shader shader)
     case Shader::composeFrag: return cotanComposeFrag;
     case Shader::composeMultisampledFrag: return cotanComposeMultisampledFrag;
     case Shader::resolveFrag: return cotanResolveFrag;
+    case Shader::resolveMultisampledFrag: return cotanResolveMultisampledFrag;
     case Shader::backgroundVert: return cotanBackgroundVert;
     case Shader::backgroundFrag: return cotanBackgroundFrag;
     case Shader::shadowVert: return cotanShadowVert;

@@ -27,13 +27,14 @@ enum class Shader {
     composeFrag,
     composeMultisampledFrag,
     resolveFrag,
+    resolveMultisampledFrag,
     backgroundVert,
     backgroundFrag,
     shadowVert,
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 21;
+inline constexpr int kShaderCount = 22;
 
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);

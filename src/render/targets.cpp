@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "cotan/scene/sample_places.hpp"
+
 namespace cotan {
 
 namespace {
@@ -13,7 +15,10 @@ constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
 constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
 constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
-vk::DeviceSize bytesPerPixel(vk::Format format) { return format == vk::Format::eR32G32B32A32Sfloat ? 16 : 4; }
+vk::DeviceSize bytesPerPixel(vk::Format format)
+{
+    return format == vk::Format::eR32G32B32A32Sfloat ? 16 : format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
+}
 
 TextureInfo attachmentInfo(const Targets::Kind& kind)
 {
@@ -28,18 +33,19 @@ TextureInfo attachmentInfo(const Targets::Kind& kind)
 
 vk::DeviceSize Targets::bytes(const Kind& kind)
 {
-    const vk::DeviceSize color = bytesPerPixel(kind.format);
+    const vk::DeviceSize color = bytesPerPixel(kind.format), shown = bytesPerPixel(kind.shown);
     const auto samples = static_cast<vk::DeviceSize>(kind.samples);
-    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * color);
+    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * shown);
 }
 
 Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
 {
     TextureInfo info = attachmentInfo(kind);
     info.usage = vk::ImageUsageFlagBits::eColorAttachment;
-    info.usage |= multisampled() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
+    info.usage |= resolves() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
     color_ = makeTexture(device, memory_, info);
-    if (multisampled()) {
+    if (resolves()) {
+        info.format = kind.shown;
         info.samples = vk::SampleCountFlagBits::e1;
         info.usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
         resolved_ = makeTexture(device, memory_, info);
@@ -51,7 +57,7 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
         depth.usage |= vk::ImageUsageFlagBits::eSampled;
     depth.aspect = vk::ImageAspectFlagBits::eDepth;
     depth_ = makeTexture(device, memory_, depth);
-    readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.format),
+    readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
                                vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
 
@@ -154,7 +160,7 @@ void Targets::copy(const vk::raii::CommandBuffer& commands)
 
 Image Targets::image(bool flipRows) const
 {
-    const bool floats = kind_.format == vk::Format::eR32G32B32A32Sfloat;
+    const bool floats = kind_.shown == vk::Format::eR32G32B32A32Sfloat;
     Image image =
         makeImage(int(kind_.width), int(kind_.height), floats ? PixelType::float32 : PixelType::unorm8, "render");
     const std::size_t row = kind_.width * image.bytesPerPixel();
@@ -172,8 +178,10 @@ Targets::Kind targetKind(const Device& device, const View& view)
     kind.width = static_cast<std::uint32_t>(view.width);
     kind.height = static_cast<std::uint32_t>(view.height);
     const bool shaded = view.output == Output::shaded;
-    kind.format = shaded && !view.linearOutput ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR32G32B32A32Sfloat;
-    if (shaded && view.samples > 1) {
+    const bool levels = shaded && !view.linearOutput && view.samples <= kMostSharedSamples;
+    kind.format = levels ? vk::Format::eR16G16B16A16Sfloat : vk::Format::eR32G32B32A32Sfloat;
+    kind.shown = levels ? vk::Format::eR8G8B8A8Unorm : kind.format;
+    if (shaded && view.samples > 1 && view.samples <= kMostSharedSamples) {
         const vk::SampleCountFlags can =
             device.physical
                 .getImageFormatProperties(kind.format, vk::ImageType::e2D, vk::ImageTiling::eOptimal,

@@ -151,6 +151,16 @@ void groundRows(gpu::CotanView& g, const GroundMap& map, const Axes& axes)
     g.tone.z = float(map.height - axes.eye.y);
 }
 
+// Moves the picture so that the middle of a pixel sees what lies `place` pixels from it in the raster.
+void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 place)
+{
+    const float x = float(2 * place.x / view.width), y = float(2 * place.y / view.height);
+    g.clipX -= g.clipW * x;
+    g.clipY -= g.clipW * y;
+    const gpu::vec4 seen = g.right * x + g.up * y; // both without w
+    g.forward += seen;
+}
+
 } // namespace
 
 Axes cameraAxes(const Camera& camera)
@@ -162,7 +172,7 @@ Axes cameraAxes(const Camera& camera)
     return axes;
 }
 
-gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds)
+gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds, glm::dvec2 place)
 {
     gpu::CotanView g{};
     if (view.camera.orthographic)
@@ -174,7 +184,9 @@ gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& b
     g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
     if (view.ground)
         groundRows(g, *view.ground, axes);
-    g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), 0, 0, 0);
+    moveSample(g, view, place);
+    g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), view.dither ? 1 : 0,
+                          view.rowsUpward ? static_cast<gpu::uint>(view.height) : 0, 0);
     return g;
 }
 

@@ -24,8 +24,10 @@ struct Axes {
 };
 Axes cameraAxes(const Camera& camera);
 
-// View, shadow map and background constants. bounds: of the whole scene, world space; may be empty.
-gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds);
+// View, shadow map and background constants. bounds: of the whole scene, world space; may be empty. place: what the
+// middle of a pixel sees, from there in pixels of the raster.
+gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds,
+                             glm::dvec2 place = glm::dvec2(0));
 
 // Pixels of the raster, from the first to before the last.
 struct PixelArea {

@@ -37,7 +37,7 @@ void centre(const Scene& scene, const Stand& stand, double distance, double& x, 
         std::array<Seen, 4> furthest; // east, west, north, south
         std::array<double, 4> slope;
         slope.fill(-std::numeric_limits<double>::infinity());
-        forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+        forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
             const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.middle;
             const double before = distance - glm::dot(p, stand.back);
             const double right = glm::dot(p, stand.right), up = glm::dot(p, stand.up);
@@ -68,7 +68,7 @@ Camera frontCamera(const Scene& scene, int width, int height)
     Camera camera;
     camera.name = "front";
     camera.verticalFieldOfView = float(kFieldOfView);
-    const Bounds box = bounds(scene);
+    const Bounds box = framedBounds(scene);
     if (box.empty())
         return camera;
     const glm::vec3 size = box.high - box.low;
@@ -82,7 +82,7 @@ Camera frontCamera(const Scene& scene, int width, int height)
     const double tanX = tanY * (width > 0 && height > 0 ? double(width) / height : 1.0);
     const double least = -std::numeric_limits<double>::infinity();
     double east = least, west = least, north = least, south = least, nearest = least;
-    forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+    forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
         const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - middle;
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
             return;

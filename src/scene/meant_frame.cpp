@@ -17,6 +17,15 @@ constexpr float kOneCopy = 1.01f; // a little over: uv of a chart that fills the
 
 bool hasNormalMap(const Material& m) { return m.normalMap.present() || m.coat.normalMap.present(); }
 
+// What the material says, or else its map.
+std::optional<Frame> namedBy(const Scene& scene, const Material& m)
+{
+    if (m.normalFrame || !hasNormalMap(m))
+        return hasNormalMap(m) ? m.normalFrame : std::nullopt;
+    const std::size_t image = std::size_t((m.normalMap.present() ? m.normalMap : m.coat.normalMap).image);
+    return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
+}
+
 // In the world, of each material.
 std::vector<double> areasOf(const Scene& scene)
 {
@@ -37,8 +46,7 @@ std::vector<double> areasOf(const Scene& scene)
 
 std::optional<NamedFrame> namedFrame(const Scene& scene)
 {
-    const auto names = [](const Material& m) { return hasNormalMap(m) && m.normalFrame; };
-    if (std::ranges::none_of(scene.materials, names))
+    if (std::ranges::none_of(scene.materials, [&](const Material& m) { return namedBy(scene, m).has_value(); }))
         return std::nullopt;
     const std::vector<double> areas = areasOf(scene);
     std::array<double, kFrameCount> area{};
@@ -47,9 +55,9 @@ std::optional<NamedFrame> namedFrame(const Scene& scene)
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
         all += hasNormalMap(m) ? 1 : 0;
-        if (names(m)) {
-            area[std::size_t(*m.normalFrame)] += areas[i];
-            ++materials[std::size_t(*m.normalFrame)];
+        if (const auto frame = namedBy(scene, m)) {
+            area[std::size_t(*frame)] += areas[i];
+            ++materials[std::size_t(*frame)];
         }
     }
     std::size_t best = 0;

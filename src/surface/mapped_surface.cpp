@@ -112,11 +112,9 @@ glm::dvec4 tangentAt(const MappedSurface& s, Frame frame, TangentOrigin source, 
 {
     if (source == TangentOrigin::stored && s.hasStored())
         return storedAt(s, triangle, barycentric);
-    const CornerValues<glm::vec4>& made = s.shared->generated[std::size_t(frame)];
-    if (made.empty())
+    if (!s.hasGenerated(frame))
         return {0, 0, 0, 1};
-    return blended(triangle, barycentric,
-                   [&](std::size_t corner) { return moved(s.linear, valueAt(*s.shared, made, corner)); });
+    return blended(triangle, barycentric, [&](std::size_t corner) { return s.generated(frame, corner); });
 }
 
 f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
@@ -190,6 +188,11 @@ bool MappedSurface::hasStored() const
 glm::dvec4 MappedSurface::stored(std::size_t corner) const
 {
     return moved(linear, shared->mesh->tangents[vertexOf(corner)]);
+}
+
+glm::dvec4 MappedSurface::generated(Frame frame, std::size_t corner) const
+{
+    return moved(linear, valueAt(*shared, shared->generated[std::size_t(frame)], corner));
 }
 
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,

@@ -1,8 +1,17 @@
 #include "compare.hpp"
 
+#include <algorithm>
+#include <cstdint>
+
 #include "cotan/report/angles.hpp"
 
 namespace cotan {
+
+namespace {
+
+constexpr std::uint8_t kOtherColor[4] = {255, 0, 255, 255};
+
+} // namespace
 
 View normalView(const Camera& camera, Frame frame, int side)
 {
@@ -29,6 +38,20 @@ void ViewComparison::add(const Image& expected, const Image& drawn)
     for (const float d : degrees)
         if (d >= 0)
             all_.push_back(d);
+}
+
+void ViewComparison::add(const Image& expected, const Image& drawn, const SeenHigh& seen)
+{
+    add(expected, drawn);
+    ComparedView& view = result_.views.back();
+    view.expected = directionsAsColor(seen.normals);
+    view.others = seen.others;
+    view.pixels = seen.compared;
+    for (std::size_t i = 0; i < seen.other.size(); ++i)
+        if (seen.other[i])
+            std::copy_n(kOtherColor, 4, view.difference.bytes8() + 4 * i);
+    result_.others += seen.others;
+    result_.pixels += seen.compared;
 }
 
 ComparedViews ViewComparison::finish()

@@ -1,6 +1,7 @@
 // What both ways to verify share: a painter that looks at a scene, the view that is drawn, and the comparison.
 #pragma once
 
+#include "cotan/bake/bake.hpp"
 #include "cotan/draw/painter.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/verify/compared_views.hpp"
@@ -34,6 +35,8 @@ public:
     explicit ViewComparison(bool mapped) { result_.mapped = mapped; }
     // Two pictures of directions of the same size.
     void add(const Image& expected, const Image& drawn);
+    // The same for a bake: the high surface itself is shown, and pixels with another surface are magenta.
+    void add(const Image& expected, const Image& drawn, const SeenHigh& seen);
     ComparedViews finish();
 
 private:

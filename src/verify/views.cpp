@@ -38,8 +38,14 @@ Status writeViews(const ComparedViews& compared, const ViewNames& names, const s
 Json viewsOf(const ComparedViews& compared)
 {
     Json views = Json::array();
-    for (const ComparedView& v : compared.views)
-        views.push_back(toJson(v.degrees));
+    for (const ComparedView& v : compared.views) {
+        Json view = toJson(v.degrees);
+        if (compared.pixels > 0) {
+            view["surface_known"] = v.pixels;
+            view["another_surface"] = v.others;
+        }
+        views.push_back(std::move(view));
+    }
     return views;
 }
 

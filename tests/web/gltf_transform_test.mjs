@@ -34,6 +34,18 @@ async function hillsDocument(mirrored = false) {
   return { document, mesh, primitive, texture };
 }
 
+/** Domes as a normal map; green up the picture or down. */
+function domes(size, up) {
+  const picture = { width: size, height: size, bits: 8, data: new Uint8Array(4 * size * size) };
+  for (let y = 0; y < size; ++y)
+    for (let x = 0; x < size; ++x) {
+      const [p, q] = [x, y].map((k) => 4 * ((k + 0.5) / size) % 2 - 1), r = Math.hypot(p, q) < 0.8 ? 1 : 0;
+      const n = [p * r, (up ? -1 : 1) * q * r, Math.sqrt(1 - r * (p * p + q * q))];
+      picture.data.set([...n.map((c) => Math.round(128 + 127 * c)), 255], 4 * (y * size + x));
+    }
+  return picture;
+}
+
 const cornersOf = (primitive, semantic, size) => {
   const out = [], element = [];
   for (const vertex of primitive.getIndices().getArray()) out.push(...primitive.getAttribute(semantic).getElement(vertex, element).slice(0, size));
@@ -73,6 +85,57 @@ const cases = {
     assert.deepEqual(await new NodeIO().writeBinary(document), before);
     assert.equal(found.primitives.length, 1);
     assert.ok(found.recommendation.length > 20);
+  },
+
+  // Domes in the relief, green down: bumps look like dents.
+  async aModelWithGreenReversedFailsTheCheck() {
+    for (const up of [true, false]) {
+      const { document, texture } = await hillsDocument();
+      texture.setImage(await cotan.encodePng(domes(64, up)));
+      let found;
+      const checked = document.transform(transforms.lintNormals({ limit: 180, report: (report) => { found = report; } }));
+      if (up) await checked;
+      else await assert.rejects(checked, (error) => error instanceof cotan.CotanError && error.code === 'limit' && /normal map normal.png: green points the other way than declared/.test(error.message));
+      assert.equal(found.over_limit.length, up ? 0 : 1);
+      assert.equal(found.warnings.some((line) => /Green seems to point the other way in normal.png/.test(line)), !up, found.warnings.join());
+      assert.deepEqual(cotan.overLimits(found), []); // without a limit nothing is over it
+      assert.ok(cotan.overLimits(found, { limit: 0, frame: 'cotangent' }).length > found.over_limit.length);
+    }
+    const { document } = await hillsDocument();
+    for (const [options, field] of [[{ limit: 200 }, 'options.limit'], [{ limitArea: -1 }, 'options.limitArea'], [{ limit: 1, frame: 'smoth' }, 'options.frame']])
+      await assert.rejects(document.transform(transforms.lintNormals(options)), (error) => error.code === 'usage' && error.field === field);
+  },
+
+  // 2c - 1 makes 127.5 of zero, the exact expansion 128: half a step apart where a map is read as it was written.
+  async newMapsAreForEnginesThatTake2cMinus1() {
+    const found = {};
+    for (const unsigned of [undefined, 'biased', 'exact']) {
+      const { document, texture } = await hillsDocument();
+      await document.transform(transforms.tangents(), transforms.untangent({ to: 'smooth', unsigned }));
+      found[unsigned] = [(await cotan.decodePng(texture.getImage())).data, document.getRoot().listMaterials()[0].getExtras()];
+    }
+    assert.deepEqual(found.undefined, found.biased);
+    assert.notDeepEqual(found.exact[0], found.biased[0]);
+    assert.deepEqual(found.biased[1], { cotanFrame: 'smooth', cotanUnsigned: 'biased' });
+    assert.deepEqual(found.exact[1], { cotanFrame: 'smooth' });
+    const { document } = await hillsDocument();
+    await assert.rejects(document.transform(transforms.untangent({ unsigned: 'half' })), (error) => error.code === 'usage');
+  },
+
+  async materialsNameTheFrameOfTheirMaps() {
+    const { document } = await hillsDocument(), [material] = document.getRoot().listMaterials(), { decodePng } = cotan;
+    await document.transform(transforms.tangents());
+    material.setExtras({ kept: [1, 2] });
+    const original = await decodePng(document.getRoot().listTextures()[0].getImage());
+    await document.transform(transforms.untangent({ to: 'smooth' }));
+    assert.deepEqual(material.getExtras(), { kept: [1, 2], cotanFrame: 'smooth', cotanUnsigned: 'biased' });
+    const again = await new NodeIO().readBinary(await new NodeIO().writeBinary(document)); // through a file
+    assert.equal(again.getRoot().listMaterials()[0].getExtras().cotanFrame, 'smooth');
+    await again.transform(transforms.untangent({ to: 'mikktspace' })); // from what it names
+    assert.deepEqual(again.getRoot().listMaterials()[0].getExtras(), { kept: [1, 2], cotanUnsigned: 'biased' });
+    const back = await decodePng(again.getRoot().listTextures()[0].getImage());
+    const steps = back.data.reduce((most, x, k) => Math.max(most, Math.abs(x - original.data[k])), 0);
+    assert.ok(steps <= 3, `${steps} steps of 8 bits there and back`);
   },
 
   async provokingGivesEachTriangleAVertex() {
@@ -167,6 +230,32 @@ const cases = {
     const { recommendation } = await cotan.lint(fs.readFileSync(file('in.glb')));
     assert.ok(run('lint-normals', 'in.glb').includes(recommendation.split('\n')[0]));
     assert.match(run('--help'), /untangent/);
+  },
+
+  async itsCheckHasAThresholdAReportAndAnExitCode() {
+    const program = path.join(modules, '@gltf-transform/cli/bin/cli.js');
+    if (!fs.existsSync(program)) skip('@gltf-transform/cli is not installed');
+    const file = (name) => path.join(folder, name), { document, texture } = await hillsDocument();
+    await new NodeIO().write(file('right.glb'), document);
+    texture.setImage(await cotan.encodePng(domes(64, false)));
+    await new NodeIO().write(file('down.glb'), document);
+    const run = (...words) => {
+      const { status, stdout, stderr } = spawnSync(process.execPath, [program, 'lint-normals', ...words, '--config', 'node_modules/cotan/gltf-transform/config.mjs'],
+        { cwd: folder, encoding: 'utf8', env: { ...process.env, NO_COLOR: '1' } });
+      return { status, stdout, stderr };
+    };
+    assert.equal(run('right.glb', '--limit', '90').status, 0);
+    assert.equal(run('down.glb').status, 0); // no limit, no check
+    const tight = run('right.glb', '--limit', '0', '--frame', 'cotangent', '--json', 'report.json');
+    assert.equal(tight.status, 5, tight.stdout + tight.stderr);
+    assert.match(tight.stderr, /lint-normals: hills.*: 95 % of the error of reading with cotangent .* degrees, limit 0/);
+    const report = JSON.parse(fs.readFileSync(file('report.json')));
+    assert.deepEqual(report.over_limit, (await cotan.lint(fs.readFileSync(file('right.glb')), { limit: 0, frame: 'cotangent' })).over_limit);
+    assert.equal(report.command, 'lint-normals');
+    const down = run('down.glb', '--limit', '90');
+    assert.equal(down.status, 5);
+    assert.match(down.stderr, /green points the other way than declared/);
+    assert.equal(run('right.glb', '--limit', '200').status, 1);
   },
 
   async webpMapsBecomePng() {

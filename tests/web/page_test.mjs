@@ -174,8 +174,11 @@ await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
   await page.click('#sample-model');
   await settled(page);
   await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
-  const apart = Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
-  if (!(apart > 1 && apart < 30)) return `stored tangents and cotangents on a stretched texture are said to be apart by ${apart} degrees`;
+  const apartNow = async () => Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
+  if (!(await apartNow() < 0.5)) return `stored tangents and what the page advises are said to be apart by ${await apartNow()} degrees`;
+  await page.locator('.view select').nth(1).selectOption('cotangent');
+  await page.waitForFunction(() => document.querySelector('.view').dataset.shows === 'tangents cotangent');
+  if (!(await apartNow() > 1 && await apartNow() < 30)) return `stored tangents and cotangents on a stretched texture are said to be apart by ${await apartNow()} degrees`;
   if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
   await page.screenshot({ path: join(scratch, 'page-model.png') });
   await page.check('text=Show the angle between them');
@@ -193,6 +196,62 @@ await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
   }
   await page.context().close();
 });
+
+// "As they are" above "convert" is what the page said of its own sample.
+await fact('whatThePageAdvisesIsWhatItShowsAndSaysOnce', async () => {
+  const page = await open(), wrong = [];
+  const cat = join(data, 'models/SketchfabCat'), beside = folder => readdirSync(folder).map(name => join(folder, name)).filter(path => statSync(path).isFile());
+  const cases = [['the sample', null, /read as they are, with the frame orthonormal|made anew for the frame/, 0.5]];
+  if (hasData) cases.push(
+    ['BoomBox', beside(join(data, 'models/BoomBox')), /read as they are, with the frame orthonormal/, 0.3],
+    ['the cat', [...beside(cat), ...beside(join(cat, 'textures'))], /Green and the stored tangents are both reversed: together they are right/, 1],
+    ['the chess set', [join(data, 'compressed/chess_board_draco.glb')], /./, 1],
+  );
+  for (const [name, files, words, most] of cases) {
+    if (files) await drop(page, files);
+    else await page.click('#sample-model').then(() => settled(page));
+    if (await problem(page)) { wrong.push(`${name}: ${await problem(page)}`); continue; }
+    await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''), undefined, { timeout: 120000 });
+    const verdict = await page.textContent('.verdict'), advice = await page.textContent('.verdict + p'), shows = await page.getAttribute('.view', 'data-shows');
+    const apart = Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
+    if (process.env.VERBOSE) console.log(`${name}: ${apart} degrees; ${verdict} ${advice}`);
+    if (!words.test(verdict)) wrong.push(`${name}: says ${verdict}`);
+    if (/as they are/.test(verdict) === /Convert /.test(advice) && !/reversed|contradict/.test(verdict)) wrong.push(`${name}: says "${verdict}" and "${advice}"`);
+    if (shows !== 'tangents auto') wrong.push(`${name}: shows ${shows}`);
+    if (!(apart < most)) wrong.push(`${name}: what is advised and what has tangents are apart by ${apart} degrees`);
+    if (/SketchfabCat|the cat/.test(name) && !/TANGENT\.w contradicts .* green is read the other way/.test(await page.textContent('.view'))) wrong.push(`${name}: does not say that green is read the other way`);
+    if (name === 'BoomBox' && !/MikkTSpace tangents, made here/.test(await page.textContent('.view .labels'))) wrong.push(`${name}: is compared with ${await page.textContent('.view .labels')}`);
+    await page.screenshot({ path: join(scratch, `page-advised-${name.replace(/\W/g, '')}.png`) });
+  }
+  await page.context().close();
+  return wrong.join('\n');
+});
+
+await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
+  const page = await open(), wrong = [];
+  let shown;
+  for (const [file, limit] of [[model('NormalTangentMirrorTest'), 0.001], [model('NormalTangentMirrorTest'), 90], [model('TwoSidedPlane'), 2]]) {
+    if (shown !== file) await drop(page, [shown = file]);
+    await page.locator('.result input[type=number]').nth(0).fill(String(limit));
+    await page.locator('.result input[type=number]').nth(1).fill('5');
+    await page.locator('.result input[type=number]').nth(1).blur();
+    await page.waitForFunction(() => /The check (passes|fails)/.test(document.querySelector('[data-check]').textContent));
+    await page.waitForTimeout(300);
+    const words = await page.textContent('[data-check]'), { name, bytes } = await saved(page, () => page.click('text=Download the report (JSON)')), ours = JSON.parse(bytes);
+    if (name !== `${basename(file, '.glb')}_lint.json`) wrong.push(`the report is called ${name}`);
+    try {
+      run('lint', file, '--frame', 'orthonormal', '--limit', String(limit), '--limit-area', '5', '--json', 'lint.json', '--overwrite', '--quiet');
+    } catch (error) {
+      if (error.status !== 5) throw error;
+    }
+    const tools = JSON.parse(readFileSync(join(scratch, 'lint.json'), 'utf8')).over_limit;
+    if (JSON.stringify(ours.over_limit) !== JSON.stringify(tools)) wrong.push(`${basename(file)}: ${ours.over_limit.join('; ')}\n expected ${tools.join('; ')}`);
+    if (/fails/.test(words) !== tools.length > 0) wrong.push(`${basename(file)}: says ${words}`);
+    if (ours.limits.limit !== limit || ours.limits.limitArea !== 5 || !(ours.primitives.length > 0)) wrong.push(`${basename(file)}: the report has ${JSON.stringify(ours).slice(0, 200)}`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+}, needsData);
 
 await fact('realModelsAreJudgedAndDrawn', async () => {
   const page = await open(), wrong = [];

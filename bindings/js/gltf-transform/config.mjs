@@ -1,5 +1,6 @@
 // The transforms on glTF-Transform's command line:
 //   gltf-transform untangent in.glb out.glb --to cotangent --config node_modules/cotan/gltf-transform/config.mjs
+import fs from 'node:fs';
 import { lintNormals, provoking, tangents, untangent } from './index.js';
 
 const both = (program, name, description) => program.command(name, description)
@@ -12,6 +13,25 @@ const run = (io, makeTransform) => async ({ args, options, logger }) => {
   if (args.output) await io.write(String(args.output), document);
 };
 
+// As of the tool.
+const kExit = { usage: 1, input: 2, unavailable: 3, output: 4, limit: 5 };
+
+/** A check: its report goes to a file or to standard output, its verdict into the exit code. */
+const check = (io) => async ({ args, options: { json, distance, limit, limitArea, frame }, logger }) => {
+  let found;
+  try {
+    const document = (await io.read(String(args.input))).setLogger(logger);
+    await document.transform(lintNormals({ distance, limit, limitArea, frame, report: (report) => { found = report; } }));
+  } catch (error) {
+    if (!(error.code in kExit)) throw error;
+    process.exitCode = kExit[error.code];
+    process.stderr.write(`lint-normals: ${error.message}\n`);
+  }
+  const text = `${JSON.stringify({ command: 'lint-normals', model: String(args.input), ...found }, null, 2)}\n`;
+  if (found && json === '-') process.stdout.write(text);
+  else if (found && json) fs.writeFileSync(String(json), text);
+};
+
 export default {
   onProgramReady: ({ program, io }) => {
     both(program, 'cotan-tangents', 'Give primitives tangents, indexed ones too')
@@ -19,14 +39,22 @@ export default {
       .option('--overwrite <overwrite>', 'Replace tangents that are there', { validator: program.BOOLEAN, default: false })
       .action(run(io, ({ kind, overwrite }) => tangents({ kind, overwrite })));
     both(program, 'untangent', 'Make normal maps for another frame and drop tangents')
-      .option('--from <frame>', 'Frame that the maps were made for', { default: 'mikktspace' })
+      .option('--from <frame>', 'Frame that the maps were made for; left out: the one that the materials name, else mikktspace')
       .option('--to <frame>', 'Frame that they shall be for', { default: 'cotangent' })
-      .action(run(io, ({ from, to }) => untangent({ from, to })));
+      .option('--unsigned <how>', 'How engines take the numbers of the new maps: biased, 2c - 1, or exact, where 128 is zero', { default: 'biased' })
+      .action(run(io, ({ from, to, unsigned }) => untangent({ from, to, unsigned })));
     both(program, 'provoking', 'Number vertices so that vertex k provokes triangle k')
       .option('--vertex <vertex>', 'first or last of the three', { default: 'first' })
       .action(run(io, ({ vertex }) => provoking({ vertex })));
-    program.command('lint-normals', 'Say what to expect without stored tangents')
+    program.command('lint-normals', 'Say what to expect without stored tangents; a check where a limit is set')
       .argument('<input>', 'Path to read glTF 2.0 (.glb, .gltf) model')
-      .action(run(io, () => lintNormals()));
+      .option('--limit <degrees>', 'Exit code 5 where the error with --frame exceeds it on more than 5 % of the area, and where green '
+        + 'points the other way than declared', { validator: program.NUMBER })
+      .option('--limit-area <percent>', 'Exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv '
+        + "exceed it of a primitive's area, and where green points the other way", { validator: program.NUMBER })
+      .option('--frame <frame>', 'Frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored', { default: 'orthonormal' })
+      .option('--distance <distance>', 'From eye to surface; 0: where the whole model fills the picture', { validator: program.NUMBER, default: 0 })
+      .option('--json <file>', 'Where the report goes; -: standard output')
+      .action(check(io));
   },
 };

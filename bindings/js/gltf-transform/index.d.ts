@@ -1,12 +1,12 @@
 import type { Transform } from '@gltf-transform/core';
-import type { ConvertReport, LintReport, Picture } from '../cotan.js';
+import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
 
 /** Gives every primitive tangents, indexed ones too: vertices are copied where the corners that share one differ.
  * Primitives that have some keep them, unless overwrite is true. What cannot have any is left, with a warning. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
 /** Makes the normal maps for another frame and drops TANGENT, as `cotan convert` does: see convert of the package
- * cotan. Gives new tangents where `to` reads some. Maps in WebP and AVIF become PNG. Those in KTX2 stay as they are, and so do
+ * cotan. Materials name the frame in their extras, as `cotanFrame`; `from` is by default the frame that they name. Gives new tangents where `to` reads some. Maps in WebP and AVIF become PNG. Those in KTX2 stay as they are, and so do
  * the tangents that they need: the report has them as unread_maps. */
 export function untangent(options?: {
   from?: string;
@@ -14,13 +14,16 @@ export function untangent(options?: {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  unsigned?: 'biased' | 'exact';
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   /** Gets the report of the conversion. Its notes are warnings of the document's logger too. */
   report?: (report: ConvertReport) => void;
 }): Transform;
 
-/** Says what to expect of the model when its maps are read without stored tangents; changes nothing. */
-export function lintNormals(options?: {
+/** Says what to expect of the model when its maps are read without stored tangents; changes nothing. With a limit it is a
+ * check: what is over it rejects with a CotanError whose code is `limit`, after `report` was called; see lint of the package
+ * cotan. */
+export function lintNormals(options?: Limits & {
   distance?: number;
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   report?: (report: LintReport) => void;

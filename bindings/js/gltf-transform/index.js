@@ -1,6 +1,6 @@
 // Transforms for glTF-Transform 4.5: see index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
-import { convert, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
+import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -175,13 +175,19 @@ function replaceMap(document, map, png) {
   texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.png`);
 }
 
-export function untangent({ from = 'mikktspace', to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
-  decode = decodePicture, report } = {}) {
+/** What readers of a material's maps must know, cotanFrame and cotanUnsigned, as the conversion has it. */
+function takeExtras(material, extras = {}) {
+  const ours = (entries, yes) => Object.fromEntries(Object.entries(entries).filter(([name]) => name.startsWith('cotan') === yes));
+  material.setExtras({ ...ours(material.getExtras(), false), ...ours(extras, true) });
+}
+
+export function untangent({ from, to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
+  unsigned = 'biased', decode = decodePicture, report } = {}) {
   return named('untangent', async (document) => {
     await ready;
     const { model, files } = await written(document, decode), made = [];
     const { glb, report: found } = await convert(model, {
-      files, from, to, bits, keepTangents, generateTangents, decode,
+      files, from, to, bits, keepTangents, generateTangents, unsigned, decode,
       encode: async (picture) => {
         made.push(await encodePng(picture));
         return made.at(-1);
@@ -195,20 +201,23 @@ export function untangent({ from = 'mikktspace', to = 'cotangent', bits = 0, kee
       if (!has) dropTangents(primitive);
       else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
     }));
+    document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
     document.getLogger().info(`untangent: ${maps.length} maps made for ${to}, ${found.maps.length - maps.length} kept`);
     report?.(found);
   });
 }
 
-export function lintNormals({ distance = 0, decode = decodePicture, report } = {}) {
+export function lintNormals({ distance = 0, limit, limitArea, frame = 'orthonormal', decode = decodePicture, report } = {}) {
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await written(document, decode);
-    const found = await lint(model, { files, distance, decode });
+    const found = await lint(model, { files, distance, limit, limitArea, frame, decode });
     document.getLogger().info(`lintNormals: ${found.recommendation}`);
     for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);
     report?.(found);
+    const [first, ...more] = found.over_limit;
+    if (first) throw new CotanError('limit', more.length > 0 ? `${first} and ${more.length} more` : first);
   });
 }
 

@@ -1,5 +1,5 @@
 // What the caller gives, looked at before it is used.
-import { usage, wordsFor } from './instance.js';
+import { usage, wordsFor } from './errors.js';
 
 const isList = (value) => Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
 

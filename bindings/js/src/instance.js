@@ -1,29 +1,12 @@
 // The library as WebAssembly: its memory, calls of include/cotan.h, errors.
 
+import { CotanError, usage, wordsFor } from './errors.js';
+
+export { CotanError, usage, wordsFor };
+
 const kCodes = ['ok', 'usage', 'input', 'unavailable', 'output', 'limit', 'stopped'];
 const kMessageBytes = 1024;
 const kNoSystem = 52; // ENOSYS of WASI; of other calls any number but 0 is a failure
-
-/** What went wrong: `code` is one of usage, input, unavailable, output, limit, stopped. */
-export class CotanError extends Error {
-  constructor(code, message) {
-    super(message);
-    this.name = 'CotanError';
-    this.code = code;
-    // "FILE: FIELD: expected THIS, found THAT", each of it where there is one
-    const parts = /^(?:(.*?\.(?:glb|gltf)): )?(?:(.*?): )?(?:.*\b)?expected (.*?)[,;] found (.*)$/s.exec(message);
-    if (parts) [, this.file, this.field, this.expected, this.found] = parts;
-  }
-}
-
-export const usage = (message) => new CotanError('usage', message);
-
-/** What a value is, in a few words. */
-export function wordsFor(value) {
-  if (value === null || value === undefined) return String(value);
-  if (typeof value === 'object') return value.constructor?.name ?? 'object';
-  return typeof value === 'string' ? `'${value}'` : typeof value === 'number' ? String(value) : typeof value;
-}
 
 /** Memory of one call, given back when it ends. */
 class Scratch {

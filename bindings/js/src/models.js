@@ -4,6 +4,7 @@ import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
+import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const bytesOf = (value, name) => {
   if (value instanceof ArrayBuffer) return new Uint8Array(value);
@@ -66,27 +67,29 @@ export function modelFunctions(library, host) {
 
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
-    const o = options(more, { ...kCommon, distance: 0 });
+    const o = options(more, { ...kCommon, distance: 0, ...kLimits });
+    const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
       const report = s.put(new Uint32Array(1)), settings = s.room(24);
       s.view(Uint32Array, settings, 6).set([24, 0, 0, 0, progressOf(s, o.progress), 0]);
       s.view(Float64Array, settings + 8, 1)[0] = o.distance;
       s.call('cotan_lint_gltf', at, model.length, files, settings, 0, report);
-      return json(takeBytes(s, report));
+      const found = json(takeBytes(s, report));
+      return { ...found, over_limit: overLimits(found, limits) };
     });
   }
 
   async function convert(given, more) {
     const model = bytesOf(given, 'model');
     const o = options(more, {
-      ...kCommon, from: 'mikktspace', to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng,
+      ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
     });
     const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
       const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
-        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0);
+        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'));
       const place = s.put(new Uint32Array(1));
       s.call('cotan_convert_begin', at, model.length, files, settings, 0, place);
       conversion = s.view(Uint32Array, place, 1)[0];

@@ -1,20 +1,34 @@
 // cotan/three: normal mapping without tangents for three.js and its WebGLRenderer.
 import type { Material, Object3D, WebGLRenderer } from 'three';
 
+export { CotanError } from '../tangents.js';
+
 /**
  * How a normal map is read.
+ * - `auto`: as the map was made. The frame that the material names (`material.userData.cotanFrame`: glTF's extras, as `convert`
+ *   writes them); else `orthonormal` for maps of models, which mean MikkTSpace; else, for maps that the texture coordinates
+ *   repeat on meshes that no GLTFLoader made, and on three's own shapes, `cotangent`.
+ * - `orthonormal`: the nearest to MikkTSpace, which most models with tangents were baked for.
  * - `cotangent`: as three.js itself reads maps of meshes without tangents, from screen derivatives; exact on stretched and
  *   sheared texture coordinates for maps that were made so (`cotan bake --frame cotangent`).
- * - `orthonormal`: the nearest to MikkTSpace, which most models with tangents were baked for.
+ * - `smooth`: gradients of u and v at the vertices, made here, 24 bytes each; no steps at edges. Skins are followed. Meshes
+ *   with morph targets and batches get `cotangent`, with a warning.
  * - `triangle`: the directions of `cotangent` from two vectors for each triangle, made here, 12 bytes at a vertex; no
- *   derivatives in the shader. Vertices come to be about as many as triangles. Texture matrices are read once, now. Meshes that
- *   deform, batches, and meshes with maps over different texture coordinates get `cotangent`, with a warning.
+ *   derivatives in the shader. Vertices come to be about as many as triangles. Meshes that deform, batches, and meshes with
+ *   maps over different texture coordinates get `cotangent`, with a warning.
+ * For `smooth` and `triangle` texture matrices are read once, now.
  */
-export type Frame = 'cotangent' | 'orthonormal' | 'triangle';
+export type Frame = 'auto' | 'cotangent' | 'orthonormal' | 'smooth' | 'triangle';
 
 export interface UntangleOptions {
-  /** Default: `orthonormal` for meshes that had tangents, `cotangent` for others, as three.js reads them. */
+  /** Default: `auto`; materials that have a frame from an earlier call keep it, unless `auto` is said. */
   frame?: Frame;
+  /** Which way green points, `gltf`: up the picture; `directx`: down. Default: as stored tangents say where they contradict
+   * the texture coordinates on at least 90 % of the area of a map; else as the model declares. */
+  convention?: 'gltf' | 'directx';
+  /** Gets lines that are worth knowing and no fault: green that is read the other way, a frame that is not the map's own.
+   * Default: console.info. */
+  note?: (line: string) => void;
 }
 
 /** What GLTFLoader gives, as far as it is needed here. */
@@ -25,10 +39,11 @@ export interface LoadedModel {
 /**
  * Removes the tangents of all meshes, and lets every material with a `normalScale` take its frame from Cotan: for bumps, clear
  * coat and anisotropy, right in mirrored transforms, on both sides, and in targets with y down. `normalScale.y` gets the sign
- * that tangents stood for. Materials that meshes share but want different things of are cloned. Call it again for meshes that
- * come later; what is done stays. Hooks of your own (`onBeforeCompile`) are kept, clones of materials that you make lose ours.
- * Throws an Error on anything but an Object3D or a loaded model, and on unknown frames; drawing throws where the shader of a
- * material has no place for the frame.
+ * that tangents stood for: what was drawn with them is what is drawn without. Materials that meshes share but want different
+ * things of are cloned. Call it again for meshes that come later; what is done stays. Hooks of your own (`onBeforeCompile`)
+ * are kept, clones of materials that you make lose ours.
+ * Throws a CotanError with code `usage` on anything but an Object3D or a loaded model, on unknown frames and on unknown
+ * options; drawing throws where the shader of a material has no place for the frame.
  */
 export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleOptions): T;
 
@@ -36,7 +51,8 @@ export function untangle<T extends Object3D | LoadedModel>(target: T, options?: 
 export function untangled(options?: UntangleOptions): (parser: unknown) => { name: string; afterRoot(model: LoadedModel): Promise<void> };
 
 /**
- * Replaces the frame of one material and nothing else. A mesh with tangents that is drawn with it does not use the frame: that
- * is said by console.warn. against: the bitangents that anisotropy counts on run against increasing v, as in glTF.
+ * Replaces the frame of one material and nothing else. `auto`, the default, is what the material names, else `orthonormal`;
+ * `smooth` and `triangle` need geometries that untangle() has prepared. A mesh with tangents that is drawn with it does not use
+ * the frame: that is said by console.warn. against: the bitangents that anisotropy counts on run against increasing v, as in glTF.
  */
 export function replaceFrame<T extends Material>(material: T, options?: { frame?: Frame; against?: boolean; from?: Material }): T;

@@ -1,25 +1,31 @@
 // Cotan for three.js and its WebGLRenderer: normal mapping without tangents. For WebGPURenderer: tsl.js.
 import { ShaderChunk } from 'three';
-import { untangleMeshes } from './meshes.js';
+import { options as checked } from '../src/arrays.js';
+import { frameFor } from './frames.js';
+import { untangleMeshes, untangleOptions } from './meshes.js';
 import { essl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
+export { CotanError } from '../src/errors.js';
+
 // Removes the tangents of `target` and lets its materials take their frame from Cotan. See index.d.ts.
-export function untangle(target, options = {}) {
-  return untangleMeshes(target, { ...options, provoking: 'last' }, replaceFrame);
+export function untangle(target, options) {
+  return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, replaceFrame);
 }
 
 // The same as a plugin: loader.register(untangled()).
-export const untangled = options => () => ({
-  name: 'COTAN_untangled',
-  async afterRoot(gltf) { untangle(gltf, options); },
-});
+export const untangled = options => {
+  untangleOptions(options);
+  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
+};
 
 const patched = new WeakMap();  // frame and hooks of the materials that are
 
 // Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned.
 // from: the material that this is a clone of, since clones have no hooks.
-export function replaceFrame(material, { frame = 'cotangent', against = false, from = material } = {}) {
+export function replaceFrame(material, options) {
+  const { frame: wished, against, from } = checked(options, { frame: undefined, against: false, from: material });
+  const frame = frameFor(material, wished);
   const { before, key } = patched.get(material) ?? patched.get(from) ?? { before: from.onBeforeCompile, key: from.customProgramCacheKey };
   patched.set(material, { frame, against, before, key });
   material.needsUpdate = true;
@@ -29,7 +35,7 @@ export function replaceFrame(material, { frame = 'cotangent', against = false, f
       console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
         + 'frame: call untangle() on it');
     patchFragment(shader, material, { frame, against });
-    if (frame === 'triangle') patchVertex(shader, material);
+    if (kCarried[frame]) patchVertex(shader, material, kCarried[frame]);
   };
   // three's own key is the text of onBeforeCompile, which is ours now.
   const own = key !== Object.getPrototypeOf(material).customProgramCacheKey;
@@ -47,9 +53,9 @@ function put(shader, stage, pattern, text, material) {
 const kInclude = '#include <normalmap_pars_fragment>', kFunction = /mat3 getTangentFrame\([^{]*\{[^}]*\}/;
 
 function patchFragment(shader, material, { frame, against }) {
-  const chunk = { text: ShaderChunk.normalmap_pars_fragment };
-  put(chunk, 'text', kFunction, `${essl[frame]}\n${frame === 'triangle' ? kTriangleFrame : frameOf(frame)}`, material);
-  put(shader, 'fragmentShader', kInclude, (frame === 'triangle' ? '#define COTAN_TRIANGLE\n' : '') + kVaryings('in') + chunk.text + kAnisotropyFrame, material);
+  const chunk = { text: ShaderChunk.normalmap_pars_fragment }, carried = kCarried[frame];
+  put(chunk, 'text', kFunction, `${essl[frame]}\n${carried ? carried.frame : frameOf(frame)}`, material);
+  put(shader, 'fragmentShader', kInclude, (carried ? carried.varyings('in') : '') + chunk.text + kAnisotropyFrame, material);
   // From here on three needs its frame for anisotropy only.
   const maps = '#include <normal_fragment_maps>';
   put(shader, 'fragmentShader', maps, `${maps}
@@ -81,31 +87,26 @@ const kAnisotropyFrame = `
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
 mat3 cotanAnisotropyFrame( mat3 f, vec3 n, float side ) {
 	vec3 t = cross( f[ 1 ], n );  // along increasing u, at right angles to the gradient of v
-	t = t * cotan_sign( dot( t, f[ 0 ] ) );
+	t = dot( t, f[ 0 ] ) < 0.0 ? - t : t;
 	t = cotan_normalize_or( t, cotan_normalize_or( f[ 0 ], vec3( 0.0 ) ) );
 	vec3 b = cross( n, t );
-	return mat3( t, b * ( cotan_sign( dot( b, f[ 1 ] ) ) * side ), n );
+	return mat3( t, dot( b, f[ 1 ] ) < 0.0 ? - side * b : side * b, n );
 }
 #endif
 `;
 
-const kVaryings = way => `
-#ifdef COTAN_TRIANGLE
-flat ${way} vec3 vCotanU;
-flat ${way} vec3 vCotanV;
-#endif
-`;
+const kSmoothFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
+	cotan_frame f = cotan_frame_smooth( n, vCotanU, vCotanV );
+	return mat3( f.t, f.b, f.n );
+}`;
 
-function patchVertex(shader, material) {
-  const begin = '#include <common>', normal = '#include <defaultnormal_vertex>';
-  put(shader, 'vertexShader', begin, `${begin}
-#define COTAN_TRIANGLE
-${kVaryings('out')}
-attribute uvec3 ${kTriangleAttribute};
-${essl.triangle}
-`, material);
-  put(shader, 'vertexShader', normal, `${normal}
-{
+// Frames that geometries carry: what the vertex shader reads and hands on.
+const kCarried = {
+  triangle: {
+    frame: kTriangleFrame,
+    varyings: way => `\nflat ${way} vec3 vCotanU;\nflat ${way} vec3 vCotanV;\n`,
+    attributes: `attribute uvec3 ${kTriangleAttribute};\n${essl.triangle}`,
+    moved: `{
 	vec2 a = unpackHalf2x16( ${kTriangleAttribute}.x ), b = unpackHalf2x16( ${kTriangleAttribute}.y ), c = unpackHalf2x16( ${kTriangleAttribute}.z );
 	mat3 move = mat3( modelViewMatrix );
 	#ifdef USE_INSTANCING
@@ -114,6 +115,31 @@ ${essl.triangle}
 	cotan_triangle moved = cotan_triangle_unit( move * vec3( a, b.x ), move * vec3( b.y, c ), cotan_sign( determinant( move ) ) );
 	vCotanU = moved.u;
 	vCotanV = moved.v;
-}
-`, material);
+}`,
+  },
+  smooth: {
+    frame: kSmoothFrame,
+    varyings: way => `\n${way} vec3 vCotanU;\n${way} vec3 vCotanV;\n`,
+    attributes: 'attribute vec3 cotanU;\nattribute vec3 cotanV;',
+    // Covectors move as three moves normals.
+    moved: `{
+	mat2x3 moved = mat2x3( cotanU, cotanV );
+	#ifdef USE_SKINNING
+		moved = mat3( skinMatrix ) * moved;
+	#endif
+	#ifdef USE_INSTANCING
+		mat3 each = mat3( instanceMatrix );
+		vec3 squares = vec3( dot( each[ 0 ], each[ 0 ] ), dot( each[ 1 ], each[ 1 ] ), dot( each[ 2 ], each[ 2 ] ) );
+		moved = each * mat2x3( moved[ 0 ] / squares, moved[ 1 ] / squares );
+	#endif
+	vCotanU = normalMatrix * moved[ 0 ];
+	vCotanV = normalMatrix * moved[ 1 ];
+}`,
+  },
+};
+
+function patchVertex(shader, material, { varyings, attributes, moved }) {
+  const begin = '#include <common>', normal = '#include <defaultnormal_vertex>';
+  put(shader, 'vertexShader', begin, `${begin}\n${varyings('out')}${attributes}\n`, material);
+  put(shader, 'vertexShader', normal, `${normal}\n${moved}\n`, material);
 }

@@ -1,110 +1,146 @@
 // What both renderers of three.js need before a frame is replaced: meshes without tangents, materials that mean the same
-// without them, and, for the frame `triangle`, geometries that carry it.
+// without them, and geometries that carry what the frames `triangle` and `smooth` read.
+import { choice, options as checked } from '../src/arrays.js';
+import { usage, wordsFor } from '../src/errors.js';
+import { kFrames, kKey, mapOf, meantFrame, namedFrame } from './frames.js';
+import { ofGltf, StoredGreens } from './greens.js';
+import { readingOf, uvNameOf } from './mesh_data.js';
+import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
 
-// Which frame a material has from us, and whether bitangents run against v there.
+const kScales = { normalScale: 'normalMap', clearcoatNormalScale: 'clearcoatNormalMap' };
+const kConventions = ['gltf', 'directx'];
+
+// What is known of materials that have a frame from us: the frame; whether bitangents run against v there; by scale, whether
+// green as the file has it runs along v (1) or against it (-1), which the scale has been multiplied with.
 const known = new WeakMap();
 
+// Options of untangle(), with no name that is not known and no value that means nothing.
+export function untangleOptions(given, more = {}) {
+  const o = checked(given, { frame: undefined, convention: undefined, note: undefined, ...more });
+  o.note ??= line => console.info(`Cotan: ${line}`);
+  if (o.frame !== undefined) choice(o.frame, 'options.frame', kFrames);
+  if (o.convention !== undefined) choice(o.convention, 'options.convention', kConventions);
+  if (typeof o.note !== 'function') throw usage(`options.note: expected a function, found ${wordsFor(o.note)}`);
+  return o;
+}
+
 // Removes the tangents of all meshes of `target`, an Object3D or what GLTFLoader gives, and calls replace(material, found)
-// for every material with a normal map's scale. found.frame: 'cotangent', 'orthonormal' or 'triangle';
-// found.against: bitangents, as the anisotropy of the material means them, run against increasing v.
-export function untangleMeshes(target, { frame, provoking = 'last', instances = true }, replace) {
-  const names = ['cotangent', 'orthonormal', 'triangle'];
-  if (frame !== undefined && !names.includes(frame)) throw new Error(`Cotan: frame: expected ${names.join(', ')}, found ${frame}`);
+// for every material with a normal map's scale. found.frame: one of kDrawn; found.against: bitangents, as the anisotropy of
+// the material means them, run against increasing v. o: as untangleOptions has them.
+// provoking: the vertex of a triangle that flat values are taken from. instances, triangles, deformed: whether the renderer
+// can draw carried frames of instances, the frame `triangle`, and `smooth` of skins.
+export function untangleMeshes(target, o, { provoking = 'last', instances = true, deformed = true, triangles = true }, replace) {
   const roots = target?.isObject3D ? [target] : target?.scenes;
-  if (!roots) throw new Error('Cotan: untangle: expected an Object3D or what GLTFLoader gives');
+  if (!roots) throw usage(`target: expected an Object3D or what GLTFLoader gives, found ${wordsFor(target)}`);
   const meshes = new Set();
   for (const root of roots) root.traverse(child => { if (child.isMesh) meshes.add(child); });
-  const stored = new Map();
-  for (const { geometry } of meshes)
-    if (geometry.attributes.tangent && !stored.has(geometry)) stored.set(geometry, bitangentsRunAgainstV(geometry));
-  const copies = new Map();     // of materials, by what their meshes want
-  const earlier = new Map();    // what is known of materials before this
-  const triangles = new Map();  // geometries with triangle vectors
+  const said = new Set(), once = say => line => { if (!said.has(line)) say(line); said.add(line); };
+  const all = { o, provoking, instances, deformed, triangles, loaded: !target.isObject3D, greens: new StoredGreens(), made: new Map(),
+    note: once(o.note), warn: once(line => console.warn(`Cotan: ${line}`)) };
+  for (const { geometry, material } of meshes)
+    if (geometry.attributes.tangent)
+      for (const one of [material].flat())
+        for (const name of Object.values(kScales)) if (one[name]) all.greens.add(geometry, one[name], one);
+  if (!o.convention) all.greens.notes().forEach(all.note);
+  const copies = new Map();   // of materials, by what their meshes want
+  const earlier = new Map();  // what is known of materials before this
+  const stored = new Set();
   for (const mesh of meshes) {
-    const had = stored.has(mesh.geometry), against = stored.get(mesh.geometry);
-    const all = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
-    if (!all.some(material => material.normalScale)) continue;
-    // A material that has triangles already needs them in every mesh.
-    const missing = !mesh.geometry.attributes[kTriangleAttribute] && all.some(material => known.get(material)?.frame === 'triangle');
-    const wished = frame === 'triangle' || frame === undefined && missing ? onTriangles(mesh, all, provoking, instances, triangles) : frame;
-    const materials = all.map(material => {
+    const materials = [mesh.material].flat(), { geometry } = mesh;
+    if (geometry.attributes.tangent) stored.add(geometry);
+    if (!materials.some(material => material.normalScale)) continue;
+    for (const material of materials) if (!earlier.has(material)) earlier.set(material, known.get(material));
+    const frames = framesFor(mesh, materials, earlier, all);
+    const copied = materials.map((material, k) => {
       if (!material.normalScale) return material;
-      if (!earlier.has(material)) earlier.set(material, known.get(material));
-      const before = earlier.get(material);
-      const found = {
-        frame: wished ?? (had ? 'orthonormal' : before?.frame ?? 'cotangent'),
-        against: had ? against : before?.against ?? !target.isObject3D,
-      };
-      // Green along the bitangent becomes green along v, which is how three reads it without tangents.
-      const turned = had && against !== (before?.against ?? false);
-      return copyFor(material, found, turned, copies, replace);
+      return copyFor(material, { frame: frames[k], ...signsOf(geometry, material, earlier.get(material), all) }, copies, replace);
     });
-    mesh.material = Array.isArray(mesh.material) ? materials : materials[0];
+    mesh.material = Array.isArray(mesh.material) ? copied : copied[0];
   }
-  for (const geometry of stored.keys()) geometry.deleteAttribute('tangent');
+  for (const geometry of stored) geometry.deleteAttribute('tangent');
   return target;
 }
 
-// The material for meshes that want the same of it: itself for the first of them, copies for others.
-function copyFor(material, found, turned, copies, replace) {
-  const scales = ['normalScale', 'clearcoatNormalScale'].filter(name => material[name]);
-  if (!copies.has(material)) copies.set(material, { made: new Map(), scales: scales.map(name => material[name].clone()) });
-  const { made, scales: asFound } = copies.get(material);
-  const wants = [found.frame, found.against, turned].join();
-  if (!made.has(wants)) {
-    const copy = made.size === 0 ? material : material.clone();
-    made.set(wants, copy);
-    scales.forEach((name, k) => {
-      copy[name].copy(asFound[k]);
-      if (turned) copy[name].y = -copy[name].y;
-    });
-    known.set(copy, found);
-    replace(copy, { ...found, from: material });
+// The frame of each material of a mesh, whose geometry gets what they read.
+function framesFor(mesh, materials, earlier, all) {
+  const tangents = !!mesh.geometry.attributes.tangent;
+  const frames = materials.map(material => material.normalScale && wishedFrame(mesh.geometry, material, earlier.get(material), all));
+  for (const [frame, name, give] of [['smooth', kSmoothAttributes[0], withSmooth], ['triangle', kTriangleAttribute, withTriangles]]) {
+    if (!frames.includes(frame) || mesh.geometry.attributes[name] && !tangents) continue;
+    const readers = materials.filter((_, k) => frames[k] === frame), why = cannot(mesh, readers, frame, all);
+    if (why) {
+      all.warn(`mesh "${mesh.name}" ${why}: its frame is cotangent, not ${frame}`);
+      frames.forEach((found, k) => { if (found === frame) frames[k] = 'cotangent'; });
+      continue;
+    }
+    const map = mapOf(readers[0]), key = [mesh.geometry.uuid, readingOf(map), frame].join();
+    if (!all.made.has(key)) all.made.set(key, give(mesh.geometry, map, all.provoking));
+    mesh.geometry = all.made.get(key);
   }
-  return made.get(wants);
+  return frames;
 }
 
-// Gives the mesh a geometry with the vectors of its triangles where that can be; the frame that it gets.
-function onTriangles(mesh, materials, provoking, instances, made) {
-  const why = !instances && mesh.isInstancedMesh ? 'has instances, whose transforms nodes do not tell' : cannot(mesh, materials);
-  if (why) {
-    console.warn(`Cotan: mesh "${mesh.name}" ${why}: its frame is cotangent, not triangle`);
-    return 'cotangent';
-  }
-  const map = materials[0].normalMap ?? materials[0].clearcoatNormalMap;
-  if (map?.matrixAutoUpdate) map.updateMatrix();
-  const channel = map?.channel ?? 0, [a, b, , c, d] = map?.matrix.elements ?? [1, 0, 0, 0, 1];
-  const key = [mesh.geometry.uuid, channel, a, b, c, d, provoking].join();
-  if (!made.has(key)) made.set(key, withTriangles(mesh.geometry, channel ? `uv${channel}` : 'uv', [a, c, b, d], provoking));
-  mesh.geometry = made.get(key);
-  return 'triangle';
+// before: what is known of the material, which stays where nothing else is wished for and no tangents say more.
+function wishedFrame(geometry, material, before, { o, warn, note }) {
+  const tangents = !!geometry.attributes.tangent, named = namedFrame(material, warn);
+  if (o.frame === undefined && before && !tangents) return before.frame;
+  if (o.frame === undefined || o.frame === 'auto') return named ?? meantFrame(geometry, mapOf(material), tangents);
+  if (named && named !== o.frame) note(`material "${material.name}": its maps are for the frame ${material.userData[kKey]} (${kKey}), and read with ${o.frame}`);
+  return o.frame;
 }
 
-function cannot(mesh, materials) {
-  if (mesh.isSkinnedMesh || Object.keys(mesh.geometry.morphAttributes).length) return 'deforms';
+// Why a mesh cannot have a frame that its geometry carries; empty where it can.
+function cannot(mesh, materials, frame, { instances, deformed, triangles }) {
+  if (frame === 'triangle' && !triangles) return 'needs the option renderer';
+  if (!instances && mesh.isInstancedMesh) return 'has instances, whose transforms nodes do not tell';
+  if (Object.keys(mesh.geometry.morphAttributes).length || mesh.isSkinnedMesh && (frame === 'triangle' || !deformed)) return 'deforms';
   if (mesh.isBatchedMesh) return 'is a batch, whose geometry is not ours to renumber';
-  const ways = materials.flatMap(({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNormalMap].filter(Boolean))
-    .map(({ channel, rotation, repeat, matrix, matrixAutoUpdate }) =>
-      [channel, ...matrixAutoUpdate ? [rotation, repeat.x, repeat.y] : matrix.elements.slice(0, 5)].join());
-  if (new Set(ways).size > 1) return 'has normal maps over different texture coordinates';
-  const channel = materials.map(material => material.normalMap ?? material.clearcoatNormalMap).find(Boolean)?.channel ?? 0;
-  const { position, [channel ? `uv${channel}` : 'uv']: uv } = mesh.geometry.attributes;
-  return position && uv ? '' : 'has no texture coordinates';
+  const readings = new Set(materials.flatMap(({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNormalMap].filter(Boolean)).map(readingOf));
+  if (readings.size > 1) return 'has normal maps over different texture coordinates';
+  const { position, normal, [uvNameOf(mapOf(materials[0]))]: uv } = mesh.geometry.attributes;
+  if (!position || !uv) return 'has no texture coordinates';
+  return frame === 'smooth' && !normal ? 'has no normals' : '';
 }
 
-// Whether cross(normal, tangent) * tangent.w points against increasing v, by most triangles.
-function bitangentsRunAgainstV({ attributes: { position, normal, uv, tangent }, index }) {
-  if (!position || !normal || !uv || !tangent) return false;
-  const edge = (attribute, from, to) =>
-    ['getX', 'getY', 'getZ'].slice(0, attribute.itemSize).map(get => attribute[get](to) - attribute[get](from));
-  let sum = 0;
-  const count = index ? index.count : position.count;
-  for (let k = 0; k + 2 < count; k += 3) {
-    const [a, b, c] = [k, k + 1, k + 2].map(i => index ? index.getX(i) : i);
-    const [x, y, z] = edge(position, a, b), [p, q, r] = edge(position, a, c), [u, v] = edge(uv, a, b), [s, t] = edge(uv, a, c);
-    const facing = (y * r - z * q) * normal.getX(a) + (z * p - x * r) * normal.getY(a) + (x * q - y * p) * normal.getZ(a);
-    sum += Math.sign((u * t - v * s) * facing * tangent.getW(a));
+// For each scale of a material whether green as the file has it runs along v (1) or against it (-1), and what is to be
+// multiplied with the scale so that it says that.
+function signsOf(geometry, material, before, { o, greens, loaded }) {
+  const tangents = !!geometry.attributes.tangent, wants = {}, turns = {};
+  for (const [name, mapName] of Object.entries(kScales)) {
+    if (!material[name]) continue;
+    const map = material[mapName], gltf = map ? ofGltf(map) : loaded;
+    const now = before?.wants[name] ?? (gltf && !tangents ? -1 : 1); // three's loader turns it where there are no tangents
+    wants[name] = wantedSign(geometry, map, { o, greens, gltf, tangents, now });
+    turns[name] = now * wants[name];
   }
-  return sum < 0;
+  const { along, against } = greens.areas(geometry, mapOf(material)), gltf = loaded || ofGltf(mapOf(material));
+  return { wants, turns, against: tangents ? against > along || along === 0 && gltf : before?.against ?? gltf };
+}
+
+function wantedSign(geometry, map, { o, greens, gltf, tangents, now }) {
+  if (o.convention && map) return (o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1; // v runs down the picture there
+  if (gltf && map) {
+    const reversed = greens.reversed(map);
+    return reversed === undefined && !tangents ? now : reversed ? 1 : -1;
+  }
+  const { along, against } = greens.areas(geometry, map);
+  return !tangents ? now : against > along || along === 0 && gltf ? -1 : 1;
+}
+
+// The material for meshes that want the same of it: itself for the first of them, copies for others.
+function copyFor(material, { frame, against, wants, turns }, copies, replace) {
+  if (!copies.has(material)) copies.set(material, { made: new Map(), scales: Object.fromEntries(Object.keys(turns).map(name => [name, material[name].clone()])) });
+  const { made, scales } = copies.get(material), key = [frame, against, ...Object.values(turns)].join();
+  if (!made.has(key)) {
+    const copy = made.size === 0 ? material : material.clone();
+    made.set(key, copy);
+    for (const [name, turn] of Object.entries(turns)) {
+      copy[name].copy(scales[name]);
+      copy[name].y *= turn;
+    }
+    known.set(copy, { frame, against, wants });
+    replace(copy, { frame, against, from: material });
+  }
+  return made.get(key);
 }

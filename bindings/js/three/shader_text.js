@@ -404,6 +404,144 @@ vec3 cotan_perturb_normal(vec3 normal, vec3 position, vec2 uv, vec3 texel)
         dFdy(uv), texel);
 }
 `,
+smooth: `// Normal mapping, frame \`smooth\` (total form), for GLSL ES 3.00 (WebGL 2).
+// Written by cotan shader from the portable text of Cotan; MIT licence.
+//
+// Normal map: three channels, (255c - 128)/127, green against increasing v.
+//
+// Needs from the caller:
+//   normal     interpolated surface normal; any space, the same for all vectors
+//   the vertex attributes named at the function below, interpolated
+//
+// Call:
+//   vec3 n = cotan_perturb_normal_from_vertices(normal, cotangent, cobitangent, texture(normal_map, uv).xyz);
+// It returns the perturbed normal, unit, in the space of the arguments.
+//
+// Limits:
+//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite
+//   differences) the result is the unit interpolated normal.
+//   The shader must say: precision highp float; precision highp int;
+//
+// After:
+//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
+//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013
+
+struct cotan_frame
+{
+    vec3 t; // cotangent: covector along grad u
+    vec3 b; // cobitangent: covector along grad v
+    vec3 n; // normal
+};
+
+// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
+// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
+// before and after, except that it no longer under- or overflows.
+// m: any magnitude (zero gives the largest scale), not NaN.
+float cotan_power_of_two_scale(float m)
+{
+    m = min(max(m, 1e-37), 1e37);
+    uint exponent = floatBitsToUint(m) & 0x7f800000u;
+    return uintBitsToFloat((254u << 23) - exponent);
+}
+
+// The signed number that a stored component stands for, in [-1,1].
+float cotan_expand(float c)
+{
+    float x = c * (255.0 / 127.0) - (128.0 / 127.0);
+    return max(x, -1.0);
+}
+
+// The decoded texel: normal along (+u, +v, outwards). Not unit in general.
+// texel: as sampled; two-channel maps use x and y only.
+vec3 cotan_decode(vec3 texel)
+{
+    float x = cotan_expand(texel.x);
+    float y = cotan_expand(texel.y);
+    float z = cotan_expand(texel.z);
+    vec3 m = vec3(x, y, z);
+    return vec3(m.x, -m.y, m.z);
+}
+
+float cotan_sum_abs(vec3 a)
+{
+    return abs(a.x) + abs(a.y) + abs(a.z);
+}
+
+float cotan_max_abs(vec3 a)
+{
+    return max(abs(a.x), max(abs(a.y), abs(a.z)));
+}
+
+// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
+// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
+{
+    bool usable = cotan_sum_abs(v) <= 1e37;
+    v = usable ? v : vec3(0.0, 0.0, 0.0);
+    v = v * cotan_power_of_two_scale(cotan_max_abs(v));
+    float length2 = dot(v, v);
+    vec3 unit = v * inversesqrt(max(length2, 1e-12));
+    return length2 > 1e-12 ? unit : otherwise;
+}
+
+// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
+// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
+// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
+vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
+{
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
+}
+
+// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
+// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
+// stands in the frame, so unit or what the caller gave.
+// m: decoded texel, along (+u, +v, outwards); any length.
+vec3 cotan_apply(cotan_frame f, vec3 m)
+{
+    vec3 v = f.t * m.x + f.b * m.y + f.n * m.z;
+    float length2 = dot(v, v);
+    bool usable = length2 > 1e-12 && length2 <= 1e37;
+    vec3 unit = v * inversesqrt(usable ? length2 : 1.0);
+    return usable ? unit : f.n;
+}
+
+// \`smooth\`: from cotangents that were averaged at the vertices and interpolated. They are
+// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+//   t, b   interpolated covectors, any common scale, same space as n
+// Degenerate input: t = b = 0 where both vanish.
+cotan_frame cotan_frame_smooth(vec3 n, vec3 t, vec3 b)
+{
+    vec3 zero = vec3(0.0, 0.0, 0.0);
+    cotan_frame f;
+    f.n = cotan_safe_normal(n, zero, zero);
+    bool finite = cotan_sum_abs(t) + cotan_sum_abs(b) <= 1e37;
+    t = finite ? t : vec3(0.0, 0.0, 0.0);
+    b = finite ? b : vec3(0.0, 0.0, 0.0);
+    float rescale = cotan_power_of_two_scale(max(cotan_max_abs(t), cotan_max_abs(b)));
+    t = t * rescale;
+    b = b * rescale;
+    t = t - f.n * dot(t, f.n);
+    b = b - f.n * dot(b, f.n);
+    float longest2 = max(dot(t, t), dot(b, b));
+    float scale = inversesqrt(max(longest2, 1e-12));
+    f.t = t * scale;
+    f.b = b * scale;
+    return f;
+}
+
+// The perturbed normal, unit.
+// normal: interpolated.
+// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.
+// texel: the normal map as sampled.
+vec3 cotan_perturb_normal_from_vertices(vec3 normal, vec3 cotangent, vec3 cobitangent, vec3 texel)
+{
+    vec3 m = cotan_decode(texel);
+    cotan_frame frame = cotan_frame_smooth(normal, cotangent, cobitangent);
+    return cotan_apply(frame, m);
+}
+`,
 triangle: `// Normal mapping, frame \`triangle\` (total form), for GLSL ES 3.00 (WebGL 2).
 // Written by cotan shader from the portable text of Cotan; MIT licence.
 //
@@ -1026,6 +1164,139 @@ fn cotan_perturb_normal_from_differences(normal: vec3f, dpdx: vec3f, dpdy: vec3f
 fn cotan_perturb_normal(normal: vec3f, position: vec3f, uv: vec2f, texel: vec3f) -> vec3f {
     return cotan_perturb_normal_from_differences(normal, dpdxFine(position), dpdyFine(position),
         dpdxFine(uv), dpdyFine(uv), texel);
+}
+`,
+smooth: `// Normal mapping, frame \`smooth\` (total form), for WGSL.
+// Written by cotan shader from the portable text of Cotan; MIT licence.
+//
+// Normal map: three channels, (255c - 128)/127, green against increasing v.
+//
+// Needs from the caller:
+//   normal     interpolated surface normal; any space, the same for all vectors
+//   the vertex attributes named at the function below, interpolated
+//
+// Call:
+//   let n = cotan_perturb_normal_from_vertices(normal, cotangent, cobitangent, textureSample(normal_map, map_sampler, uv).xyz);
+// It returns the perturbed normal, unit, in the space of the arguments.
+//
+// Limits:
+//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite
+//   differences) the result is the unit interpolated normal.
+//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
+//   non-finite input are then not sure to hold. Those against zeros and empty areas do.
+//
+// After:
+//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
+//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013
+
+struct cotan_frame {
+    t: vec3f, // cotangent: covector along grad u
+    b: vec3f, // cobitangent: covector along grad v
+    n: vec3f, // normal
+}
+
+// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
+// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
+// before and after, except that it no longer under- or overflows.
+// m: any magnitude (zero gives the largest scale), not NaN.
+fn cotan_power_of_two_scale(m_in: f32) -> f32 {
+    var m = m_in;
+    m = min(max(m, 1e-37), 1e37);
+    let exponent = bitcast<u32>(m) & 0x7f800000u;
+    return bitcast<f32>((254u << 23) - exponent);
+}
+
+// The signed number that a stored component stands for, in [-1,1].
+fn cotan_expand(c: f32) -> f32 {
+    let x = c * (255.0 / 127.0) - (128.0 / 127.0);
+    return max(x, -1.0);
+}
+
+// The decoded texel: normal along (+u, +v, outwards). Not unit in general.
+// texel: as sampled; two-channel maps use x and y only.
+fn cotan_decode(texel: vec3f) -> vec3f {
+    let x = cotan_expand(texel.x);
+    let y = cotan_expand(texel.y);
+    let z = cotan_expand(texel.z);
+    let m = vec3f(x, y, z);
+    return vec3f(m.x, -m.y, m.z);
+}
+
+fn cotan_sum_abs(a: vec3f) -> f32 {
+    return abs(a.x) + abs(a.y) + abs(a.z);
+}
+
+fn cotan_max_abs(a: vec3f) -> f32 {
+    return max(abs(a.x), max(abs(a.y), abs(a.z)));
+}
+
+// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
+// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
+    var v = v_in;
+    let usable = cotan_sum_abs(v) <= 1e37;
+    v = select(vec3f(0.0, 0.0, 0.0), v, usable);
+    v = v * cotan_power_of_two_scale(cotan_max_abs(v));
+    let length2 = dot(v, v);
+    let unit = v * inverseSqrt(max(length2, 1e-12));
+    return select(otherwise, unit, length2 > 1e-12);
+}
+
+// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
+// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
+// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
+fn cotan_safe_normal(n: vec3f, dpdx: vec3f, dpdy: vec3f) -> vec3f {
+    let z = vec3f(0.0, 0.0, 1.0);
+    return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
+}
+
+// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
+// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
+// stands in the frame, so unit or what the caller gave.
+// m: decoded texel, along (+u, +v, outwards); any length.
+fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
+    let v = f.t * m.x + f.b * m.y + f.n * m.z;
+    let length2 = dot(v, v);
+    let usable = length2 > 1e-12 && length2 <= 1e37;
+    let unit = v * inverseSqrt(select(1.0, length2, usable));
+    return select(f.n, unit, usable);
+}
+
+// \`smooth\`: from cotangents that were averaged at the vertices and interpolated. They are
+// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+//   t, b   interpolated covectors, any common scale, same space as n
+// Degenerate input: t = b = 0 where both vanish.
+fn cotan_frame_smooth(n: vec3f, t_in: vec3f, b_in: vec3f) -> cotan_frame {
+    var t = t_in;
+    var b = b_in;
+    let zero = vec3f(0.0, 0.0, 0.0);
+    var f: cotan_frame;
+    f.n = cotan_safe_normal(n, zero, zero);
+    let finite = cotan_sum_abs(t) + cotan_sum_abs(b) <= 1e37;
+    t = select(vec3f(0.0, 0.0, 0.0), t, finite);
+    b = select(vec3f(0.0, 0.0, 0.0), b, finite);
+    let rescale = cotan_power_of_two_scale(max(cotan_max_abs(t), cotan_max_abs(b)));
+    t = t * rescale;
+    b = b * rescale;
+    t = t - f.n * dot(t, f.n);
+    b = b - f.n * dot(b, f.n);
+    let longest2 = max(dot(t, t), dot(b, b));
+    let scale = inverseSqrt(max(longest2, 1e-12));
+    f.t = t * scale;
+    f.b = b * scale;
+    return f;
+}
+
+// The perturbed normal, unit.
+// normal: interpolated.
+// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.
+// texel: the normal map as sampled.
+fn cotan_perturb_normal_from_vertices(normal: vec3f, cotangent: vec3f, cobitangent: vec3f,
+    texel: vec3f) -> vec3f {
+    let m = cotan_decode(texel);
+    let frame = cotan_frame_smooth(normal, cotangent, cobitangent);
+    return cotan_apply(frame, m);
 }
 `,
 triangle: `// Normal mapping, frame \`triangle\` (total form), for WGSL.

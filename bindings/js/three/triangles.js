@@ -1,17 +1,16 @@
 // The frame `triangle`: two vectors in the plane of each triangle, at the vertex that its flat values are taken from.
 import { BufferAttribute, BufferGeometry, DataUtils, IntType } from 'three';
+import { gathered } from './gathered.js';
+import { cornersOf, numbersOf, turnOf, uvNameOf } from './mesh_data.js';
 
 export const kTriangleAttribute = 'cotanTriangle';
 
 // The geometry with U = e1 d2.u - e2 d1.u and V likewise as three words of halfs (docs/triangle.md) at the vertices that
 // provoke; vertices that provoke two triangles are split, about as many as triangles remain. Attributes are copied.
-// uvName: the attribute that the normal map is over; turn: [m00, m01, m10, m11] of the texture's matrix;
-// provoking: 'last' (WebGL) or 'first' (WebGPU).
-export function withTriangles(geometry, uvName, turn, provoking) {
-  const { position, normal, [uvName]: uv } = geometry.attributes;
-  const count = geometry.index ? geometry.index.count : position.count;
-  const corners = Uint32Array.from({ length: count - count % 3 }, geometry.index ? (_, k) => geometry.index.getX(k) : (_, k) => k);
-  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), turn);
+// map: the normal map, whose uv set and matrix count; provoking: 'last' (WebGL) or 'first' (WebGPU).
+export function withTriangles(geometry, map, provoking) {
+  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);
+  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), turnOf(map));
   const sources = Array.from({ length: position.count }, (_, k) => k);  // of each new vertex
   const provoked = [];  // by each new vertex, the triangle
   for (let k = 0; k < corners.length; k += 3) {
@@ -39,14 +38,6 @@ export function withTriangles(geometry, uvName, turn, provoking) {
   made.setAttribute(kTriangleAttribute, attribute);
   made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1));
   return made;
-}
-
-// As numbers, whatever the attribute is stored as.
-function numbersOf(attribute, width) {
-  const values = new Float64Array(attribute.count * width);
-  for (let k = 0; k < attribute.count; ++k)
-    for (let i = 0; i < width; ++i) values[k * width + i] = attribute.getComponent(k, i);
-  return values;
 }
 
 // Three words of two halfs for each triangle, whose longer vector has length one. Zeros where there is no frame.
@@ -77,18 +68,4 @@ function wordsOf(corners, position, normal, uv, [m00, m01, m10, m11]) {
     words[k + 2] = half(v[1]) + half(v[2]) * 65536;
   }
   return words;
-}
-
-function gathered(attribute, sources) {
-  if (attribute.isInstancedBufferAttribute) return attribute.clone();
-  const { itemSize, normalized, gpuType } = attribute;
-  const [array, stride, offset] = attribute.isInterleavedBufferAttribute
-    ? [attribute.data.array, attribute.data.stride, attribute.offset] : [attribute.array, itemSize, 0];
-  const values = new array.constructor(sources.length * itemSize);
-  sources.forEach((source, k) => {
-    for (let i = 0; i < itemSize; ++i) values[k * itemSize + i] = array[source * stride + offset + i];
-  });
-  const made = new BufferAttribute(values, itemSize, normalized);
-  if (gpuType !== undefined) made.gpuType = gpuType;
-  return made;
 }

@@ -1,11 +1,12 @@
 // cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2.
 import type { Material, Object3D, Texture } from 'three';
 import type { Node, Renderer } from 'three/webgpu';
+export { CotanError } from '../tangents.js';
 import type { Frame, LoadedModel, UntangleOptions } from './index.js';
 
 export interface UntangleNodesOptions extends UntangleOptions {
   /** Needed for the frame `triangle`, after `await renderer.init()`: WebGPU takes flat values from the first vertex, WebGL from
-   * the last. Instanced meshes get `cotangent` here. */
+   * the last. Instanced meshes get `cotangent` here in place of `triangle` and `smooth`, skins in place of `smooth`. */
   renderer?: Renderer;
 }
 
@@ -20,5 +21,6 @@ export function untangled(options?: UntangleNodesOptions): (parser: unknown) => 
 export function replaceFrame<T extends Material>(material: T, options?: { frame?: Frame; against?: boolean }): T;
 
 /** The normal of a tangent-space map over its own texture coordinates, set and matrix, for node materials of your own:
- * `material.normalNode = perturbedNormal(map)`. View space, unit. scale: a node of two numbers; green along v after it. */
-export function perturbedNormal(map: Texture, scale?: Node, frame?: Frame): Node;
+ * `material.normalNode = perturbedNormal(map)`. View space, unit. scale: a node of two numbers; green along v after it. Default of frame:
+ * `cotangent`. */
+export function perturbedNormal(map: Texture, scale?: Node, frame?: Exclude<Frame, 'auto'>): Node;

@@ -1,35 +1,41 @@
 // Cotan for three.js and its WebGPURenderer, on WebGPU and on WebGL 2: normal mapping without tangents, in its node language.
 import {
-  Fn, anisotropyB, anisotropyT, attribute, code, glslFn, materialAnisotropy, materialReference, modelViewMatrix, negateOnBackSide,
-  normalViewGeometry, positionView, texture, uv, varying, vec2, vec3, wgslFn,
+  Fn, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
+  normalViewGeometry, positionView, texture, uv, varying, vec2, vec4, wgslFn,
 } from 'three/tsl';
 import {
   InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalMap, RED_GREEN_RGTC2_Format, RG11_EAC_Format, RGFormat,
 } from 'three/webgpu';
-import { untangleMeshes } from './meshes.js';
+import { options as checked } from '../src/arrays.js';
+import { usage } from '../src/errors.js';
+import { frameFor } from './frames.js';
+import { untangleMeshes, untangleOptions } from './meshes.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
+export { CotanError } from '../src/errors.js';
+
 // Removes the tangents of `target` and lets its materials take their frame from Cotan. See tsl.d.ts.
-export function untangle(target, options = {}) {
-  const { frame, renderer } = options;
-  if (frame === 'triangle' && !renderer?.backend)
-    throw new Error('Cotan: untangle: the frame triangle needs the option renderer, after `await renderer.init()`');
+export function untangle(target, options) {
+  const { renderer, ...o } = untangleOptions(options, { renderer: undefined });
+  if (o.frame === 'triangle' && !renderer?.backend)
+    throw usage('options.renderer: expected a renderer, after `await renderer.init()`, since the frame triangle needs it; found none');
   const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
-  return untangleMeshes(target, { frame, provoking, instances: false }, replaceFrame);
+  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame);
 }
 
 // The same as a plugin: loader.register(untangled()).
-export const untangled = options => () => ({
-  name: 'COTAN_untangled',
-  async afterRoot(gltf) { untangle(gltf, options); },
-});
+export const untangled = options => {
+  untangleOptions(options, { renderer: undefined });
+  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
+};
 
 const ours = new WeakSet();  // nodes
 
 // Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Nodes of the user's
 // own in its place stay.
-export function replaceFrame(material, { frame = 'cotangent', against = false } = {}) {
+export function replaceFrame(material, options) {
+  const { frame: wished, against } = checked(options, { frame: undefined, against: false, from: undefined }), frame = frameFor(material, wished);
   const { normalMap, clearcoatNormalMap } = material;
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
@@ -71,6 +77,11 @@ function frameOf(frame, map, sample, builder) {
     f = native.triangle({ n, u, v }).toVar();
     return { t: f[0], b: f[1], n };
   }
+  if (frame === 'smooth') { // covectors move as normals do
+    const moved = name => varying(cameraViewMatrix.mul(vec4(modelNormalMatrix.mul(attribute(name, 'vec3')), 0)).xyz);
+    f = native.smooth({ n, u: moved('cotanU'), v: moved('cotanV') }).toVar();
+    return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
+  }
   const at = sample ? sample.getTransformedUV(uv(map.channel)) : uv();
   f = native[frame]({ n, dpdx: positionView.dFdx(), dpdy: positionView.dFdy(), duvdx: at.dFdx(), duvdy: at.dFdy() }).toVar();
   return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
@@ -106,6 +117,16 @@ mat3 cotanFrame_${frame}(${kParameters.glsl}) {
   cotan_frame f = cotan_frame_${frame}(n, dpdx, dpdy, duvdx, duvdy);
   return mat3(f.t, f.b, f.n);
 }`, [code(essl[frame], [], 'glsl')])]));
+inWgsl.smooth = wgslFn(`
+fn cotanFrame_smooth(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
+  let f = cotan_frame_smooth(n, u, v);
+  return mat3x3f(f.t, f.b, f.n);
+}`, [code(wgsl.smooth, [], 'wgsl')]);
+inEssl.smooth = glslFn(`
+mat3 cotanFrame_smooth(vec3 n, vec3 u, vec3 v) {
+  cotan_frame f = cotan_frame_smooth(n, u, v);
+  return mat3(f.t, f.b, f.n);
+}`, [code(essl.smooth, [], 'glsl')]);
 inWgsl.triangle = wgslFn(`
 fn cotanFrame_triangle(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
   let f = cotan_frame_of_triangle(n, u, v);

@@ -9,7 +9,7 @@ export interface Picture {
   data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
 }
 
-/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xyz" and so on. */
+/** How a map is stored, in the words of the command line: "gltf", "directx", "unity,xy" and so on. */
 export type Convention = string;
 export type Bits = 8 | 16 | 32;
 
@@ -114,11 +114,30 @@ export interface LintReport {
   advice: string;
   warnings: string[];
   primitives: any[];
+  /** What is over `limit` or `limitArea`, a line each; with either also each map whose green points the other way than declared,
+   * and maps that could not be judged. Empty: it passes, or no limit was set. */
+  over_limit: string[];
   [more: string]: any;
 }
 
+export interface Limits {
+  /** Degrees, 0 to 180, that the error with `frame` may exceed on 5 % of the area. */
+  limit?: number;
+  /** % of a primitive's area, 0 to 100: degenerate uv, uv overlapping mirrored, stored tangents against the uv. */
+  limitArea?: number;
+  /** That `limit` judges; default: "orthonormal". */
+  frame?: LimitFrame;
+}
+export type LimitFrame = 'cotangent' | 'orthonormal' | 'smooth' | 'exact' | 'triangle' | 'stored';
+
 /** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents. */
-export function lint(model: Bytes, options?: ModelOptions & { distance?: number }): Promise<LintReport>;
+export function lint(model: Bytes, options?: ModelOptions & Limits & {
+  /** From eye to surface, units of the model; 0, the default: where the whole model fills the picture. */
+  distance?: number;
+}): Promise<LintReport>;
+
+/** over_limit of a report for other limits. */
+export function overLimits(report: LintReport, limits?: Limits): string[];
 
 /** A normal map that stays as it is, with the tangents that it needs, since its format is not read here. */
 export interface UnreadMap {
@@ -150,7 +169,7 @@ export interface ConvertReport {
 
 /** The model's normal maps made for another frame, as `cotan convert` does. */
 export function convert(model: Bytes, options?: ModelOptions & {
-  /** Default: "mikktspace". */
+  /** Default: the frame that the materials name in their extras (`cotanFrame`), else "mikktspace". */
   from?: string;
   /** Default: "cotangent". */
   to?: string;
@@ -158,6 +177,8 @@ export function convert(model: Bytes, options?: ModelOptions & {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
+  unsigned?: 'biased' | 'exact';
   /** The PNG file of a picture; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;

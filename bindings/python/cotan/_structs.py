@@ -67,11 +67,18 @@ class BakeOptions(Struct):
         (size_t, "high_map_count"),
         (pointer, "high_maps mask"),
         (c.c_float, "cage_reach"),
+        (text, "search"),
+        (c.c_float, "extrusion"),
     )
 
 
 class BakeResult(Struct):
-    _fields_ = _fields((size_t, "texels covered missed negative twice rays"), (double, "ray_distance"))
+    _fields_ = _fields(
+        (size_t, "texels covered missed negative twice rays"),
+        (double, "ray_distance"),
+        (size_t, "further nearer"),
+        (double, "ray_start"),
+    )
 
 
 bytes_out, size_out = c.POINTER(pointer), c.POINTER(size_t)
@@ -119,6 +126,7 @@ class ConvertOptions(Struct):
         (integer, "bits keep_tangents generate_tangents threads"),
         (Progress, "progress"),
         (pointer, "user"),
+        (text, "expansion"),
     )
 
 

@@ -30,10 +30,13 @@ class Baked:
         mask: (height, width, 4) uint8, a picture of what became of each texel; None unless asked for.
         texels, covered: all of them, and those whose centre lies in a triangle.
         missed: covered ones whose ray found nothing.
+        further: of these the ones where a detailed surface is further away than rays look.
+        nearer: covered ones that show the first surface from outside where another is nearer.
         negative: covered ones whose normal lies below the frame's horizon.
         twice: covered by several triangles.
         rays: shot.
         ray_distance: the search distance used, in units of the positions.
+        ray_start: the largest distance before the simple mesh from which rays start.
         warnings: one line each.
     """
 
@@ -46,6 +49,9 @@ class Baked:
     twice: int
     rays: int
     ray_distance: float
+    further: int
+    nearer: int
+    ray_start: float
     warnings: list[str]
 
 
@@ -80,6 +86,8 @@ def bake(
     padding: int = 0,
     dither: bool = False,
     ao_rays: int = 64,
+    search: str = "first",
+    extrusion: float = 0.0,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
     cage_reach: float = 0.0,
@@ -111,8 +119,12 @@ def bake(
         padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
         dither: with 8 bits: round by a fixed pattern, so that slopes show no steps.
         ao_rays: rays per sample for "ao", 1 to 65536.
-        max_distance: how far rays reach to both sides of the low mesh, in units of the positions; 0: 5 % of the
-            diagonal of the high mesh.
+        search: "first", what a ray from outside inwards meets, or "nearest" to the low mesh along its normal, either
+            way, which loses what stands off over a surface.
+        extrusion: how far in front of the low mesh rays start, in units of the positions; 0: measured, as the high
+            mesh stands off.
+        max_distance: high surfaces further from the low mesh do not count, in units of the positions; 0: 10 % of the
+            diagonal of the low mesh, for the search "nearest" 5 % of that of the high one.
         cage: the triangles of the low mesh in their order, moved out around both; rays run from it inwards.
         cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
         match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
@@ -139,7 +151,7 @@ def bake(
     material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
     padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
     max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
-    cage_reach = arrays.number(cage_reach, "cage_reach")
+    cage_reach, extrusion = arrays.number(cage_reach, "cage_reach"), arrays.number(extrusion, "extrusion")
     for mesh in _several(low):
         if isinstance(mesh, Mesh) and mesh.texcoords is None:
             raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
@@ -151,7 +163,7 @@ def bake(
         for name, word in (
             ("frame", frame), ("kind", "occlusion" if kind == "ao" else kind), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
-            ("high_convention", high_convention),
+            ("high_convention", high_convention), ("search", search),
         )
     }  # fmt: skip
     maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]
@@ -183,6 +195,7 @@ def bake(
             high_map_count=len(pictures),
             high_maps=ctypes.addressof(high_maps) if pictures else None,
             cage_reach=cage_reach,
+            extrusion=extrusion,
             mask=None if mask_picture is None else ctypes.addressof(mask_picture),
             **words,
         )
@@ -202,5 +215,8 @@ def bake(
         twice=result.twice,
         rays=result.rays,
         ray_distance=result.ray_distance,
+        further=result.further,
+        nearer=result.nearer,
+        ray_start=result.ray_start,
         warnings=warnings,
     )

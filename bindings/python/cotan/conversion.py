@@ -68,6 +68,7 @@ class Conversion:
         progress: Optional[Progress] = None,
         beside: Optional[Mapping[str, bytes]] = None,
         decode: Optional[Decode] = None,
+        unsigned: str = "biased",
     ):
         """Arguments and errors are those of `convert`."""
         check_tangents(tangents)
@@ -75,7 +76,7 @@ class Conversion:
         self._result, self._handle = structs.ConvertResult(), structs.handle()
 
         def work(told):
-            options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told)
+            options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned)
             source.call("cotan_convert_begin", options, self._result, self._handle)
 
         long_call(work, progress)

@@ -2,7 +2,7 @@
 
 A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
 three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
-"directx", "unity,xyz".
+"directx", "unity,xy".
 """
 
 import dataclasses

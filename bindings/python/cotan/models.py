@@ -297,6 +297,7 @@ def convert(
     beside: Optional[Mapping[str, bytes]] = None,
     decode: Optional[Decode] = None,
     encode: Optional[Encode] = None,
+    unsigned: str = "biased",
 ) -> Converted:
     """A glTF model's normal maps made for another frame, and its tangents dropped.
 
@@ -314,6 +315,7 @@ def convert(
         beside: files that a model in bytes names, by their URIs.
         decode: decode(name, bytes) gives a picture for a PNG or JPEG file, in place of the library's own readers.
         encode: encode(picture) gives the PNG file of a picture of uint8 or uint16, in place of its own writer.
+        unsigned: how engines take the numbers of the maps: "biased" (2c - 1, as stock engines do) or "exact".
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError; nothing is written then.
     """
@@ -324,7 +326,7 @@ def convert(
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
-        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told)
+        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned)
         source.call("cotan_convert_gltf", options, result, glb, text)
 
     long_call(work, progress)
@@ -334,7 +336,7 @@ def convert(
     return converted_of(result, made if out is None else None, report)
 
 
-def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told):
+def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned="biased"):
     """The struct of the C API."""
     options = structs.ConvertOptions(
         to=arrays.encoded(to_frame, "to_frame"),
@@ -343,6 +345,7 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
         generate_tangents=int(tangents == "generated"),
         threads=arrays.threads_of(threads),
         progress=told,
+        expansion=arrays.encoded(unsigned, "unsigned"),
     )
     if from_frame is not None:
         setattr(options, "from", arrays.encoded(from_frame, "from_frame"))

@@ -25,12 +25,14 @@ def _around(surface, cage, depsgraph, low):
 
 
 def cage_for(settings, bake, surface, low, named, depsgraph):
-    """Arguments for cotan.bake: max_distance, or cage_reach and cage, the positions of the vertices of `surface`.
+    """Arguments for cotan.bake: where rays start and how far they look.
 
     surface: of the object `low`, in its own space. bake: Blender's own settings. named: a cage found by name, or None.
     """
+    if settings.cage == "FIRST":
+        return {"extrusion": settings.extrusion, "max_distance": settings.distance}
     if settings.cage == "NEAREST":
-        return {"max_distance": settings.distance}
+        return {"search": "nearest", "max_distance": settings.distance}
     if settings.cage == "MESH":
         cage = named or settings.cage_object
         if cage is None or cage.type != "MESH":
@@ -41,7 +43,7 @@ def cage_for(settings, bake, surface, low, named, depsgraph):
     if bake.use_cage and bake.cage_object is not None:
         return {"cage": _around(surface, bake.cage_object, depsgraph, low), "cage_reach": reach}
     if not bake.cage_extrusion > 0:
-        return {"max_distance": bake.max_ray_distance}
+        return {"search": "nearest", "max_distance": bake.max_ray_distance}
     outwards = surface.smooth if bake.use_cage else surface.normals
     moved = dataclasses.replace(surface, positions=surface.positions + np.float32(bake.cage_extrusion) * outwards)
     return {"cage": placed(moved, low.matrix_world, low.name).positions, "cage_reach": reach}

@@ -50,7 +50,9 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         if thing is not None and thing.type == "MESH":
             layout.prop_search(s, "uv_map", thing.data, "uv_layers", icon="GROUP_UVS")
         layout.prop(s, "cage")
-        if s.cage == "NEAREST":
+        if s.cage == "FIRST":
+            layout.prop(s, "extrusion")
+        if s.cage in ("FIRST", "NEAREST"):
             layout.prop(s, "distance")
         elif s.cage == "MESH":
             layout.prop(s, "cage_object")

@@ -46,16 +46,22 @@ class CotanSettings(bpy.types.PropertyGroup):
     cage: EnumProperty(
         name="Rays",
         items=[
+            ("FIRST", "Measured", "From outside inwards, the first surface counts; from as far as the detail stands off"),
             ("NEAREST", "Nearest", "Both ways along the normal: the nearer surface counts"),
             ("BLENDER", "As Blender's", "Extrusion, ray distance and cage of Blender's own baker"),
             ("MESH", "Cage", "From a mesh with the vertices of the simple one; pairs by name: from x_cage"),
         ],
-        default="NEAREST",
+        default="FIRST",
         description="Where the detailed surface is looked for",
     )
     distance: FloatProperty(
         name="Distance", default=0, min=0, subtype="DISTANCE",
-        description="How far, either way. 0: 5 % of the detailed mesh's box",
+        description="Detail further from the simple mesh does not count. 0: 10 % of the simple mesh's box, for Nearest "
+        "5 % of the detailed one's",
+    )
+    extrusion: FloatProperty(
+        name="Extrusion", default=0, min=0, subtype="DISTANCE",
+        description="How far in front of the simple mesh rays start. 0: measured",
     )
     cage_object: PointerProperty(name="Cage", type=bpy.types.Object, poll=lambda _, o: o.type == "MESH")
     as_rendered: BoolProperty(

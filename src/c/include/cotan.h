@@ -11,7 +11,7 @@
  *
  * Data. Arrays of vectors are floats without gaps, two or three to a vector. Pictures are red, green, blue, alpha
  * without gaps, rows from the top. Names of frames and other words are those of the command line. So are conventions:
- * "gltf", "unity,xyz". */
+ * "gltf", "unity,xy". */
 #ifndef COTAN_H
 #define COTAN_H
 
@@ -268,7 +268,9 @@ typedef struct cotan_bake_options {
     int padding;             /* texels around charts that are filled; 0: all, -1: none */
     int dither;              /* not 0: maps of 8 bits do not band */
     int occlusion_rays;      /* 0: 64 */
-    float max_distance;      /* of the detailed surface, units of the positions; 0: 5 % of its box */
+    float max_distance;      /* detail further than this from the simple surface does not count, units of the positions;
+                                0: 10 % of the diagonal of the simple surface's box; for the search "nearest" 5 % of
+                                that of the detailed one */
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
@@ -286,6 +288,11 @@ typedef struct cotan_bake_options {
     const cotan_picture* const* high_maps; /* that take the place of its own */
     cotan_picture* mask; /* of 8 bits and the map's size: gets what became of each texel; null: not wanted */
     float cage_reach; /* how far rays run from the cage; 0: as far behind the simple model as the cage is before it */
+    /* Since version 4. */
+    const char* search; /* "first": what a ray from outside inwards meets; "nearest": what is nearest to the simple
+                           surface along its normal, either way; null: "first" */
+    float extrusion;    /* how far before the simple surface rays start, units of the positions; 0: measured, as the
+                           detailed one stands off */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
@@ -296,6 +303,10 @@ typedef struct cotan_bake_result {
     size_t twice;    /* that several triangles cover */
     size_t rays;
     double ray_distance; /* the search distance used */
+    /* Since version 4. */
+    size_t further;   /* of the missed ones: there is a surface further away than rays look */
+    size_t nearer;    /* that show the first surface from outside, where another is nearer */
+    double ray_start; /* the largest distance before the simple surface from which rays start */
 } cotan_bake_result;
 
 /* The map of the detailed mesh `high`, whose texcoords may be null, for the simple one `low`. `map` has the size and
@@ -379,6 +390,7 @@ typedef struct cotan_convert_options {
     int threads;             /* 0: all cores; the result does not depend on it */
     cotan_progress progress; /* may be null */
     void* user;
+    const char* expansion; /* how engines take the numbers of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {

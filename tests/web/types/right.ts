@@ -4,7 +4,7 @@ import * as beside from 'cotan/beside';
 import * as small from 'cotan/tangents';
 import * as smallBeside from 'cotan/tangents/beside';
 import { frames, lintNormals, provoking, tangents, untangent } from 'cotan/gltf-transform';
-import { replaceFrame, untangle, untangled, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
+import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
 import * as tsl from 'cotan/three/tsl';
 import { Document, type Transform } from '@gltf-transform/core';
 import { Material, MeshStandardMaterial, Object3D, Texture } from 'three';
@@ -48,7 +48,8 @@ const text: string = cotan.shader({ language: 'wgsl', frame: 'triangle', convent
 
 // Models
 const options: cotan.ModelOptions = { files: { 'scene.bin': new ArrayBuffer(4) }, decode: async () => read, progress: (done) => done < 0.5 };
-const judged: cotan.LintReport = await cotan.lint(file, { ...options, distance: 2 });
+const judged: cotan.LintReport = await cotan.lint(file, { ...options, distance: 2, limit: 2, limitArea: 10, frame: 'smooth' });
+const over: string[] = [...judged.over_limit, ...cotan.overLimits(judged, { limit: 1 } satisfies cotan.Limits)];
 const { glb, report } = await cotan.convert(file, { ...options, to: 'smooth', bits: 8, keepTangents: true, encode: async () => file });
 const unread: cotan.UnreadMap[] = report.unread_maps, advice: string | undefined = unread[0]?.advice, notes: string[] = (report satisfies cotan.ConvertReport).notes;
 try {
@@ -58,13 +59,14 @@ try {
 }
 
 // glTF-Transform
-const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', report: (r) => r.unread_maps.map((map) => map.name) }),
-  lintNormals({ report: (r) => r.recommendation }), provoking({ vertex: 'first' })];
+const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', unsigned: 'exact', report: (r) => r.unread_maps.map((map) => map.name) }),
+  lintNormals({ limit: 2, frame: 'stored', report: (r) => r.over_limit.join() }), provoking({ vertex: 'first' })];
 await new Document().transform(...all);
 const known: string[] = frames();
 
 // three.js
-const frame: Frame = 'triangle', wanted: UntangleOptions = { frame };
+const frame: Frame = 'smooth', wanted: UntangleOptions = { frame, convention: 'directx', note: (line) => console.log(line.length) };
+if (wanted instanceof ThreeError || wanted instanceof tsl.CotanError) throw wanted;
 const model: LoadedModel = await new GLTFLoader().register(untangled(wanted)).loadAsync('model.glb');
 const same: LoadedModel = untangle(model, wanted), object: Object3D = untangle(new Object3D());
 const material: MeshStandardMaterial = replaceFrame(new MeshStandardMaterial(), { frame: 'orthonormal', against: true, from: new Material() });
@@ -73,4 +75,4 @@ tsl.replaceFrame(material, { against: false });
 new GLTFLoader().register(tsl.untangled());
 const node = tsl.perturbedNormal(new Texture());
 
-export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, glb, advice, notes, known, same, node };
+export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, same, node };

@@ -18,4 +18,8 @@ cotan.lint('model.glb');
 untangent({ report: (report) => report.unread_maps.length.toUpperCase() });
 untangle({});
 untangle({ scenes: [] }, { frame: 'mikktspace' });
+untangle({ scenes: [] }, { convention: 'unity' });
+untangle({ scenes: [] }, { fraem: 'smooth' });
+cotan.lint(new Uint8Array(), { limit: '2' });
 perturbedNormal('map.png');
+perturbedNormal(undefined!, undefined, 'auto');

@@ -6,6 +6,7 @@
 
 #include "cotan/bake/high_normal_maps.hpp"
 #include "cotan/bake/high_surface.hpp"
+#include "cotan/bake/ray_starts.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/scene/view.hpp"
 #include "cotan/surface/low_surface.hpp"
@@ -22,16 +23,26 @@ enum class BakeKind {
 // Whether a map of the kind holds directions.
 inline bool showsNormals(BakeKind kind) { return kind == BakeKind::normal || kind == BakeKind::objectNormal; }
 
+// Which of the surfaces on a line counts.
+enum class BakeSearch {
+    first,   // the first that a ray from outside inwards meets; it starts where RayStarts says
+    nearest, // the one nearest to the low surface along its normal, either way. Loses what stands off over a surface
+};
+
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
     int width = 1024, height = 1024;
-    int samples = 1;             // per texel and axis: 1, 2 or 4
-    glm::ivec2 tile{0, 0};       // unit square of uv
-    float maxDistance = 0;       // model units, forward and back along the low normal; 0: 5 % of the high surface's box
+    int samples = 1;       // per texel and axis: 1, 2 or 4
+    glm::ivec2 tile{0, 0}; // unit square of uv
+    BakeSearch search = BakeSearch::first;
+    float extrusion = 0;         // model units: how far in front of the low surface rays start; 0: measured
+    float maxDistance = 0;       // model units, in front of and behind the low surface; 0: 10 % of the diagonal of its
+                                 // box, or for BakeSearch::nearest 5 % of that of the high surface
     std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
-                                 // low surface
+                                 // low surface, and the first surface counts
     float cageReach = 0;         // model units from the cage; 0: as far behind the low surface as the cage is before it
+    std::shared_ptr<const RayStarts> starts; // of this pair; null: bake() measures. Unused with a cage and by `nearest`
     HighNormals highNormals = HighNormals::smooth;
     std::shared_ptr<const HighNormalMaps> highMaps; // of the high surface: their normals instead; heights and
                                                     // occlusion take no notice. Null: none
@@ -43,21 +54,28 @@ struct BakeOptions {
 
 // What became of each texel: flags.
 enum TexelState : std::uint8_t {
-    texelCovered = 1,  // a triangle covers the centre (or a sample)
-    texelTouched = 2,  // a triangle only comes near: filled for filtering
-    texelMissed = 4,   // some ray found nothing
-    texelNegative = 8, // the normal lies below the frame's horizon
-    texelTwice = 16,   // several triangles cover it
-    texelPadded = 32,  // filled from the nearest chart
+    texelCovered = 1,   // a triangle covers the centre (or a sample)
+    texelTouched = 2,   // a triangle only comes near: filled for filtering
+    texelMissed = 4,    // some ray found nothing
+    texelNegative = 8,  // the normal lies below the frame's horizon
+    texelTwice = 16,    // several triangles cover it
+    texelPadded = 32,   // filled from the nearest chart
+    texelNearer = 64,   // another surface lies nearer to the low one than the first hit: BakeSearch::nearest differs
+    texelFurther = 128, // missed, but there is a surface on the line, further away than rays look
 };
 
 struct BakeStatistics {
     std::size_t texels = 0, covered = 0, touched = 0, missed = 0, negative = 0, twice = 0;
+    std::size_t further = 0; // of the missed ones those with texelFurther
+    // Covered ones with texelNearer. Some are left out of parts that are smaller than 16 samples across and less than
+    // 1.5 % of the low surface's diagonal off.
+    std::size_t nearer = 0;
     std::size_t rays = 0;
     std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
     double rayDistance = 0;                                     // the search distance used
-    double seconds = 0;                                         // of the rays and frames
-    double padSeconds = 0;                                      // of filling around charts, where bakeTile did so
+    double rayStart = 0;   // the largest distance from which rays start in front; 0 with a cage and for `nearest`
+    double seconds = 0;    // of the rays and frames
+    double padSeconds = 0; // of filling around charts, where bakeTile did so
 };
 
 // A baked map before it is stored: per texel a unit texel m (or a world normal; or the value in x),
@@ -75,12 +93,24 @@ struct Baked {
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});
 
-// The normals of the high surface as a picture of the low one should show them: through each pixel's
-// centre to the low surface, from there as bake() does. float32, alpha 1 where both were found.
-// A second way to the same places: by rays from the eye instead of texels of a raster.
-// Errors: those of HighSurface::make, for the low surface.
-Result<Image> expectedNormals(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                              const View& view);
+// Measures options.starts where bake() needs them and they are null. Errors: those of makeRayStarts.
+Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});
+
+// What a camera sees of the high surface, and what a map should show of it.
+struct SeenHigh {
+    Image normals;  // of the high surface itself, where rays from the eye meet it; float32, alpha 1 there
+    Image expected; // the normals that the pixels of the low surface should show; float32, alpha 1 where one is known
+    std::vector<std::uint8_t> other; // one a pixel: 1 where `expected` is known and bake() takes another surface
+    std::size_t others = 0, compared = 0;
+};
+
+// Looks at both surfaces with the camera of `view`. A pixel of the low surface should show the outermost surface on the
+// baker's line through its point that faces outwards and that the camera really sees: rays from the eye decide, not the
+// baker's rule. Nothing further off than RayStarts::limit counts, nor behind another part of the low surface; where the
+// camera sees nothing on the line, nothing is known. Two surfaces are different if they lie 0.001 of the diagonal of
+// the low surface's box apart.
+// Errors: those of LowTree::make and makeRayStarts.
+Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
 
 // Fills texels without a value from the nearest one that has one, up to `radius` texels away (0: no
 // limit), ties to the upper, then the left. So every texel belongs to its nearest chart.

@@ -28,7 +28,7 @@ struct HighModel {
 };
 
 struct BakeModelOptions {
-    BakeOptions bake;             // its tile, cage, highMaps and matched are made from what follows
+    BakeOptions bake;             // its tile, cage, starts, highMaps and matched are made from what follows
     std::vector<int> tiles{1001}; // UDIM numbers: 1001 + u + 10 v, u below 10, v upwards. One map each
     int material = -1;            // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
@@ -60,6 +60,7 @@ struct BakeSetup {
 // Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins
 // with its name, "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of
 // range; ErrorKind::input: a cage of another number of triangles, a mesh without its match.
+// An extrusion or the search `nearest` together with a cage are ErrorKind::usage, too.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
 
 struct BakedMap {

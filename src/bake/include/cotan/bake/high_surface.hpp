@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,19 +24,22 @@ struct Ray {
 struct Hit {
     bool found = false;
     float distance = 0;
-    glm::vec3 faceNormal{0};    // unit, not turned towards the ray
+    glm::vec3 faceNormal{0};    // unit, by the order of the corners, not turned towards the ray
+    glm::vec3 front{0};         // the same, turned to the side that most vertex normals of the instance are on
     std::uint32_t instance = 0; // of the scenes, counted on; empty ones left out
     std::uint32_t triangle = 0; // of that instance
     float b1 = 0, b2 = 0;       // barycentric coordinates of its corners 1 and 2
 };
 
-// Up to kLanes lines, each through a point: what lies on the line near the point, either way?
+// Up to kLanes lines, each through a point: what lies on the line near the point?
 struct Probes {
     static constexpr std::uint32_t kAny = ~0u;
 
     std::size_t count = 0;       // of the lanes that look for something
     Lanes3 point, direction;     // direction unit; zero: finds nothing
-    Lanes<float> reach{};        // how far either way; zero: finds nothing
+    Lanes3 normal;               // of the low surface at the point, unit; zero: no front faces away from it
+    Lanes<float> before{};       // where rays start, along the direction in front of the point
+    Lanes<float> reach{};        // how far they look behind the point; nearest(): either way
     Lanes<std::uint32_t> only{}; // only triangles of this instance count; kAny: all
 };
 
@@ -49,6 +53,7 @@ struct Hits {
     Lanes<std::uint32_t> instance{}; // of the scenes, counted on; kNothing where nothing was found
     Lanes<std::uint32_t> triangle{}; // of that instance
     Lanes<float> b1{}, b2{};         // barycentric coordinates of its corners 1 and 2
+    Lanes<std::uint8_t> away{};      // 1: its front faces away, see outermost(). 0 by nearest()
 
     bool found(std::size_t i) const { return instance[i] != kNothing; }
 };
@@ -84,14 +89,23 @@ public:
     // The nearest hit of a ray.
     Hit trace(const Ray& ray) const;
     // For each probe the hit nearest to the point. The two rays of each start `lift` on the other side of the point, so
-    // that a surface through the point is found.
+    // that a surface through the point is found. Probes::before is not read. Zero `reach`: finds nothing.
     void nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const;
-    // The same, but only one ray each, which starts `reach` in front of the point and is `length` long (0: ends as far
-    // behind the point): the hit in front of all.
-    void outermost(const Probes& probes, float length, HighNormals normals, Hits& hits) const;
+    // For each probe the first hit of one ray, which starts `before` in front of the point and ends `reach` behind it.
+    // Triangles that face away from the start or from the low surface's normal count only where there is no other.
+    void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
+    // Whether anything at all lies on those rays, 1 or 0.
+    void anyBetween(const Probes& probes, Lanes<int>& any) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
 
+    // One instance in world space.
+    struct Triangles {
+        std::span<const glm::vec3> positions, normals; // normals unit, or zero where unknown
+        std::span<const std::uint32_t> indices;
+        float front = 1; // -1: the order of the corners contradicts most of the normals, which count
+    };
+    Triangles triangles(std::size_t instance) const;
     // Names of the instances, in order, for matching.
     const std::vector<std::string>& names() const;
     std::size_t triangleCount() const;

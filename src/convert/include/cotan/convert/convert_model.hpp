@@ -35,6 +35,10 @@ struct ConvertedMap {
 struct ConvertModelOptions {
     FramePair frames{}; // neither may depend on the view
     int bits = 0;       // of the new maps, 8 or 16: writes all anew; 0: bits of the old map, and a map that fits stays
+    // How engines that read the maps take their numbers: biased, 2c - 1, as glTF says and stock engines do, or exact,
+    // Cotan's own. New maps are written so, and material extras say so (kUnsignedKey); old ones are read so, unless
+    // theirs say another. Maps that a clear coat reads are exact.
+    Expansion expansion = Expansion::biased;
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     std::size_t memory = 0;    // bytes that the triangles may take besides the document; 0: any number

@@ -16,6 +16,7 @@ namespace cotan {
 struct PutMapOptions {
     Frame frame = Frame::mikktspace;     // that the map was made for
     std::optional<std::string> material; // name of the one that gets it; none: all, and primitives without one get one
+    Expansion expansion = Expansion::exact; // how the map stores signed numbers; the materials say it
     bool keepTangents = false; // for mikktspace and vertex: the file's TANGENT is what the map was made with. Else
                                // it is generated. For other frames it goes, as dropTangents has it
 };

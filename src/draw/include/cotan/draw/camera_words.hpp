@@ -8,7 +8,8 @@
 
 namespace cotan {
 
-// "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow;
+// "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow; both
+// frame all of an animation (Scene::reach);
 // "0", "1", ...: a camera of the scene; or
 // "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, y up (-z where it looks straight up or down),
 // with a lens of 45 degrees from bottom to top; a seventh number is another lens in degrees, "h" and a number an

@@ -45,6 +45,9 @@ gltf::TextureUse normalMapOf(const nlohmann::ordered_json& root, std::size_t mat
                              NormalSlot slot = NormalSlot::surface);
 nlohmann::ordered_json& normalSlotOf(nlohmann::ordered_json& root, std::size_t material, NormalSlot slot);
 
+// Says in a material's extras how its normal map stores signed numbers (kUnsignedKey); for `exact` nothing is said.
+void setExpansion(nlohmann::ordered_json& material, Expansion expansion);
+
 // A texture of the root, and the sampler that it is read with.
 gltf::Texture textureAt(const nlohmann::ordered_json& root, int texture);
 Sampler samplerOf(const nlohmann::ordered_json& root, const gltf::Texture& texture);

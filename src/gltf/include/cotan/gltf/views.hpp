@@ -29,6 +29,12 @@ using Json = nlohmann::ordered_json; // members stay in the order of the file
 // A member of an object; null where it is missing, and where `object` is none.
 const Json* member(const Json& object, std::string_view name);
 
+// A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
+// value, and none, is Cotan's default, whose zero is the middle code (docs/conventions.md). A clear coat's map has the
+// default always.
+inline constexpr const char* kUnsignedKey = "cotanUnsigned";
+Expansion expansionOf(const Json& material);
+
 // What an object says under the name of an extension; null where it says nothing, or no object.
 const Json* extension(const Json& object, std::string_view name);
 

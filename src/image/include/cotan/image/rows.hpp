@@ -21,6 +21,8 @@ public:
     PixelType type = PixelType::unorm8;
     bool alpha = false; // the file stores more than red, green and blue, or grey
     bool whole = false; // the picture is in memory already: its format has no other way
+    std::string frame;  // as Image::frame
+    int channels = 4;   // as Image::channels
 
     // Fills the strip, which has the picture's width and type, with the next rows; no more than
     // remain. Errors: as readImage. After one, only the destructor may follow.
@@ -37,7 +39,8 @@ struct RowFormat {
     int width = 0, height = 0;
     PixelType type = PixelType::unorm8;
     bool alpha = false;
-    bool half = false; // .exr: floats of 16 bits
+    bool half = false;      // .exr: floats of 16 bits
+    std::string frame = {}; // as Image::frame; .png and .exr store it, others do not
 };
 
 // Takes the rows of a picture, from the top. The file appears with finish(); without it nothing is left.

@@ -2,6 +2,7 @@
 // that asks for a new map. `lint` and `convert` both decide by this.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,13 +41,14 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
-// their data, of any sizes. Empty (count 0) where no use shows anything: no triangle with area in space and uv.
+// their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use
+// shows anything: no triangle with area in space and uv.
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames);
+                const FramePair& frames, std::optional<Expansion> expansionAfter = {});
 
 // The same for several pairs of frames, at the same points.
 std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames);
+                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {});
 
 // The points of one surface by which single figures of a primitive are measured.
 inline constexpr std::size_t kPointsOfSurface = 4096;

@@ -39,7 +39,7 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
                                              const FromHeightFileOptions& options, const FileOptions& files = {});
 
 struct ToHeightFileOptions {
-    Convention from{};
+    StatedConvention from{};
     Kernel kernel = Kernel::spectral; // how the slopes were made
     Boundary boundary = Boundary::periodic;
     std::optional<Metres> metres{}; // heights come in metres, otherwise in texels
@@ -49,13 +49,14 @@ struct ToHeightFileOptions {
 struct ToHeightFile {
     int width = 0, height = 0;
     Bits bits;
-    Heights heights; // of texels
-    double unit = 1; // a texel's width, in metres where they were given
+    Heights heights;   // of texels
+    double unit = 1;   // a texel's width, in metres where they were given
+    Convention from{}; // how the map was read
 };
 
 // The heights of a normal map; floats keep their unit, others go from black, the lowest, to white. The map is held
 // whole. Errors: as readImage and writeImage; ErrorKind::input: more memory than files.limits.imageBytes is needed;
-// ErrorKind::usage: "options.bits: "; ErrorKind::stopped.
+// ErrorKind::usage: "options.bits: ", "options.from: "; ErrorKind::stopped.
 Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                            const ToHeightFileOptions& options, const FileOptions& files = {});
 

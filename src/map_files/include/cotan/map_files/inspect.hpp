@@ -16,6 +16,8 @@ struct SurveyedFile {
     int width = 0, height = 0;
     PixelType type = PixelType::unorm8;
     NormalStatistics statistics;
+    std::string frame = {}; // as Image::frame
+    int channels = 4;       // as Image::channels
 };
 
 // Reads a file through, once or twice. Errors: as openRows; ErrorKind::stopped.
@@ -40,12 +42,14 @@ Json toJson(const GreenOfFile& found);
 struct ComparedFiles {
     AngleStatistics angles;  // degrees between the two, over the texels that are directions in both
     std::size_t skipped = 0; // other texels
+    Convention a{}, b{};     // how the two were read
 };
 
 // Compares two maps of one size, each read with its own convention. heat: a picture of the angles as heatMap gives it;
-// empty: none. Errors: as openRows and createRows; ErrorKind::input: two sizes; ErrorKind::stopped.
-Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const Convention& conventionA,
-                                   const std::filesystem::path& b, const Convention& conventionB,
+// empty: none. Errors: as openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: " (of b);
+// ErrorKind::input: two sizes; ErrorKind::stopped.
+Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const StatedConvention& statedA,
+                                   const std::filesystem::path& b, const StatedConvention& statedB,
                                    const std::filesystem::path& heat = {}, const FileOptions& files = {});
 
 } // namespace cotan::maps

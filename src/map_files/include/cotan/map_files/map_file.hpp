@@ -11,6 +11,7 @@
 #include "cotan/convention.hpp"
 #include "cotan/files/limits.hpp"
 #include "cotan/image/rows.hpp"
+#include "cotan/maps/stated.hpp"
 #include "cotan/maps/texels.hpp"
 #include "cotan/progress.hpp"
 #include "cotan/result.hpp"
@@ -43,15 +44,30 @@ std::string bitsName(const Bits& bits);
 // Signed values need floats, in a file that holds negative ones. Errors (ErrorKind::usage): "options.to: ...".
 Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file);
 
-// Reads a map of that convention whole: pictures of two channels are brought to red and green. Errors: as readImage.
-Result<Image> readMap(const std::filesystem::path& file, const Convention& convention, const LoadLimits& limits = {});
+// A map in memory, and how it is to be read.
+struct LoadedMap {
+    Image image;
+    Convention convention;
+};
+
+// Reads a map whole: two channels are brought to red and green. option: as for conventionOf. Errors: as readImage and
+// conventionOf.
+Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                          const LoadLimits& limits = {});
 
 // Writes a whole picture. Errors: as writeImage.
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits);
 
-// Which components of a file hold a two-channel map; rg where the convention has three channels. Reads files that have
-// alpha once through. Errors: as openRows.
-Result<Swizzle> swizzleOfFile(const std::filesystem::path& file, const Convention& convention,
-                              const LoadLimits& limits = {});
+// A map to be read by rows, and how: the strips are to be brought to red and green by unswizzle.
+struct OpenMap {
+    std::unique_ptr<RowReader> rows;
+    Convention convention;
+    Swizzle swizzle = Swizzle::rg;
+};
+
+// Opens a map. A map of two channels in a file of four is read once through, to find where they are. Errors: as
+// openRows and conventionOf.
+Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                        const LoadLimits& limits = {});
 
 } // namespace cotan::maps

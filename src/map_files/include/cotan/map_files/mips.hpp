@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cotan/map_files/map_file.hpp"
@@ -10,7 +11,8 @@
 namespace cotan::maps {
 
 struct MipFileOptions {
-    Convention from{}, to{};
+    StatedConvention from{};
+    std::optional<Convention> to{}; // not given: as the map is read
     SpreadModel model = SpreadModel::lean;
     double roughness = 0.3;        // perceptual roughness of the material, 0 to 1
     bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
@@ -26,13 +28,18 @@ struct MipLevelFigures {
     double meanLength = 1, meanRoughness = 0;
 };
 
+struct MippedFile {
+    Convention from{}, to{}; // how the map was read, and how its levels are stored
+    std::vector<MipLevelFigures> levels;
+};
+
 // Writes all levels and the roughness that they need: a .dds or .ktx2 has both, the roughness in alpha; with
 // "bc5" OUT_roughness.dds has it, as BC4. OUT.png and others become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so
 // on. The map and its levels are held whole. Errors: as readImage and writeImage; ErrorKind::input: the levels take
 // more than four times files.limits.imageBytes; ErrorKind::usage: "options.bits: ", "options.compress: ",
 // "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before anything is written.
-Result<std::vector<MipLevelFigures>> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
-                                               const MipFileOptions& options, const FileOptions& files = {});
+Result<MippedFile> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
+                             const MipFileOptions& options, const FileOptions& files = {});
 
 // The first file that writeMips writes.
 std::filesystem::path firstMipFile(const std::filesystem::path& out);

@@ -33,7 +33,8 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene);
 // Errors: as loadScene and checkTrianglesDrawn.
 Result<Scene> openModel(const PictureOptions& options);
 
-// The same, and where the model has animations what poses it: the scenes of other moments come from poseModel.
+// The same, and where the model has animations what poses it: the scenes of other moments come from poseModel. Scenes
+// that an animation poses have what they reach in all of it.
 struct MovingModel {
     Scene scene;
     std::unique_ptr<AnimatedGltf> animated; // null where nothing moves
@@ -57,9 +58,6 @@ Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std
 
 // The view that the options name, but for surroundings, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);
-
-// Whether a picture file of that name keeps floats, so that light stays linear and unlimited in it.
-bool keepsFloats(const std::filesystem::path& file);
 
 // Whether the exposure is to be found by meterExposure.
 bool meters(const PictureOptions& options);

@@ -16,6 +16,8 @@ template<class W, class T> void exchangeImage(W& w, T& image)
     w.number(image.height);
     w.choice(image.type, PixelType::float32);
     w.array(image.data);
+    w.text(image.frame);
+    w.number(image.channels);
 }
 
 // What is known of a picture before its rows.
@@ -26,6 +28,8 @@ template<class W, class T> void exchangeRowFacts(W& w, T& rows)
     w.choice(rows.type, PixelType::float32);
     w.flag(rows.alpha);
     w.flag(rows.whole);
+    w.text(rows.frame);
+    w.number(rows.channels);
 }
 
 template<class W, class T> void exchangeTexture(W& w, T& texture)

@@ -92,6 +92,22 @@ inline Bounds bounds(const Scene& scene)
     return box;
 }
 
+// The same for the points that a camera frames: those of Scene::reach where it has some.
+template<class Work> void forEachFramedPoint(const Scene& scene, const Work& work)
+{
+    for (const glm::vec3& p : scene.reach)
+        work(glm::mat4(1), p);
+    if (scene.reach.empty())
+        forEachPlacedPoint(scene, work);
+}
+
+inline Bounds framedBounds(const Scene& scene)
+{
+    Bounds box = emptyBounds();
+    forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& p) { extend(box, toWorld, p); });
+    return box;
+}
+
 // Triangles of all instances together.
 inline std::size_t trianglesDrawn(const Scene& scene)
 {

@@ -26,6 +26,12 @@ struct Image {
     int height = 0;   // pixels
     PixelType type = PixelType::unorm8;
     std::vector<std::byte> data; // width * height * 4 * bytesPerComponent(type)
+    // Name of the frame that a normal map was made for, as the file says it (key cotanFrame of PNG, EXR and KTX2): any
+    // word of up to 64 characters, not only names that frameFromName knows. Empty: it is not said.
+    std::string frame = {};
+    // How many channels the file stores: 1 grey, 2 (red and green of KTX2 and DDS, others grey and alpha), 3, 4. 4 also
+    // where nothing is known.
+    int channels = 4;
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t bytesPerPixel() const { return 4 * bytesPerComponent(type); }

@@ -8,7 +8,8 @@
 
 namespace cotan {
 
-// The frame that the files name for the scene's normal maps (Material::normalFrame); none where they name none. Where
+// The frame that the files name for the scene's normal maps (Material::normalFrame, else Image::frame of the map); none
+// where they name none. Where
 // materials differ, it is the one with the largest area of the world; `others` says how many of the materials with a
 // normal map are for another frame, those that name none among them.
 struct NamedFrame {

@@ -7,22 +7,27 @@
 #define COTAN_FUNCTION inline
 
 namespace cotan::f32 {
+using std::floor;
 using std::log2;
 #include "cotan/backdrop.h"
 #include "cotan/environment.h"
+#include "cotan/quantise.h"
 #include "cotan/shadow.h"
 #include "cotan/tone.h"
 } // namespace cotan::f32
 
 #undef COTAN_BACKDROP_H
+#undef COTAN_QUANTISE_H
 #undef COTAN_SHADOW_H
 #undef COTAN_TONE_H
 #undef COTAN_ENVIRONMENT_H
 
 namespace cotan::f64 {
+using std::floor;
 using std::log2;
 #include "cotan/backdrop.h"
 #include "cotan/environment.h"
+#include "cotan/quantise.h"
 #include "cotan/shadow.h"
 #include "cotan/tone.h"
 } // namespace cotan::f64

@@ -119,6 +119,9 @@ struct Material {
 
     // What is behind it shows.
     bool translucent() const { return alphaMode == AlphaMode::blend || transmission.strength > 0; }
+    // It stops light, by its alpha: opaque ones all of it, masked ones what their mask leaves, blended ones their
+    // alpha's share. What transmits counts as clear glass.
+    bool throwsShadow() const { return !(transmission.strength > 0); }
     // Its reflections are others than those of metallic-roughness, or take less than all light.
     bool glossy() const
     {
@@ -182,6 +185,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    // World points that what moves in an animation reaches at all of its moments, not only this one: what cameras frame
+    // and the ground lies under. Empty: it stands as it is.
+    std::vector<glm::vec3> reach;
     std::vector<std::string> warnings; // one line each: what was odd, and what was done about it
 };
 

@@ -86,7 +86,10 @@ struct View {
     bool linearOutput = false;                   // shaded: float32, linear, not tone mapped
     ToneMapping toneMapping = ToneMapping::aces; // shaded, unless linearOutput
     float exposure = 1;
-    int samples = 4; // shaded only: 1 or 4 a pixel
+    // Shaded only, a pixel: 1; 4, which share one light; or 16, each lit by itself where samplePlace
+    // (cotan/scene/sample_places.hpp) has it, from textures that are read four times as finely.
+    int samples = 4;
+    bool dither = true; // unorm8: rounds by a fixed pattern (quantise.h), so that gradients do not band
     // Shaded: lights 16 to 256 normals of a pixel, each rougher by what is smaller: turn, and lost length of the map's.
     bool specularAntialiasing = false;
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers

@@ -73,6 +73,9 @@ struct MappedSurface {
     glm::dvec2 uv(std::size_t corner) const { return glm::dvec2(shared->uv[vertexOf(corner)]); } // where there are any
     // Of the file, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Where there are any.
     glm::dvec4 stored(std::size_t corner) const;
+    // Of a frame that reads tangents, likewise.
+    bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].empty(); }
+    glm::dvec4 generated(Frame frame, std::size_t corner) const;
 };
 
 // map: whose uv set and transform are used; with no image the first uv set as it is. linear: moves

@@ -1,0 +1,17 @@
+// Attributes of vertices that are copies of others.
+import { BufferAttribute } from 'three';
+
+// sources: for each new vertex the old one. Instanced attributes stay.
+export function gathered(attribute, sources) {
+  if (attribute.isInstancedBufferAttribute) return attribute.clone();
+  const { itemSize, normalized, gpuType } = attribute;
+  const [array, stride, offset] = attribute.isInterleavedBufferAttribute
+    ? [attribute.data.array, attribute.data.stride, attribute.offset] : [attribute.array, itemSize, 0];
+  const values = new array.constructor(sources.length * itemSize);
+  sources.forEach((source, k) => {
+    for (let i = 0; i < itemSize; ++i) values[k * itemSize + i] = array[source * stride + offset + i];
+  });
+  const made = new BufferAttribute(values, itemSize, normalized);
+  if (gpuType !== undefined) made.gpuType = gpuType;
+  return made;
+}

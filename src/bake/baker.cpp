@@ -1,0 +1,250 @@
+#include "baker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+constexpr float kNearestDistance = 0.05f; // of the diagonal of the high surface
+constexpr float kLift = 1e-5f;            // of the same
+
+float diagonalOf(const HighSurface& high) { return glm::length(high.high() - high.low()); }
+
+void copyHit(const Hits& from, std::size_t i, Hits& to)
+{
+    to.distance[i] = from.distance[i];
+    to.normal.set(i, from.normal.at(i));
+    to.face.set(i, from.face.at(i));
+    to.instance[i] = from.instance[i];
+    to.triangle[i] = from.triangle[i];
+    to.b1[i] = from.b1[i];
+    to.b2[i] = from.b2[i];
+    to.away[i] = from.away[i];
+}
+
+} // namespace
+
+Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest)
+{
+    if (options.starts || !options.cage.empty() || options.search != BakeSearch::first)
+        return Done{};
+    auto starts =
+        makeRayStarts(low, high, {options.extrusion, options.maxDistance, options.matched, options.threads}, rest);
+    if (!starts)
+        return starts.error();
+    options.starts = std::make_shared<const RayStarts>(std::move(*starts));
+    return Done{};
+}
+
+Baker::Baker(const LowSurface& low, const HighSurface& high, const BakeOptions& options)
+    : low_(low), high_(high), options_(options)
+{
+    const float diagonal = diagonalOf(high);
+    distance_ = options.maxDistance > 0 ? options.maxDistance
+        : measured()                    ? options.starts->limit
+                                        : kNearestDistance * diagonal;
+    lift_ = kLift * diagonal;
+}
+
+void Baker::aim(const LowPoints& points, std::span<const UvPlace> places, Probes& probes) const
+{
+    probes.count = places.size();
+    probes.point = points.position;
+    probes.direction = probes.normal = points.normal;
+    probes.before.fill(0);
+    probes.reach.fill(distance_);
+    probes.only.fill(Probes::kAny);
+    if (!options_.matched.empty())
+        for (std::size_t i = 0; i < places.size(); ++i) // -1 becomes kAny
+            probes.only[i] = std::uint32_t(options_.matched[low_.triangleInstance[places[i].triangle]]);
+    if (!options_.cage.empty())
+        for (std::size_t i = 0; i < places.size(); ++i)
+            aimFromCage(places[i], i, probes);
+    else if (measured())
+        for (std::size_t i = 0; i < places.size(); ++i)
+            aimFromStart(points, places[i], i, probes);
+}
+
+void Baker::aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) const
+{
+    const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
+    const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
+        + options_.cage[v[2]] * place.b2;
+    const glm::vec3 way = cage - probes.point.at(i);
+    const float before = glm::length(way);
+    probes.before[i] = before;
+    probes.reach[i] = options_.cageReach > 0 && before > 0 ? options_.cageReach - before : before;
+    probes.direction.set(i, before > 0 ? way / before : glm::vec3(0));
+}
+
+void Baker::aimFromStart(const LowPoints& points, const UvPlace& place, std::size_t i, Probes& probes) const
+{
+    const RayStarts& starts = *options_.starts;
+    const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
+    const float b0 = 1 - place.b1 - place.b2;
+    glm::vec3 sum = points.from.raw.at(i); // of the normals
+    if (starts.bent)
+        sum = starts.directions[v[0]] * b0 + starts.directions[v[1]] * place.b1 + starts.directions[v[2]] * place.b2;
+    const float length = std::sqrt(glm::dot(sum, sum));
+    if (starts.bent && length > 0)
+        probes.direction.set(i, sum / length);
+    probes.before[i] =
+        length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2);
+    if (starts.crossed[place.triangle])
+        probes.before[i] =
+            openDistance(*starts.tree, probes.point.at(i), probes.direction.at(i), starts.skip, probes.before[i]);
+}
+
+std::size_t Baker::find(const Probes& probes, Hits& hits) const
+{
+    std::size_t rays = probes.count;
+    if (options_.cage.empty() && options_.search == BakeSearch::nearest) {
+        high_.nearest(probes, lift_, options_.highNormals, hits);
+        rays += probes.count;
+    } else {
+        high_.outermost(probes, options_.highNormals, hits);
+        if (measured())
+            rays += findFromFurtherOut(probes, hits);
+    }
+    if (options_.highMaps && showsNormals(options_.kind))
+        for (std::size_t i = 0; i < probes.count; ++i)
+            if (hits.found(i))
+                hits.normal.set(i,
+                                options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
+                                                            double(hits.b2[i]), hits.normal.at(i)));
+    return rays;
+}
+
+// Lanes that found nothing, or only what faces away, look again from as far out as surfaces count.
+std::size_t Baker::findFromFurtherOut(const Probes& probes, Hits& hits) const
+{
+    Probes further;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < probes.count; ++i) {
+        if ((hits.found(i) && !hits.away[i]) || !(distance_ > probes.before[i]))
+            continue;
+        if (rays++ == 0) {
+            further = probes;
+            further.direction = {};
+        }
+        further.direction.set(i, probes.direction.at(i));
+        further.before[i] = options_.starts->tree
+            ? openDistance(*options_.starts->tree, probes.point.at(i), probes.direction.at(i), options_.starts->skip,
+                           distance_)
+            : distance_;
+    }
+    if (rays == 0)
+        return 0;
+    Hits found;
+    high_.outermost(further, options_.highNormals, found);
+    for (std::size_t i = 0; i < probes.count; ++i)
+        if (found.found(i) && (!hits.found(i) || !found.away[i]))
+            copyHit(found, i, hits);
+    return rays;
+}
+
+std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const
+{
+    nearer.fill(0);
+    if (!measured())
+        return 0;
+    // What was found behind the low surface has had nothing before it on the ray, which came from further out.
+    Probes between = probes;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < probes.count; ++i) {
+        const float off = hits.distance[i], skip = std::max(4 * lift_, 1e-3f * off);
+        if (hits.found(i) && off > 2 * skip) {
+            between.before[i] = off - skip;
+            between.reach[i] = off - skip;
+            ++rays;
+        } else {
+            between.direction.set(i, glm::vec3(0));
+        }
+    }
+    if (rays > 0)
+        high_.anyBetween(between, nearer);
+    return rays;
+}
+
+bool Baker::standsOff(const Hits& hits) const
+{
+    bool any = false;
+    for (std::size_t i = 0; measured() && i < kLanes; ++i)
+        any = any || (hits.found(i) && hits.distance[i] > 0.15f * distance_);
+    return any;
+}
+
+std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
+{
+    further.fill(0);
+    Probes line = probes;
+    std::size_t rays = 0;
+    const glm::vec3 middle = (high_.low() + high_.high()) * 0.5f;
+    for (std::size_t i = 0; i < probes.count; ++i) {
+        if (hits.found(i)) {
+            line.direction.set(i, glm::vec3(0));
+            continue;
+        }
+        line.before[i] = line.reach[i] = glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
+        ++rays;
+    }
+    if (rays > 0)
+        high_.anyBetween(line, further);
+    return rays;
+}
+
+std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
+                            std::span<const glm::ivec2> samples, Lanes3& values) const
+{
+    switch (options_.kind) {
+    case BakeKind::normal: encode(points, hits.normal, values); return 0;
+    case BakeKind::objectNormal: values = hits.normal; return 0;
+    case BakeKind::height:
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const bool leans = measured() && options_.starts->bent;
+            const float slope = leans ? glm::dot(probes.direction.at(i), points.normal.at(i)) : 1;
+            values.set(i, {hits.distance[i] * slope, 0, 1});
+        }
+        return 0;
+    case BakeKind::occlusion: break;
+    }
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (hits.found(i)) {
+            const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
+            const std::uint32_t pattern = std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
+            // The side that the ray came from is the one that is open or not.
+            const glm::vec3 out = probes.direction.at(i), face = hits.face.at(i), n = hits.normal.at(i);
+            values.set(i,
+                       {openness(where, glm::dot(face, out) < 0 ? -face : face, glm::dot(n, out) < 0 ? -n : n, pattern),
+                        0, 1});
+            rays += std::size_t(options_.occlusionRays);
+        }
+    return rays;
+}
+
+// Cosine-weighted directions of a golden-ratio spiral around n, turned by the texel's own angle.
+float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const
+{
+    const glm::vec3 side = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t);
+    const float length = glm::length(face);
+    const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
+    const double turn = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
+    int open = 0;
+    for (int i = 0; i < options_.occlusionRays; ++i) {
+        const double r2 = (i + 0.5) / options_.occlusionRays, a = turn + i * 2.399963229728653;
+        const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
+        const glm::vec3 d = t * x + b * y + n * float(std::sqrt(1 - r2));
+        open += !high_.blocked({origin, d, 0, 1e30f});
+    }
+    return float(open) / float(options_.occlusionRays);
+}
+
+} // namespace cotan

@@ -1,0 +1,195 @@
+// Rays of sixteen lanes as Embree takes them.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <embree3/rtcore.h>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/bake/high_surface.hpp"
+
+namespace cotan {
+
+// Embree clamps reciprocals of components below 1e-18, all to the positive side, while it sorts the rays of a coherent
+// packet by the signs as they were: a lane with -1e-18 beside lanes with +0.2 loses the hits of all of them. Components
+// that are this small against a unit vector move no hit by a unit in the last place.
+inline float flushed(float component) { return std::abs(component) < 1e-12f ? 0.0f : component; }
+inline glm::vec3 flushed(glm::vec3 direction)
+{
+    return {flushed(direction.x), flushed(direction.y), flushed(direction.z)};
+}
+
+inline RTCRayHit toEmbree(const Ray& ray)
+{
+    RTCRayHit r{};
+    const glm::vec3 direction = flushed(ray.direction);
+    r.ray.org_x = ray.origin.x;
+    r.ray.org_y = ray.origin.y;
+    r.ray.org_z = ray.origin.z;
+    r.ray.dir_x = direction.x;
+    r.ray.dir_y = direction.y;
+    r.ray.dir_z = direction.z;
+    r.ray.tnear = ray.nearest;
+    r.ray.tfar = ray.farthest;
+    r.ray.mask = ~0u;
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return r;
+}
+
+// What the filters of a trace read.
+struct Asked {
+    RTCIntersectContext context; // first, as Embree hands it to filters
+    const float* fronts;         // of the instances: 1, or -1 where triangles are wound against their normals
+    glm::vec3 normal{0};         // for keepFacing: of the low surface
+};
+
+// Rays carry the instance that they look for as their id.
+inline void keepOnly(const RTCFilterFunctionNArguments* a)
+{
+    for (unsigned i = 0; i < a->N; ++i) {
+        const std::uint32_t only = RTCRayN_id(a->ray, a->N, i);
+        if (a->valid[i] && only != Probes::kAny && RTCHitN_geomID(a->hit, a->N, i) != only)
+            a->valid[i] = 0;
+    }
+}
+
+// Whether the front of a triangle is turned away from the origin of a ray, or from the low surface's normal. Sides of
+// parts that stand upright are neither: they are perpendicular to the normal but for rounding.
+inline bool facesAway(glm::vec3 front, glm::vec3 direction, glm::vec3 normal)
+{
+    constexpr float kUpright = 1e-3f; // cosine
+    const float off = glm::dot(front, normal);
+    return glm::dot(front, direction) >= 0 || (off < 0 && off * off > kUpright * kUpright * glm::dot(front, front));
+}
+
+// The same, and only triangles that face the ray. For single rays.
+inline void keepFacing(const RTCFilterFunctionNArguments* a)
+{
+    keepOnly(a);
+    const Asked& asked = *reinterpret_cast<const Asked*>(a->context);
+    for (unsigned i = 0; i < a->N; ++i) {
+        if (!a->valid[i])
+            continue;
+        const glm::vec3 front =
+            glm::vec3(RTCHitN_Ng_x(a->hit, a->N, i), RTCHitN_Ng_y(a->hit, a->N, i), RTCHitN_Ng_z(a->hit, a->N, i))
+            * asked.fronts[RTCHitN_geomID(a->hit, a->N, i)];
+        const glm::vec3 direction(RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i),
+                                  RTCRayN_dir_z(a->ray, a->N, i));
+        if (facesAway(front, direction, asked.normal))
+            a->valid[i] = 0;
+    }
+}
+
+// A filter costs a call for each candidate; most scenes need none: null.
+inline Asked asked(const std::vector<float>& fronts, RTCFilterFunctionN filter,
+                   RTCIntersectContextFlags flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
+{
+    Asked asked;
+    rtcInitIntersectContext(&asked.context);
+    asked.context.flags = flags;
+    asked.context.filter = filter;
+    asked.fronts = fronts.data();
+    return asked;
+}
+
+inline RTCFilterFunctionN filterFor(const Probes& probes)
+{
+    const bool filtered = std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
+                                      [](std::uint32_t only) { return only != Probes::kAny; });
+    return filtered ? keepOnly : nullptr;
+}
+
+static_assert(Hits::kNothing == RTC_INVALID_GEOMETRY_ID && kLanes == 16);
+
+struct Packet {
+    Lanes<int> valid;
+    Lanes<float> length;
+    RTCRayHit16 rays;
+
+    // The rays from `offset` before each probe's point along direction * way, `farthest` long.
+    Packet(const Probes& probes, const Lanes<float>& offset, float way, const Lanes<float>& farthest)
+    {
+        RTCRay16& r = rays.ray;
+        const int count = int(probes.count);
+        for (int lane = 0; lane < int(kLanes); ++lane) {
+            const auto i = std::size_t(lane);
+            const glm::vec3 direction = probes.direction.at(i) * way,
+                            origin = probes.point.at(i) - direction * offset[i];
+            r.org_x[i] = origin.x;
+            r.org_y[i] = origin.y;
+            r.org_z[i] = origin.z;
+            r.dir_x[i] = flushed(direction.x);
+            r.dir_y[i] = flushed(direction.y);
+            r.dir_z[i] = flushed(direction.z);
+            r.tnear[i] = 0;
+            r.tfar[i] = length[i] = farthest[i];
+            r.time[i] = 0;
+            r.mask[i] = ~0u;
+            r.id[i] = probes.only[i];
+            r.flags[i] = 0;
+            rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+            const bool looks = glm::dot(direction, direction) > 0 && farthest[i] > 0 && lane < count;
+            valid[i] = looks ? -1 : 0;
+        }
+    }
+    bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
+
+    void trace(RTCScene scene, Asked context) { rtcIntersect16(valid.data(), scene, &context.context, &rays); }
+
+    // One lane, by Embree's way for single rays. Keeps what the lane has where that finds nothing.
+    void traceAlone(std::size_t i, RTCScene scene, Asked context)
+    {
+        const RTCRay16& r = rays.ray;
+        RTCRayHit one{};
+        one.ray = {r.org_x[i], r.org_y[i], r.org_z[i], 0,   r.dir_x[i], r.dir_y[i],
+                   r.dir_z[i], 0,          length[i],  ~0u, r.id[i],    0};
+        one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene, &context.context, &one);
+        if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+            return;
+        rays.ray.tfar[i] = one.ray.tfar;
+        rays.hit.geomID[i] = one.hit.geomID;
+        rays.hit.primID[i] = one.hit.primID;
+        rays.hit.u[i] = one.hit.u;
+        rays.hit.v[i] = one.hit.v;
+        rays.hit.Ng_x[i] = one.hit.Ng_x;
+        rays.hit.Ng_y[i] = one.hit.Ng_y;
+        rays.hit.Ng_z[i] = one.hit.Ng_z;
+    }
+    // Something was found that faces away.
+    bool foundAway(std::size_t i, const std::vector<float>& fronts, glm::vec3 normal) const
+    {
+        const glm::vec3 face(rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]);
+        return found(i)
+            && facesAway(face * fronts[rays.hit.geomID[i]], {rays.ray.dir_x[i], rays.ray.dir_y[i], rays.ray.dir_z[i]},
+                         normal);
+    }
+};
+
+// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes
+// no branch of it.
+template<class T> void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
+{
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const auto a = std::bit_cast<std::uint32_t>(first[i]), b = std::bit_cast<std::uint32_t>(second[i]);
+        picked[i] = std::bit_cast<T>((a & ~masks[i]) | (b & masks[i]));
+    }
+}
+
+inline void pick(const Lanes<std::uint32_t>& masks, const RTCHit16& first, const RTCHit16& second, Hits& hits)
+{
+    pick(masks, first.geomID, second.geomID, hits.instance.data());
+    pick(masks, first.primID, second.primID, hits.triangle.data());
+    pick(masks, first.u, second.u, hits.b1.data());
+    pick(masks, first.v, second.v, hits.b2.data());
+    pick(masks, first.Ng_x, second.Ng_x, hits.face.x);
+    pick(masks, first.Ng_y, second.Ng_y, hits.face.y);
+    pick(masks, first.Ng_z, second.Ng_z, hits.face.z);
+}
+
+} // namespace cotan

@@ -1,0 +1,399 @@
+#include "cotan/bake/ray_starts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "cotan/parallel/loops.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr float kLimit = 0.1f;      // of the diagonal
+constexpr float kMargin = 0.002f;   // of the diagonal
+constexpr float kMore = 1.05f;      // of the measured distance
+constexpr float kLeastLean = 0.2f;  // cosine between a vertex's normal and its direction
+constexpr float kLeastSlope = 0.3f; // cosine by which distances are divided at least: no cage leaves the model
+constexpr float kFaces = 0.1f;      // cosine from which two surfaces count as facing the same way
+constexpr float kAside = 0.35f;     // cosine below which the nearest point lies aside
+constexpr std::size_t kMostVertices = 400000; // that are measured: of more every second, third and so on
+constexpr float kSpacing = 1.0f / 256;        // of the diagonal, between points of large triangles
+constexpr float kSkip = 1e-4f;                // of the diagonal
+constexpr int kMostCuts = 64;                 // of an edge of these
+
+// Numbers for vertices: equal for those of one instance at one position.
+struct Groups {
+    std::vector<std::uint32_t> of; // one a vertex
+    std::uint32_t count = 0;
+};
+
+Groups groupsOf(const LowSurface& low)
+{
+    std::vector<std::uint32_t> instance(low.positions.size(), 0), order(low.positions.size());
+    for (std::size_t i = 0; i < low.indices.size(); ++i)
+        instance[low.indices[i]] = low.triangleInstance[i / 3];
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t v) {
+        const glm::vec3 p = low.positions[v];
+        return std::tuple(instance[v], p.x, p.y, p.z);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    Groups groups;
+    groups.of.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && key(order[i]) != key(order[i - 1]))
+            ++groups.count;
+        groups.of[order[i]] = groups.count;
+    }
+    ++groups.count;
+    return groups;
+}
+
+float angleAt(glm::vec3 corner, glm::vec3 a, glm::vec3 b)
+{
+    const glm::vec3 u = a - corner, v = b - corner;
+    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+}
+
+void findDirections(const LowSurface& low, const Groups& groups, RayStarts& starts)
+{
+    std::vector<glm::vec3> sums(groups.count, glm::vec3(0)), first(groups.count);
+    std::vector<std::uint8_t> seen(groups.count, 0); // 1: all normals are equal, 2: they differ
+    for (std::size_t v = 0; v < low.normals.size(); ++v) {
+        const std::uint32_t g = groups.of[v];
+        if (!seen[g]) {
+            seen[g] = 1;
+            first[g] = low.normals[v];
+        } else if (first[g] != low.normals[v]) {
+            seen[g] = 2;
+        }
+    }
+    for (std::size_t i = 0; i < low.indices.size(); ++i) {
+        const std::size_t f = i / 3 * 3;
+        const std::uint32_t v = low.indices[i];
+        const float angle = angleAt(low.positions[v], low.positions[low.indices[f + (i + 1) % 3]],
+                                    low.positions[low.indices[f + (i + 2) % 3]]);
+        sums[groups.of[v]] += low.normals[v] * angle;
+    }
+    starts.directions = low.normals;
+    for (std::size_t v = 0; v < low.normals.size(); ++v) {
+        const std::uint32_t g = groups.of[v];
+        const float length = glm::length(sums[g]);
+        if (seen[g] < 2 || !(length > 0) || glm::dot(sums[g], low.normals[v]) < kLeastLean * length)
+            continue;
+        starts.directions[v] = sums[g] / length;
+        starts.bent = starts.bent || starts.directions[v] != low.normals[v];
+    }
+}
+
+// The low surface and the rest as one tree, and how large they are.
+struct Body {
+    std::shared_ptr<const LowTree> tree;
+    std::vector<glm::vec3> outsides;      // of its triangles: unit, to the side of the vertices' normals
+    std::vector<std::uint32_t> instances; // of the same
+    float diagonal = 0, edge = 0;         // of the box; about that of a triangle
+};
+
+Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, int threads)
+{
+    Body body;
+    std::vector<glm::vec3> positions = low.positions, normals = low.normals;
+    std::vector<std::uint32_t> indices = low.indices;
+    body.instances = low.triangleInstance;
+    const auto base = std::uint32_t(positions.size());
+    positions.insert(positions.end(), rest.positions.begin(), rest.positions.end());
+    normals.insert(normals.end(), rest.normals.begin(), rest.normals.end());
+    for (const std::uint32_t i : rest.indices)
+        indices.push_back(base + i);
+    body.instances.insert(body.instances.end(), rest.triangleInstance.begin(), rest.triangleInstance.end());
+    glm::vec3 from(1e30f), to(-1e30f);
+    for (const std::uint32_t i : indices) {
+        from = glm::min(from, positions[i]);
+        to = glm::max(to, positions[i]);
+    }
+    body.diagonal = glm::length(to - from);
+    double area = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const glm::vec3 p = positions[indices[i]];
+        const glm::vec3 n = glm::cross(positions[indices[i + 1]] - p, positions[indices[i + 2]] - p);
+        const float length = glm::length(n);
+        area += double(length) / 2;
+        const glm::vec3 side = normals[indices[i]] + normals[indices[i + 1]] + normals[indices[i + 2]];
+        body.outsides.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
+    }
+    body.edge = float(1.5 * std::sqrt(area / double(body.outsides.size())));
+    auto tree = LowTree::make(std::move(positions), std::move(indices), threads);
+    if (!tree)
+        return tree.error();
+    body.tree = std::make_shared<const LowTree>(std::move(*tree));
+    return body;
+}
+
+// Of one thread: where the last point belonged, from which the next one is often not far.
+struct Last {
+    bool known = false;
+    std::uint32_t triangle = 0;
+    glm::vec3 point{0};
+};
+
+class Measuring {
+public:
+    Measuring(const LowSurface& low, const HighSurface& high, const RayStartOptions& options, const Body& body,
+              const Groups& groups, const RayStarts& starts)
+        : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
+          distances_(groups.count, 0), reached_(groups.count, 0)
+    {
+    }
+
+    // One point of the high surface with its normal.
+    void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, Last& last)
+    {
+        if (!(glm::dot(normal, normal) > 0))
+            return;
+        const auto accepts = [&](std::uint32_t triangle) {
+            return glm::dot(body_.outsides[triangle], normal) > kFaces && sees(triangle, instance);
+        };
+        float radius = starts_.limit;
+        if (last.known && accepts(last.triangle)) // nothing that is further away than that can be the nearest
+            radius = std::min(radius, glm::length(point - last.point) * 1.0001f + 1e-7f * body_.diagonal);
+        const LowTree::Nearest nearest = body_.tree->nearest(point, radius, accepts);
+        if (!nearest.found)
+            return;
+        last = {true, nearest.triangle, nearest.point};
+        if (nearest.triangle >= low_.triangleCount())
+            return;
+        const glm::vec3 off = point - nearest.point;
+        const glm::vec3 way = directionAt(nearest.triangle, nearest.b1, nearest.b2);
+        const float along = glm::dot(off, way);
+        if (nearest.distance <= 1e-6f * body_.diagonal || along <= 0)
+            return raise(nearest.triangle, nearest.b1, nearest.b2, 0, way);
+        if (along >= kAside * nearest.distance)
+            return raise(nearest.triangle, nearest.b1, nearest.b2, nearest.distance, off / nearest.distance);
+        const LowTree::Met below = body_.tree->first({point, -normal, 0, starts_.limit});
+        if (below.found && below.triangle < low_.triangleCount() && accepts(below.triangle))
+            raise(below.triangle, below.b1, below.b2, below.distance, normal);
+    }
+
+    // Vertices that nothing belongs to.
+    void addRays()
+    {
+        std::vector<std::uint32_t> open;
+        std::vector<std::uint8_t> asked(groups_.count, 0);
+        for (std::size_t i = 0; i < low_.indices.size(); ++i)
+            if (const std::uint32_t g = groups_.of[low_.indices[i]]; !reached_[g] && !asked[g]) {
+                asked[g] = 1;
+                open.push_back(std::uint32_t(i));
+            }
+        parallelRanges<std::size_t>(0, open.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i != end; ++i)
+                addRay(open[i]);
+        });
+    }
+
+    // One a vertex of the low surface.
+    std::vector<float> distances() const
+    {
+        std::vector<float> all(low_.positions.size());
+        for (std::size_t v = 0; v < all.size(); ++v) {
+            all[v] = std::bit_cast<float>(distances_[groups_.of[v]]) * kMore + kMargin * body_.diagonal;
+            all[v] = options_.maxDistance > 0 ? std::min(all[v], options_.maxDistance) : all[v];
+        }
+        return all;
+    }
+
+private:
+    bool sees(std::uint32_t triangle, std::uint32_t instance) const
+    {
+        if (options_.matched.empty())
+            return true;
+        const std::int64_t only = options_.matched[body_.instances[triangle]];
+        return only < 0 || only == std::int64_t(instance);
+    }
+    glm::vec3 directionAt(std::uint32_t triangle, float b1, float b2) const
+    {
+        const std::uint32_t* v = &low_.indices[3 * std::size_t(triangle)];
+        const glm::vec3 sum =
+            starts_.directions[v[0]] * (1 - b1 - b2) + starts_.directions[v[1]] * b1 + starts_.directions[v[2]] * b2;
+        const float length = glm::length(sum);
+        return length > 0 ? sum / length : sum;
+    }
+    // Distances at the corners that reach `distance` off the triangle's plane, or whatever stands across `way`.
+    void raise(std::uint32_t triangle, float b1, float b2, float distance, glm::vec3 way)
+    {
+        const float weights[3] = {1 - b1 - b2, b1, b2};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (weights[i] < 1e-6f)
+                continue;
+            const std::uint32_t v = low_.indices[3 * std::size_t(triangle) + i];
+            raiseVertex(v, distance / std::max(kLeastSlope, glm::dot(starts_.directions[v], way)));
+        }
+    }
+    void raiseVertex(std::uint32_t v, float distance)
+    {
+        const std::uint32_t group = groups_.of[v];
+        std::atomic_ref<std::uint8_t>(reached_[group]).store(1, std::memory_order_relaxed);
+        // Numbers from zero on are ordered as their bits are.
+        std::atomic_ref<std::uint32_t> kept(distances_[group]);
+        const auto wanted = std::bit_cast<std::uint32_t>(distance);
+        std::uint32_t now = kept.load(std::memory_order_relaxed);
+        while (now < wanted && !kept.compare_exchange_weak(now, wanted, std::memory_order_relaxed))
+            ;
+    }
+    void addRay(std::uint32_t index)
+    {
+        constexpr int kMostLayers = 16;
+        const std::uint32_t v = low_.indices[index], triangle = index / 3;
+        const glm::vec3 way = starts_.directions[v], point = low_.positions[v];
+        const float lift = 1e-5f * body_.diagonal;
+        if (!(glm::dot(way, way) > 0))
+            return;
+        const float from = openDistance(*body_.tree, point, way, starts_.skip, starts_.limit);
+        float passed = 0;
+        for (int layer = 0; layer < kMostLayers && passed < from; ++layer) {
+            const Hit hit = high_.trace({point + way * (from - passed), -way, 0, from - passed});
+            if (!hit.found)
+                return;
+            passed += hit.distance + lift;
+            if (sees(triangle, hit.instance) && glm::dot(hit.front, way) > kFaces)
+                return raiseVertex(v, std::max(0.0f, from - passed));
+        }
+    }
+
+    const LowSurface& low_;
+    const HighSurface& high_;
+    const RayStartOptions& options_;
+    const Body& body_;
+    const Groups& groups_;
+    const RayStarts& starts_;
+    std::vector<std::uint32_t> distances_; // bits of floats, one a group
+    std::vector<std::uint8_t> reached_;    // something belongs to the group
+};
+
+// Calls add(point, normal) for points between the corners of a triangle, about `spacing` apart.
+template<class Add>
+void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, float spacing, const Add& add)
+{
+    const std::uint32_t* c = &part.indices[3 * triangle];
+    const glm::vec3 p0 = part.positions[c[0]], p1 = part.positions[c[1]], p2 = part.positions[c[2]];
+    const float longest =
+        std::sqrt(std::max({glm::dot(p1 - p0, p1 - p0), glm::dot(p2 - p1, p2 - p1), glm::dot(p0 - p2, p0 - p2)}));
+    if (!(longest > spacing))
+        return;
+    const int cuts = int(std::min(std::ceil(longest / spacing), float(kMostCuts)));
+    for (int i = 0; i <= cuts; ++i)
+        for (int j = 0; j <= cuts - i; ++j) {
+            const float b1 = float(i) / float(cuts), b2 = float(j) / float(cuts), b0 = 1 - b1 - b2;
+            const glm::vec3 n = part.normals[c[0]] * b0 + part.normals[c[1]] * b1 + part.normals[c[2]] * b2;
+            const float length = glm::length(n);
+            if (length > 0)
+                add(p0 * b0 + p1 * b1 + p2 * b2, n / length);
+        }
+}
+
+void measure(const HighSurface& high, float spacing, Measuring& measuring)
+{
+    std::size_t vertices = 0;
+    for (std::size_t instance = 0; instance < high.names().size(); ++instance)
+        vertices += high.triangles(instance).positions.size();
+    const std::size_t step = 1 + vertices / kMostVertices;
+    for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
+        const HighSurface::Triangles part = high.triangles(instance);
+        parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
+                                    [&](std::size_t begin, std::size_t end) {
+                                        Last last;
+                                        for (std::size_t i = begin * step; i < end * step; i += step)
+                                            if (i < part.positions.size())
+                                                measuring.add(part.positions[i], part.normals[i], instance, last);
+                                    });
+        parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
+            Last last;
+            for (std::size_t f = begin; f != end; ++f)
+                pointsBetween(part, f, spacing, [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
+        });
+    }
+    measuring.addRays();
+}
+
+// Whether some of the rays of a triangle would start behind another one.
+bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t triangle, float diagonal)
+{
+    constexpr int kLeastSteps = 3, kMostSteps = 12;
+    const std::uint32_t* v = &low.indices[3 * triangle];
+    const glm::vec3 p[3] = {low.positions[v[0]], low.positions[v[1]], low.positions[v[2]]};
+    const float longest = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+    const int steps = std::max(kLeastSteps, int(std::min(longest / (4 * kSpacing * diagonal), float(kMostSteps))));
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps - i; ++j) {
+            // A little inside the edges.
+            const float b1 = (float(i) + 0.1f) / (float(steps) + 0.3f), b2 = (float(j) + 0.1f) / (float(steps) + 0.3f),
+                        b0 = 1 - b1 - b2;
+            const glm::vec3 sum =
+                starts.directions[v[0]] * b0 + starts.directions[v[1]] * b1 + starts.directions[v[2]] * b2;
+            const float length = glm::length(sum);
+            const float wanted =
+                length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * b1 + starts.distances[v[2]] * b2);
+            if (length > 0
+                && openDistance(*starts.tree, p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length, starts.skip, wanted)
+                    < wanted)
+                return true;
+        }
+    return false;
+}
+
+void findCrossed(const LowSurface& low, float diagonal, RayStarts& starts)
+{
+    starts.crossed.assign(low.triangleCount(), 0);
+    parallelRanges<std::size_t>(0, low.triangleCount(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f != end; ++f)
+            starts.crossed[f] = isCrossed(low, starts, f, diagonal) ? 1 : 0;
+    });
+}
+
+} // namespace
+
+float openDistance(const LowTree& tree, glm::vec3 point, glm::vec3 direction, float skip, float wanted)
+{
+    if (!(wanted > skip))
+        return wanted;
+    const LowTree::Met met = tree.first({point, direction, skip, wanted});
+    if (!met.found)
+        return wanted;
+    return glm::dot(tree.face(met.triangle), direction) > 0 ? met.distance / 2 : met.distance;
+}
+
+Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
+                                const LowRest& rest)
+{
+    RayStarts starts;
+    const Groups groups = groupsOf(low);
+    findDirections(low, groups, starts);
+    auto body = bodyOf(low, rest, options.threads);
+    if (!body)
+        return body.error();
+    starts.skip = kSkip * body->diagonal;
+    starts.limit = options.maxDistance > 0 ? options.maxDistance : kLimit * body->diagonal;
+    if (options.extrusion > 0) {
+        starts.distances.assign(low.positions.size(), options.extrusion);
+        starts.crossed.assign(low.triangleCount(), 0);
+        starts.farthest = options.extrusion;
+        return starts;
+    }
+    starts.tree = body->tree;
+    withThreads(options.threads, [&] {
+        Measuring measuring(low, high, options, *body, groups, starts);
+        measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
+        starts.distances = measuring.distances();
+        findCrossed(low, body->diagonal, starts);
+    });
+    starts.farthest = *std::max_element(starts.distances.begin(), starts.distances.end());
+    return starts;
+}
+
+} // namespace cotan

@@ -1,0 +1,83 @@
+#include "cotan/image/format_table.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cotan/files/extension.hpp"
+
+namespace cotan {
+
+namespace {
+
+std::string joined(const std::vector<std::string_view>& words, std::string_view between, std::string_view last)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0)
+            text += i + 1 == words.size() ? last : between;
+        text += words[i];
+    }
+    return text;
+}
+
+template<class Wanted> std::string endingsWhere(const Wanted& wanted, std::string_view between, std::string_view last)
+{
+    std::vector<std::string_view> endings;
+    for (const ImageFormat& format : kImageFormats)
+        if (wanted(format))
+            endings.push_back(format.endings[0]);
+    return joined(endings, between, last.empty() ? between : last);
+}
+
+} // namespace
+
+const ImageFormat* imageFormatOf(const std::filesystem::path& file)
+{
+    const std::string ending = lowerExtension(file);
+    const auto found = std::ranges::find_if(kImageFormats, [&](const ImageFormat& f) {
+        return !ending.empty() && std::ranges::find(f.endings, ending) != f.endings.end();
+    });
+    return found == kImageFormats.end() ? nullptr : &*found;
+}
+
+const ImageFormat* imageFormatOf(std::span<const std::byte> bytes)
+{
+    const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
+    const auto start = std::ranges::find_if(kImageStarts, [&](const ImageStart& s) {
+        return head.starts_with(s.before) && head.size() >= s.at && head.substr(s.at).starts_with(s.bytes);
+    });
+    if (start == kImageStarts.end())
+        return nullptr;
+    return &*std::ranges::find(kImageFormats, start->format, &ImageFormat::name);
+}
+
+Status checkImageName(const std::filesystem::path& file)
+{
+    if (imageFormatHas(file, &ImageFormat::writes))
+        return Done{};
+    return usageError(fmt::format("{}: expected the extension {}, found \"{}\"", file.string(),
+                                  imageEndings(&ImageFormat::writes, " ", " or "), file.extension().string()));
+}
+
+std::string imageEndings(bool (*wanted)(const ImageFormat&), std::string_view between, std::string_view last)
+{
+    return endingsWhere(wanted, between, last);
+}
+
+std::string imageEndings(bool ImageFormat::*wanted, std::string_view between, std::string_view last)
+{
+    return endingsWhere([wanted](const ImageFormat& f) { return f.*wanted; }, between, last);
+}
+
+std::string readableFormatNames()
+{
+    std::vector<std::string_view> names;
+    for (const ImageFormat& format : kImageFormats)
+        if (format.reads)
+            names.push_back(format.name);
+    return joined(names, ", ", ", ");
+}
+
+} // namespace cotan

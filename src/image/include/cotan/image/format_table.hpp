@@ -1,0 +1,181 @@
+// The formats of image files: one table that readers, writers, commands, the viewer, batch and the help ask.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cotan/result.hpp"
+
+namespace cotan {
+
+// One format. What a build lacks the library for is in the table all the same.
+struct ImageFormat {
+    std::string_view name; // in messages
+    // Of file names, in lower case, the usual one first; the second may be empty.
+    std::array<std::string_view, 2> endings;
+    std::string_view mime = {};        // in glTF, of its own or of an extension; empty: glTF has no such images
+    std::string_view openImageIo = {}; // name of OpenImageIO's reader and writer; empty: it is not asked
+
+    bool reads = false;     // readImage
+    bool readsRows = false; // by openRows without the whole image in memory, most files at least
+    bool writes = false;    // writeImage and createRows
+    bool texture = false;   // written as a texture with its levels and blocks: `map convert` and `map mips`
+    bool animation = false; // createAnimation
+
+    // What a written file holds. A format without alpha drops it.
+    bool bits8 = false, bits16 = false, halfs = false, floats = false;
+    bool negative = false; // floats below zero
+    bool alpha = false;
+    bool lossy = false; // changes the values
+    bool frame = false; // Image::frame
+};
+
+// How files begin, `at` bytes from the start. A format may have several, or none (TGA).
+struct ImageStart {
+    std::string_view format; // ImageFormat::name
+    std::string_view bytes;
+    std::size_t at = 0;
+    std::string_view before = {}; // from the start on
+};
+
+inline constexpr std::array<ImageFormat, 12> kImageFormats = {{
+    {.name = "PNG",
+     .endings = {".png"},
+     .mime = "image/png",
+     .reads = true,
+     .readsRows = true,
+     .writes = true,
+     .bits8 = true,
+     .bits16 = true,
+     .alpha = true,
+     .frame = true},
+    {.name = "EXR",
+     .endings = {".exr"},
+     .openImageIo = "openexr",
+     .reads = true,
+     .readsRows = true,
+     .writes = true,
+     .halfs = true,
+     .floats = true,
+     .negative = true,
+     .alpha = true,
+     .frame = true},
+    {.name = "TIFF",
+     .endings = {".tif", ".tiff"},
+     .openImageIo = "tiff",
+     .reads = true,
+     .readsRows = true,
+     .writes = true,
+     .bits8 = true,
+     .bits16 = true,
+     .floats = true,
+     .negative = true,
+     .alpha = true},
+    {.name = "TGA",
+     .endings = {".tga"},
+     .openImageIo = "targa",
+     .reads = true,
+     .writes = true,
+     .bits8 = true,
+     .alpha = true},
+    {.name = "JPEG",
+     .endings = {".jpg", ".jpeg"},
+     .mime = "image/jpeg",
+     .openImageIo = "jpeg",
+     .reads = true,
+     .writes = true,
+     .bits8 = true,
+     .lossy = true},
+    {.name = "HDR",
+     .endings = {".hdr"},
+     .openImageIo = "hdr",
+     .reads = true,
+     .readsRows = true,
+     .writes = true,
+     .floats = true},
+    {.name = "DDS",
+     .endings = {".dds"},
+     .mime = "image/vnd-ms.dds",
+     .openImageIo = "dds",
+     .reads = true,
+     .texture = true,
+     .bits8 = true,
+     .alpha = true},
+    {.name = "KTX2",
+     .endings = {".ktx2"},
+     .mime = "image/ktx2",
+     .reads = true,
+     .texture = true,
+     .bits8 = true,
+     .alpha = true,
+     .frame = true},
+    {.name = "WebP",
+     .endings = {".webp"},
+     .mime = "image/webp",
+     .reads = true,
+     .animation = true,
+     .bits8 = true,
+     .alpha = true,
+     .lossy = true},
+    {.name = "GIF", .endings = {".gif"}, .animation = true, .bits8 = true, .lossy = true},
+    {.name = "BMP", .endings = {".bmp"}, .openImageIo = "bmp", .reads = true},
+    {.name = "AVIF", .endings = {".avif"}, .mime = "image/avif"},
+}};
+
+inline constexpr std::array<ImageStart, 16> kImageStarts = [] {
+    using namespace std::string_view_literals;
+    return std::array<ImageStart, 16>{{{"PNG", "\x89PNG\r\n\x1a\n"sv},
+                                       {"JPEG", "\xff\xd8\xff"sv},
+                                       {"TIFF", "II*\0"sv},
+                                       {"TIFF", "MM\0*"sv},
+                                       {"TIFF", "II+\0"sv}, // BigTIFF
+                                       {"TIFF", "MM\0+"sv},
+                                       {"EXR", "\x76\x2f\x31\x01"sv},
+                                       {"HDR", "#?"sv},
+                                       {"DDS", "DDS "sv},
+                                       {"KTX2", "\xabKTX 20\xbb"sv},
+                                       {"WebP", "WEBP"sv, 8, "RIFF"sv},
+                                       {"GIF", "GIF87a"sv},
+                                       {"GIF", "GIF89a"sv},
+                                       {"BMP", "BM"sv},
+                                       {"AVIF", "ftypavif"sv, 4, "\0\0"sv}, // its first box is shorter than 64 KiB
+                                       {"AVIF", "ftypavis"sv, 4, "\0\0"sv}}};
+}();
+
+// The format that a file's name ends in, compared without regard to case. Null: none of the table.
+const ImageFormat* imageFormatOf(const std::filesystem::path& file);
+
+// The format that a file's first bytes say; 16 do. Null: none of the table, or TGA, which begins in no way of its own.
+const ImageFormat* imageFormatOf(std::span<const std::byte> bytes);
+
+// Whether a file of that name can be written by writeImage, keeps floats, and so on: imageFormatHas(file,
+// &ImageFormat::writes). False for names that the table does not know.
+inline bool imageFormatHas(const std::filesystem::path& file, bool ImageFormat::*what)
+{
+    const ImageFormat* const format = imageFormatOf(file);
+    return format && format->*what;
+}
+
+// Errors (ErrorKind::usage): a name that writeImage and createRows do not write.
+Status checkImageName(const std::filesystem::path& file);
+
+// Whether a rendered image in a file of that name keeps light linear and unlimited: floats can be written.
+inline bool keepsFloats(const std::filesystem::path& file)
+{
+    return imageFormatHas(file, &ImageFormat::writes) && imageFormatHas(file, &ImageFormat::floats);
+}
+
+// The usual endings of the formats for which `wanted` holds, in the order of the table: ".png, .exr or .tif" with
+// `last` " or ". Empty `last`: `between`.
+std::string imageEndings(bool (*wanted)(const ImageFormat&), std::string_view between = " ",
+                         std::string_view last = {});
+std::string imageEndings(bool ImageFormat::*wanted, std::string_view between = " ", std::string_view last = {});
+
+// The names of the formats that can be read: "PNG, EXR, ...".
+std::string readableFormatNames();
+
+} // namespace cotan

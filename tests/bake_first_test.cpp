@@ -1,0 +1,329 @@
+// One ray from outside inwards, from a measured distance: what stands off is in the map, what lies behind something is
+// not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "bake_cases.hpp"
+#include "cotan/bake/bake.hpp"
+
+namespace cotan {
+namespace {
+
+struct Pair {
+    LowSurface low;
+    HighSurface high;
+    BakeOptions options;
+};
+
+Pair setupOf(const BakeCase& pair, BakeKind kind, int size = 128)
+{
+    auto low = makeLowSurface(sceneOfMeshes({pair.low}), -1, Frame::cotangent, TangentOrigin::generated);
+    auto high = HighSurface::make({sceneOfMeshes({pair.high})}, 0);
+    EXPECT_TRUE(low && high);
+    Pair setup{std::move(*low), std::move(*high), {}};
+    setup.options.kind = kind;
+    setup.options.width = setup.options.height = size;
+    setup.options.highNormals = HighNormals::face;
+    return setup;
+}
+
+Baked bakeOf(const Pair& setup)
+{
+    auto baked = bake(setup.low, setup.high, setup.options);
+    EXPECT_TRUE(baked);
+    return *baked;
+}
+
+// Of the covered texels.
+std::vector<glm::vec3> valuesOf(const Baked& baked)
+{
+    std::vector<glm::vec3> values;
+    for (std::size_t i = 0; i < baked.values.size(); ++i)
+        if ((baked.states[i] & texelCovered) != 0)
+            values.push_back(baked.values[i]);
+    return values;
+}
+
+// Calls check(point, face normal, value) for every covered texel.
+void forTexels(const Pair& setup, const Baked& baked, const std::function<void(glm::vec3, glm::vec3, glm::vec3)>& check)
+{
+    const UvRaster raster({setup.low.texcoords, setup.low.indices}, baked.width, baked.height);
+    UvRow row;
+    for (int y = 0; y < baked.height; ++y) {
+        raster.row(y, UvReach::centres, row);
+        for (int x = 0; x < baked.width; ++x)
+            for (std::uint32_t k = row.first[std::size_t(x)]; k < row.first[std::size_t(x) + 1]; ++k) {
+                const LowPoint p =
+                    pointOf(setup.low, row.places[k].triangle, double(row.places[k].b1), double(row.places[k].b2));
+                check(glm::vec3(p.position), glm::vec3(p.normal),
+                      baked.values[std::size_t(y) * std::size_t(baked.width) + std::size_t(x)]);
+            }
+    }
+}
+
+// The low mesh's vertices moved out from the origin, or along what `move` says.
+std::vector<glm::vec3> cageOf(const LowSurface& low, const std::function<glm::vec3(glm::vec3, glm::vec3)>& move)
+{
+    std::vector<glm::vec3> cage;
+    for (std::size_t i = 0; i < low.positions.size(); ++i)
+        cage.push_back(move(low.positions[i], low.normals[i]));
+    return cage;
+}
+
+TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
+{
+    const Pair setup = setupOf(bolts(), BakeKind::height);
+    const Baked baked = bakeOf(setup);
+    EXPECT_EQ(baked.statistics.missed, 0u);
+    int tops = 0, faces = 0;
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3 n, glm::vec3 value) {
+        if (n.x < 0.5f) {
+            EXPECT_LE(value.x, 1e-5f);
+            return;
+        }
+        // Corners of a cube lean by one in each axis: rays run to its middle, and meet the plane of the tops 1.14 times
+        // as far out.
+        const auto apart = [&](float off) {
+            const glm::vec3 q = p * ((0.5f + off) / 0.5f);
+            return glm::length(glm::vec2(std::abs(q.y) - kBoltPlace, std::abs(q.z) - kBoltPlace));
+        };
+        if (apart(kBoltTop) < kBolt * 0.99f) {
+            EXPECT_NEAR(value.x, kBoltTop, 1e-5) << p.y << " " << p.z;
+            ++tops;
+        } else if (apart(kBoltTop) > kBolt && apart(0.03f) > kBolt && apart(0.05f) > kBolt
+                   && std::max(std::abs(p.y), std::abs(p.z)) < 0.46f) {
+            EXPECT_NEAR(value.x, 0, 1e-5) << p.y << " " << p.z;
+            ++faces;
+        }
+    });
+    EXPECT_GT(tops, 40);
+    EXPECT_GT(faces, 1000);
+    // What a cage by hand finds: the cube, 1.4 times as large.
+    Pair caged = setupOf(bolts(), BakeKind::objectNormal), free = setupOf(bolts(), BakeKind::objectNormal);
+    caged.options.cage = cageOf(caged.low, [](glm::vec3 p, glm::vec3) { return p * 1.4f; });
+    const Baked a = bakeOf(caged), b = bakeOf(free);
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        apart += glm::length(a.values[i] - b.values[i]) > 1e-3f;
+    EXPECT_LE(apart, a.statistics.covered / 500); // rays along edges
+    // The tops and the shafts below them are not the nearest surface; the older rule has none of them.
+    Pair older = setupOf(bolts(), BakeKind::height);
+    older.options.search = BakeSearch::nearest;
+    for (const glm::vec3& v : valuesOf(bakeOf(older)))
+        EXPECT_LT(v.x, 0.01f);
+    EXPECT_GE(baked.statistics.nearer, std::size_t(tops));
+}
+
+TEST(BakeFirst, aPlateIsSeenFromAboveUnderItsOwnMiddle)
+{
+    Pair setup = setupOf(plate(), BakeKind::objectNormal, 32);
+    const Baked baked = bakeOf(setup);
+    for (const glm::vec3& v : valuesOf(baked))
+        EXPECT_GT(v.z, 0.999f);
+    EXPECT_EQ(baked.statistics.nearer, baked.statistics.covered); // the lower side is nearer everywhere
+    setup.options.search = BakeSearch::nearest;
+    for (const glm::vec3& v : valuesOf(bakeOf(setup)))
+        EXPECT_LT(v.z, -0.999f);
+    // Even where rays start between the two sides: what faces away counts only where there is nothing else.
+    setup.options.search = BakeSearch::first;
+    setup.options.extrusion = 0.005f;
+    for (const glm::vec3& v : valuesOf(bakeOf(setup)))
+        EXPECT_GT(v.z, 0.999f);
+    const BakeCase pair = plate();
+    Mesh lower;
+    addSquare(lower, {-kUpwards.n, kUpwards.v, kUpwards.u}, {0, 0, -0.01f}, {0.5f, 0.5f});
+    Pair only = setupOf({pair.low, lower}, BakeKind::objectNormal, 32);
+    for (const glm::vec3& v : valuesOf(bakeOf(only)))
+        EXPECT_LT(v.z, -0.999f);
+}
+
+TEST(BakeFirst, bothSidesOfThinWallsShowTheirOwnDomes)
+{
+    const Pair setup = setupOf(thinWalls(), BakeKind::height);
+    const Baked baked = bakeOf(setup);
+    EXPECT_EQ(baked.statistics.missed, 0u);
+    int outside = 0, inside = 0;
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3 n, glm::vec3 value) {
+        EXPECT_GE(value.x, -1e-5f) << p.x << " " << p.y << " " << p.z;
+        EXPECT_LE(value.x, 0.0501f) << p.x << " " << p.y << " " << p.z;
+        outside += n.x > 0.5f && p.x > 0.49f && value.x > 0.04f;
+        inside += n.x < -0.5f && p.x > 0.47f && value.x > 0.04f;
+    });
+    EXPECT_GT(outside, 5);
+    EXPECT_GT(inside, 5);
+}
+
+TEST(BakeFirst, fingersThatNearlyTouchDoNotShowEachOther)
+{
+    const Pair setup = setupOf(fingers(), BakeKind::height, 256);
+    const Baked baked = bakeOf(setup);
+    EXPECT_EQ(baked.statistics.missed, 0u);
+    int rivets = 0, domes = 0;
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3 n, glm::vec3 value) {
+        EXPECT_GE(value.x, -1e-5f);
+        EXPECT_LE(value.x, n.z > 0.5f ? 0.0601f : 0.0091f) << p.x << " " << p.y << " " << p.z;
+        rivets += std::abs(n.x) > 0.5f && value.x > 0.006f;
+        domes += n.z > 0.5f && value.x > 0.05f;
+    });
+    EXPECT_GT(rivets, 5);
+    EXPECT_GT(domes, 30);
+}
+
+TEST(BakeFirst, aPocketShowsWhatIsInItAndNotWhatIsBehindItsWalls)
+{
+    const Pair setup = setupOf(pocket(), BakeKind::height, 256);
+    const Baked baked = bakeOf(setup);
+    EXPECT_EQ(baked.statistics.missed, 0u);
+    int floor = 0, walls = 0, rim = 0;
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3 n, glm::vec3 value) {
+        const bool in = std::max(std::abs(p.x), std::abs(p.y)) < 0.201f && p.z > -0.301f;
+        const bool top = n.z > 0.5f && !in;
+        EXPECT_GE(value.x, -1e-5f);
+        EXPECT_LE(value.x, (top ? 0.09f : 0.0801f) + 1e-4f) << p.x << " " << p.y << " " << p.z;
+        floor += in && n.z > 0.5f && value.x > 0.07f;
+        walls += in && std::abs(n.x) > 0.5f && value.x > 0.05f;
+        rim += top && value.x > 0.0899f;
+    });
+    EXPECT_GT(floor, 5);
+    EXPECT_GT(walls, 5);
+    EXPECT_GT(rim, 20);
+}
+
+TEST(BakeFirst, theOuterOfTwoShellsCounts)
+{
+    const Pair setup = setupOf(shells(), BakeKind::height);
+    const Baked baked = bakeOf(setup);
+    int dome = 0;
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3, glm::vec3 value) {
+        // The bevel of the outer shell lies at most 0.05 (1 - 1 / sqrt 3) under the cube's corners.
+        const bool corner = std::max({std::min(std::abs(p.x), std::abs(p.y)), std::min(std::abs(p.x), std::abs(p.z)),
+                                      std::min(std::abs(p.y), std::abs(p.z))})
+            > 0.44f;
+        EXPECT_GE(value.x, corner ? -0.0212f : -1e-5f);
+        EXPECT_LE(value.x, 0.1001f);
+        dome += value.x > 0.09f;
+    });
+    EXPECT_GT(dome, 5);
+}
+
+TEST(BakeFirst, whatFloatsInFrontOfAHollowCountsAndTheHollowBesideIt)
+{
+    const Pair setup = setupOf(hollow(), BakeKind::height);
+    const Baked baked = bakeOf(setup);
+    forTexels(setup, baked, [&](glm::vec3 p, glm::vec3, glm::vec3 value) {
+        const float r = glm::length(glm::vec2(p));
+        if (r < 0.079f) {
+            EXPECT_NEAR(value.x, 0.06, 1e-5) << r;
+        } else if (r > 0.081f && r < 0.14f) { // facets of 15 degrees lie 0.15 (1 - cos 7.5) inside the ball at most,
+            EXPECT_NEAR(value.x, -std::sqrt(0.0225f - r * r), 0.004) << r; // times the slope there, 2.6
+        } else if (r > 0.151f) {
+            EXPECT_NEAR(value.x, 0, 1e-5) << r;
+        }
+    });
+}
+
+TEST(BakeFirst, whereRaysStartCanBeToldAndLimited)
+{
+    const Pair measured = setupOf(bolts(), BakeKind::height);
+    const auto starts = makeRayStarts(measured.low, measured.high, {});
+    ASSERT_TRUE(starts);
+    // The tops' plane from a corner along the diagonal, and 5 % and 0.002 of the diagonal more.
+    const double needed = double(kBoltTop) * std::sqrt(3.0);
+    EXPECT_NEAR(starts->farthest, needed * 1.05 + 0.002 * std::sqrt(3.0), 1e-4);
+    EXPECT_TRUE(starts->bent);
+    EXPECT_NEAR(starts->limit, 0.1 * std::sqrt(3.0), 1e-5);
+    for (std::size_t v = 0; v < measured.low.positions.size(); ++v) {
+        EXPECT_NEAR(glm::dot(starts->directions[v], glm::normalize(measured.low.positions[v])), 1, 1e-6);
+        if (measured.low.positions[v].x < 0) { // nothing stands off there: the margin alone
+            EXPECT_NEAR(starts->distances[v], 0.002 * std::sqrt(3.0), 1e-3);
+        }
+    }
+    // 5 cm is less than the bolts need, and what is further off than a limit of 4 cm does not count.
+    for (const auto& [extrusion, limit] : {std::pair(0.05f, 0.0f), {0.0f, 0.04f}}) {
+        Pair setup = setupOf(bolts(), BakeKind::height);
+        setup.options.extrusion = extrusion;
+        setup.options.maxDistance = limit;
+        for (const glm::vec3& v : valuesOf(bakeOf(setup)))
+            EXPECT_LT(v.x, 0.06f);
+    }
+}
+
+TEST(BakeFirst, aPlateOverAFineLowMeshIsInAllOfIt)
+{
+    // Two triangles that stand 0.05 off over 2,048: most of the low ones are far from the plate's corners.
+    Mesh low, high;
+    constexpr int kCells = 32;
+    for (int j = 0; j <= kCells; ++j)
+        for (int i = 0; i <= kCells; ++i) {
+            const glm::vec2 c(float(i) / kCells, float(j) / kCells);
+            low.positions.emplace_back(c.x, c.y, 0);
+            low.normals.emplace_back(0, 0, 1);
+            low.texcoords[0].emplace_back(c.x, 1 - c.y);
+        }
+    for (std::uint32_t j = 0; j < kCells; ++j)
+        for (std::uint32_t i = 0; i < kCells; ++i) {
+            const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, d = a + kCells + 1, c = d + 1;
+            low.indices.insert(low.indices.end(), {a, b, c, a, c, d});
+        }
+    addSquare(high, kUpwards, {0.5f, 0.5f, 0}, {0.6f, 0.6f});
+    addSquare(high, kUpwards, {0.5f, 0.5f, 0.05f}, {0.6f, 0.6f});
+    for (const glm::vec3& v : valuesOf(bakeOf(setupOf({low, high}, BakeKind::height))))
+        EXPECT_NEAR(v.x, 0.05, 1e-5);
+}
+
+TEST(BakeFirst, missesSayWhetherSomethingIsFurtherAway)
+{
+    // Over the left half the high surface is 0.3 off, over the right there is none.
+    Mesh high;
+    addSquare(high, kUpwards, {-0.5f, 0, 0.3f}, {0.5f, 1});
+    Pair setup = setupOf({plate().low, high}, BakeKind::normal, 32);
+    setup.options.maxDistance = 0.1f;
+    for (const BakeSearch search : {BakeSearch::first, BakeSearch::nearest}) {
+        setup.options.search = search;
+        const BakeStatistics s = bakeOf(setup).statistics;
+        EXPECT_EQ(s.missed, s.covered);
+        EXPECT_NEAR(double(s.further), double(s.covered) / 2, 1);
+    }
+}
+
+TEST(BakeFirst, occlusionHasNoBlackBlots)
+{
+    // Openness of flat places in the open is one; what stands off the plate darkens it at its foot only.
+    for (const BakeCase& pair : {plate(), bolts(), shells()}) {
+        Pair setup = setupOf(pair, BakeKind::occlusion, 48);
+        const Baked baked = bakeOf(setup);
+        for (std::size_t i = 0; i < baked.values.size(); ++i) {
+            if ((baked.states[i] & texelCovered) != 0) {
+                EXPECT_GT(baked.values[i].x, 0.2f) << i;
+            }
+        }
+    }
+}
+
+TEST(BakeFirst, windingAgainstTheNormalsIsTheFront)
+{
+    BakeCase pair = bolts();
+    for (std::size_t i = 0; i < pair.high.indices.size(); i += 3)
+        std::swap(pair.high.indices[i + 1], pair.high.indices[i + 2]);
+    const Baked turned = bakeOf(setupOf(pair, BakeKind::height)), straight = bakeOf(setupOf(bolts(), BakeKind::height));
+    for (std::size_t i = 0; i < turned.values.size(); ++i)
+        EXPECT_NEAR(turned.values[i].x, straight.values[i].x, 1e-5);
+}
+
+TEST(BakeFirst, bytesDoNotDependOnThreads)
+{
+    for (const BakeCase& pair : {bolts(), fingers(), pocket()}) {
+        Pair setup = setupOf(pair, BakeKind::objectNormal, 64);
+        setup.options.threads = 1;
+        const Baked one = bakeOf(setup);
+        setup.options.threads = 3;
+        const Baked three = bakeOf(setup);
+        EXPECT_TRUE(one.values == three.values);
+        EXPECT_TRUE(one.states == three.states);
+    }
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,174 @@
+// cotan/three from the tarball, where nothing is drawn: node three_test.mjs TARBALL NODE_MODULES DATA [CASE]
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+import { hills, installed, load, skip } from './shared.mjs';
+
+const [tarball, modules, , only] = process.argv.slice(2);
+if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
+if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
+const folder = installed(tarball, modules, ['three']);
+fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
+const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
+const THREE = await from('three'), { untangle, replaceFrame, CotanError } = await from('cotan/three');
+const library = await load(folder, 'tangents');
+await library.ready;
+
+/** A map as GLTFLoader makes it. */
+function mapOf(name = 'bumps') {
+  const map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
+  map.name = name;
+  map.userData.mimeType = 'image/png';
+  return map;
+}
+
+/** A square of two triangles of glTF; w: 1 as its format means it, -1 reversed, 0: no tangents; area: of the square. */
+function square(map, w, { area = 1, material = new THREE.MeshStandardMaterial({ normalMap: map, name: 'cloth' }), mirrored = false } = {}) {
+  const geometry = new THREE.BufferGeometry(), side = Math.sqrt(area), u = mirrored ? [1, 0, 1, 0] : [0, 1, 0, 1], along = mirrored ? -1 : 1;
+  const set = (name, values, width) => geometry.setAttribute(name, new THREE.Float32BufferAttribute(values, width));
+  set('position', [0, 0, 0, side, 0, 0, 0, side, 0, side, side, 0], 3);
+  set('normal', [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1], 3);
+  set('uv', [u[0], 1, u[1], 1, u[2], 0, u[3], 0], 2); // v down
+  if (w) set('tangent', Array(4).fill([along, 0, 0, along * w]).flat(), 4); // cross(n, t) * w points up: against v
+  else material.normalScale.y *= -1; // as the loader does
+  geometry.setIndex([0, 1, 2, 2, 1, 3]);
+  return new THREE.Mesh(geometry, material);
+}
+
+/** What is said, and which sign each mesh's scale has in the end: -1 for green up the picture, as glTF declares it. */
+function untangledSigns(meshes, options = {}) {
+  const scene = new THREE.Scene(), notes = [];
+  scene.add(...meshes);
+  untangle({ scenes: [scene] }, { note: (line) => notes.push(line), ...options });
+  return { signs: meshes.map((mesh) => Math.sign(mesh.material.normalScale.y)), notes };
+}
+
+const frameOf = (mesh) => /cotan,(\w+)/.exec(mesh.material.customProgramCacheKey())[1];
+
+const cases = {
+  greenFollowsReversedTangentsOnNineTenthsOfAMapsArea() {
+    const shared = mapOf(), other = mapOf('other');
+    const meshes = [square(shared, -1, { area: 9.2 }), square(shared, 1, { area: 0.8 }), square(shared, 0), square(other, 1), square(shared, -1, { mirrored: true })];
+    const { signs, notes } = untangledSigns(meshes);
+    assert.deepEqual(signs, [1, 1, 1, -1, 1]); // also where a mesh of that map has no tangents
+    assert.deepEqual(notes, ["TANGENT.w contradicts the texture coordinates on 93 % of the area of normal map 'bumps': "
+      + 'without stored tangents its green is read the other way (the option convention overrides this)']);
+  },
+
+  mixedTangentsLeaveGreenAsDeclaredAndAreNamed() {
+    const map = mapOf();
+    const { signs, notes } = untangledSigns([square(map, -1), square(map, 1), square(map, 0)]);
+    assert.deepEqual(signs, [-1, -1, -1]);
+    assert.deepEqual(notes, ["TANGENT.w contradicts the texture coordinates on 50 % of the area of normal map 'bumps': "
+      + 'its green is read as declared (the option convention overrides this)']);
+    const few = mapOf();
+    assert.deepEqual(untangledSigns([square(few, -1, { area: 0.9 }), square(few, 1, { area: 9.1 })]), { signs: [-1, -1], notes: [] });
+  },
+
+  tangentsThatPointElsewhereDoNotReverseGreen() {
+    const map = mapOf(), mesh = square(map, -1), { tangent } = mesh.geometry.attributes;
+    for (let k = 0; k < tangent.count; ++k) tangent.setX(k, -1); // away from dP/du: turned by half a turn, w is right
+    assert.deepEqual(untangledSigns([mesh]), { signs: [-1], notes: [] });
+    const without = square(mapOf(), -1), { uv } = without.geometry.attributes;
+    for (let k = 0; k < uv.count; ++k) uv.setXY(k, 0.5, 0.5); // no area: nothing is compared
+    assert.deepEqual(untangledSigns([without]), { signs: [-1], notes: [] });
+  },
+
+  clearCoatsFollowTheSameRule() {
+    const material = new THREE.MeshPhysicalMaterial({ normalMap: mapOf('base'), clearcoatNormalMap: mapOf('coat') });
+    const coated = square(null, -1, { material }), scene = new THREE.Scene(), notes = [];
+    scene.add(coated, square(material.normalMap, 1, { area: 100 })); // the base's is right on nearly all of its area
+    untangle({ scenes: [scene] }, { note: (line) => notes.push(line) });
+    assert.deepEqual([coated.material.normalScale.y, coated.material.clearcoatNormalScale.y], [-1, 1]);
+    assert.equal(notes.length, 1);
+    assert.match(notes[0], /100 % of the area of normal map 'coat'/);
+  },
+
+  theOptionConventionOverridesTangents() {
+    for (const [convention, sign] of [['gltf', -1], ['directx', 1]])
+      for (const w of [1, -1, 0]) assert.deepEqual(untangledSigns([square(mapOf(), w)], { convention }), { signs: [sign], notes: [] });
+  },
+
+  aSecondCallChangesNothingAndALaterMeshIsReadAsTheFirst() {
+    const map = mapOf(), material = new THREE.MeshStandardMaterial({ normalMap: map });
+    const meshes = [square(map, -1, { material }), square(map, -1, { material })];
+    assert.deepEqual(untangledSigns([meshes[0]]).signs, [1]);
+    assert.deepEqual(untangledSigns([meshes[0]]), { signs: [1], notes: [] });
+    assert.deepEqual(untangledSigns([meshes[1]]).signs, [1]);
+  },
+
+  autoIsTheFrameThatTheMaterialNamesElseWhatMapsOfModelsMean() {
+    const drawn = (userData, options, mesh = square(mapOf(), 0)) => {
+      Object.assign(mesh.material.userData, userData);
+      return [untangledSigns([mesh], options).notes, frameOf(mesh)];
+    };
+    assert.deepEqual(drawn({}), [[], 'orthonormal']);
+    assert.deepEqual(drawn({}, {}, square(mapOf(), 1)), [[], 'orthonormal']);
+    for (const frame of ['smooth', 'triangle', 'cotangent', 'orthonormal']) assert.deepEqual(drawn({ cotanFrame: frame }), [[], frame]);
+    assert.deepEqual(drawn({ cotanFrame: 'smooth' }, { frame: 'auto' }), [[], 'smooth']);
+    assert.deepEqual(drawn({ cotanFrame: 'mikktspace' }), [[], 'orthonormal']);
+    assert.deepEqual(drawn({ cotanFrame: 'smooth' }, { frame: 'cotangent' }),
+      [['material "cloth": its maps are for the frame smooth (cotanFrame), and read with cotangent'], 'cotangent']);
+    const { warn } = console, said = [];
+    console.warn = (line) => said.push(line);
+    try {
+      assert.deepEqual(drawn({ cotanFrame: 'sideways' }), [[], 'orthonormal']);
+    } finally {
+      console.warn = warn;
+    }
+    assert.deepEqual(said, ['Cotan: material "cloth": cotanFrame: expected cotangent, orthonormal, smooth, triangle, found "sideways": it is ignored']);
+    const material = new THREE.MeshStandardMaterial({ normalMap: mapOf() });
+    material.userData.cotanFrame = 'cotangent';
+    assert.equal(frameOf({ material: replaceFrame(material) }), 'cotangent');
+  },
+
+  mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch() {
+    const map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1), frames = [];
+    for (const [repeat, geometry] of [[1, new THREE.BufferGeometry().copy(new THREE.PlaneGeometry())], [4, new THREE.BufferGeometry().copy(new THREE.PlaneGeometry())], [1, new THREE.SphereGeometry()]]) {
+      map.repeat.set(repeat, 1);
+      const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: map }));
+      untangle(mesh);
+      frames.push(frameOf(mesh));
+    }
+    assert.deepEqual(frames, ['orthonormal', 'cotangent', 'cotangent']);
+  },
+
+  smoothHasTheCotangentsOfTheLibrary() {
+    for (const mirrored of [false, true]) {
+      const mesh = hills(6);
+      if (mirrored) for (let i = 0; i < mesh.uvs.length; i += 2) mesh.uvs[i] = Math.abs(mesh.uvs[i] - 0.5);
+      const geometry = new THREE.BufferGeometry(), map = mapOf(), made = library.splitMirrored(mesh);
+      const gathered = (array, width) => Float32Array.from(Array.from(made.sources).flatMap((k) => [...array.subarray(k * width, (k + 1) * width)]));
+      const split = { positions: gathered(mesh.positions, 3), normals: gathered(mesh.normals, 3), uvs: gathered(mesh.uvs, 2), indices: made.indices };
+      geometry.setAttribute('position', new THREE.BufferAttribute(mesh.positions, 3));
+      geometry.setAttribute('normal', new THREE.BufferAttribute(mesh.normals, 3));
+      geometry.setAttribute('uv', new THREE.BufferAttribute(mesh.uvs, 2));
+      geometry.setIndex(new THREE.BufferAttribute(Uint16Array.from(mesh.indices), 1));
+      const drawn = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: map }));
+      untangle(drawn, { frame: 'smooth' });
+      const { attributes, index } = drawn.geometry, expected = library.smooth(split);
+      assert.equal(attributes.position.count, made.sources.length);
+      assert.equal(made.sources.length > 49, mirrored); // copies only where sides meet
+      for (const [name, values] of [['cotanU', expected.u], ['cotanV', expected.v]])
+        for (let c = 0; c < made.indices.length; ++c) { // the library has floats on the way
+          const ours = [0, 1, 2].map((i) => attributes[name].getComponent(index.getX(c), i)), theirs = values.subarray(3 * made.indices[c], 3 * made.indices[c] + 3);
+          const apart = Math.hypot(...ours.map((x, i) => x - theirs[i]));
+          assert.ok(apart < 2e-5 * Math.hypot(...theirs), `corner ${c}: ${ours} and ${theirs}`);
+        }
+    }
+  },
+
+  whatIsUnknownIsRefused() {
+    for (const [work, field] of [[() => untangle(), 'target'], [() => untangle(new THREE.Scene(), { frame: 'mikktspace' }), 'options.frame'],
+      [() => untangle(new THREE.Scene(), { fraem: 'smooth' }), 'options.fraem'], [() => untangle(new THREE.Scene(), { note: 'loud' }), 'options.note'],
+      [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention']])
+      assert.throws(work, (error) => error instanceof CotanError && error instanceof library.CotanError && error.code === 'usage' && error.field === field);
+  },
+};
+for (const [name, work] of Object.entries(cases)) {
+  if (only && only !== name) continue;
+  await work();
+  console.log(`holds: ${name}`);
+}
