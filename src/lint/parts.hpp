@@ -21,11 +21,9 @@ EdgeSteps edgeSteps(const MappedSurface& surface, std::size_t mostEdges = kMostE
 StoredTangents storedTangents(const MappedSurface& surface);
 
 // Of how many of 14 directions the surface, alone, shows each point; where it shows none of them, all alike.
-// bothSides: whether back faces are drawn.
+// bothSides: whether back faces are drawn. Takes 28 MiB, whatever the surface.
 std::vector<double> seen(const MappedSurface& surface, const std::vector<SurfacePoint>& points, bool bothSides);
 
-// What `seen` takes, whatever the surface.
-inline constexpr std::size_t kSeenBytes = std::size_t(14) * 512 * 512 * sizeof(double);
 
 // The map decoded at the points (pointsOver) and read with each frame, weighted by what is seen of them (`seen`). Angles
 // to the frame that it was made for, with generated tangents; of a map for MikkTSpace to what the tangents of the file

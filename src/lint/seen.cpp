@@ -13,14 +13,14 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr int kSide = 512;            // of a depth picture
-constexpr double kLeastCosine = 0.05; // flatter faces show next to nothing
+constexpr std::size_t kWays = 14, kSide = 512; // depth pictures, and their pixels
+constexpr double kLeastCosine = 0.05;          // flatter faces show next to nothing
 
 struct DepthPicture {
     glm::dvec3 across, up, toEye; // unit, at right angles
     glm::dvec2 low;
     double pixel = 1;
-    std::vector<double> depth = std::vector<double>(std::size_t(kSide) * kSide,
+    std::vector<double> depth = std::vector<double>(kSide * kSide,
                                                     -std::numeric_limits<double>::infinity()); // largest: nearest
 
     // In pixels, with the depth in units of the surface.
@@ -59,7 +59,7 @@ DepthPicture pictureFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius)
     const glm::dvec3 other = std::abs(picture.toEye.y) > 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     picture.across = glm::normalize(glm::cross(other, picture.toEye));
     picture.up = glm::cross(picture.toEye, picture.across);
-    picture.pixel = 2 * radius / kSide;
+    picture.pixel = 2 * radius / double(kSide);
     picture.low = glm::dvec2(glm::dot(middle, picture.across), glm::dot(middle, picture.up)) - radius;
     return picture;
 }
@@ -68,6 +68,7 @@ DepthPicture pictureFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius)
 std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius)
 {
     std::vector<DepthPicture> pictures;
+    pictures.reserve(kWays);
     for (int i = 0; i < 27; ++i) {
         const glm::dvec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
         if (const double squared = glm::dot(way, way); squared != 1 && squared != 3)

@@ -95,9 +95,11 @@ const cases = {
       let found;
       const checked = document.transform(transforms.lintNormals({ limit: 180, report: (report) => { found = report; } }));
       if (up) await checked;
-      else await assert.rejects(checked, (error) => error instanceof cotan.CotanError && error.code === 'limit' && /normal map normal.png: green points the other way than declared/.test(error.message));
+      else await assert.rejects(checked, (error) => error instanceof cotan.CotanError && error.code === 'limit' && /normal map normal.png: green points the other way than the file says/.test(error.message));
       assert.equal(found.over_limit.length, up ? 0 : 1);
-      assert.equal(found.warnings.some((line) => /Green seems to point the other way in normal.png/.test(line)), !up, found.warnings.join());
+      assert.equal(found.check.passed, up);
+      assert.deepEqual(found.check.failures.map(({ text }) => text), found.over_limit);
+      assert.equal(found.warnings.some((line) => /normal map normal.png: green points the other way than the file says/.test(line)), !up, found.warnings.join());
       assert.deepEqual(cotan.overLimits(found), []); // without a limit nothing is over it
       assert.ok(cotan.overLimits(found, { limit: 0, frame: 'cotangent' }).length > found.over_limit.length);
     }
@@ -254,7 +256,7 @@ const cases = {
     assert.equal(report.command, 'lint-normals');
     const down = run('down.glb', '--limit', '90');
     assert.equal(down.status, 5);
-    assert.match(down.stderr, /green points the other way than declared/);
+    assert.match(down.stderr, /green points the other way than the file says/);
     assert.equal(run('right.glb', '--limit', '200').status, 1);
   },
 

@@ -49,7 +49,7 @@ export default {
     program.command('lint-normals', 'Say what to expect without stored tangents; a check where a limit is set')
       .argument('<input>', 'Path to read glTF 2.0 (.glb, .gltf) model')
       .option('--limit <degrees>', 'Exit code 5 where the error with --frame exceeds it on more than 5 % of the area, and where green '
-        + 'points the other way than declared', { validator: program.NUMBER })
+        + 'points the other way than the file says', { validator: program.NUMBER })
       .option('--limit-area <percent>', 'Exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv '
         + "exceed it of a primitive's area, and where green points the other way", { validator: program.NUMBER })
       .option('--frame <frame>', 'Frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored', { default: 'orthonormal' })

@@ -65,15 +65,19 @@ export function modelFunctions(library, host) {
   const json = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
   const progressOf = (s, progress) => (progress ? s.wasm.cotan_js_function(kFunction.progress) : 0);
 
+  // 0 is none to the library, and what allows nothing is a little more.
+  const limitOf = (limit) => (limit === undefined ? 0 : Math.max(limit, 1e-9));
+
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
     const o = options(more, { ...kCommon, distance: 0, ...kLimits });
     const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
-      const report = s.put(new Uint32Array(1)), settings = s.room(24);
-      s.view(Uint32Array, settings, 6).set([24, 0, 0, 0, progressOf(s, o.progress), 0]);
+      const report = s.put(new Uint32Array(1)), settings = s.room(48), frame = s.text(limits.frame, 'options.frame');
+      s.view(Uint32Array, settings, 12).set([48, 0, 0, 0, progressOf(s, o.progress), 0, 0, 0, 0, 0, frame, 0]);
       s.view(Float64Array, settings + 8, 1)[0] = o.distance;
+      s.view(Float64Array, settings + 24, 2).set([limits.limit, limits.limitArea].map(limitOf));
       s.call('cotan_lint_gltf', at, model.length, files, settings, 0, report);
       const found = json(takeBytes(s, report));
       return { ...found, over_limit: overLimits(found, limits) };

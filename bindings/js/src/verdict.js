@@ -1,4 +1,5 @@
-// What of a lint report is over the limits that a caller sets: the lines of `cotan lint --limit`.
+// What of a lint report is over the limits that a caller sets: the texts of `check` in the report (src/lint/limits.cpp),
+// for other limits than it was made with.
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
 
@@ -24,7 +25,7 @@ export function limitsOf({ limit, limitArea, frame }) {
   return { limit, limitArea, frame: choice(frame, 'options.frame', kFrames) };
 }
 
-/** One line each; a map whose green points the other way than declared is over any limit. */
+/** One line each; a map whose green points the other way than the file says is over any limit. */
 export function overLimits(report, given) {
   const { limit, limitArea, frame } = limitsOf(options(given, kLimits));
   const lines = [], { primitives } = report;
@@ -32,19 +33,19 @@ export function overLimits(report, given) {
     if (most !== undefined && typeof value === 'number' && value > most) lines.push(`${name}: ${what} ${threeDigits(value)} ${unit}, limit ${threeDigits(most)}`);
   };
   if (limit === undefined && limitArea === undefined) return lines;
-  for (const map of report.maps.filter((map) => map.decided && !map.as_declared))
-    lines.push(`normal map ${map.name || map.image}: green points the other way than declared (${map.confidence})`);
   primitives.forEach((p, index) => {
     const name = nameOf(p, index), mapped = p.normal_map >= 0;
-    if (limit !== undefined && mapped && / not read$/.test(p.not_judged)) lines.push(`${name}: not judged, ${p.not_judged}; limit ${threeDigits(limit)}`);
+    if (limit !== undefined && mapped && / not read$/.test(p.not_judged)) lines.push(`${name}: not judged, ${p.not_judged}`);
     check(name, p.read_with?.[frame]?.percentile95, limit, `95 % of the error of reading with ${frame}`, 'degrees');
     if (mapped) check(name, p.rounding_degrees, limit, 'rounding', 'degrees');
     for (const [share, what] of [[p.uv.degenerate, 'degenerate uv on'], [p.uv.overlapping_mirrored, 'uv overlapping in both orientations on'],
       [p.stored_tangents?.reversed_w, 'TANGENT.w against the uv on'], [p.stored_tangents?.turned, 'stored tangents turned on']])
       check(name, typeof share === 'number' ? 100 * share : undefined, limitArea, what, '% of the area');
   });
+  for (const map of report.maps.filter((map) => map.decided && !map.as_declared))
+    lines.push(`normal map ${map.name || `image ${map.image}`}: green points the other way than the file says (${map.confidence})`);
   const maps = primitives.filter((p) => p.normal_map >= 0);
   if (limit !== undefined && maps.length > 0 && maps.every((p) => p.not_judged) && lines.length === 0)
-    lines.push(`no normal map could be judged, limit ${threeDigits(limit)}`);
+    lines.push('no normal map could be judged');
   return lines;
 }

@@ -110,14 +110,32 @@ export interface ModelOptions {
 /** The report of `cotan lint --json`. */
 export interface LintReport {
   recommendation: string;
-  /** The frame to convert to; empty: nothing has to change. */
+  /** The frame to read the maps with, once they are converted where `maps_converted` is not 0; empty: nothing was judged. */
   advice: string;
   warnings: string[];
   primitives: any[];
-  /** What is over `limit` or `limitArea`, a line each; with either also each map whose green points the other way than declared,
-   * and maps that could not be judged. Empty: it passes, or no limit was set. */
+  /** The verdict on `limit` and `limitArea`; null where neither was set. A limit of 0 is 1e-9 here. */
+  check: LintCheck | null;
+  /** What failed, a line each: what is over `limit` or `limitArea`; with either also each map whose green points the other way than
+   * the file says, and with `limit` maps that could not be judged. Empty: it passes, or no limit was set. */
   over_limit: string[];
   [more: string]: any;
+}
+
+export interface LintCheck {
+  passed: boolean;
+  limit: number | null;
+  limit_area: number | null;
+  frame: LimitFrame;
+  failures: {
+    /** The last two have no value and no limit. */
+    kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'turned_tangents' | 'reversed_green' | 'not_judged';
+    /** A primitive or a map; empty: the whole model. */
+    where: string;
+    value: number | null;
+    limit: number | null;
+    text: string;
+  }[];
 }
 
 export interface Limits {

@@ -140,7 +140,8 @@ struct LintOptions {
     std::size_t memory = 0; // bytes that may be taken besides the scene; 0: any number
 };
 
-// About how many bytes lintScene takes at most besides the scene.
+// About how many bytes the triangles take at most in lintScene, besides the scene. What it takes for any scene, less
+// than 32 MiB, is not counted.
 std::size_t lintBytes(const Scene& scene);
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
