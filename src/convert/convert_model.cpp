@@ -128,9 +128,10 @@ private:
             return map.error();
         // The materials have been asked; an image says it where they say nothing.
         if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
-            return inputError(fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
-                                          "convert from, found {}",
-                                          field, map->frame, name(options_.frames.from)));
+            return inputError(
+                fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
+                            "convert from, found {}",
+                            field, map->frame, name(options_.frames.from)));
         completeNormals(*map);
         ConvertedMap done{job.image, job.name, surfacesOf(job), map->width, map->height};
         auto uses = usesOf(document_, job, options_.frames);

@@ -85,9 +85,8 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
         for (const SurfacePoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].emplace_back(
-                    lint::degreesBetween(
-                        normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
-                        normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
+                    lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
+                                         normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<Spread> spreads;
