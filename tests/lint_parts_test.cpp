@@ -252,7 +252,9 @@ TEST(Readings, ofATallPatchHalveTheSlopeAlongVOnly)
     material.normalMap.image = 0;
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const Image map = floatMap(4, 4, [&](int, int) { return m; });
-    const auto readBy = [&] { return lint::readings(tall(2), pointsOver(tall(2), kPointsOfSurface), material, map); };
+    const auto readBy = [&] {
+        return lint::readings(tall(2), pointsOver(tall(2), kPointsOfSurface), Frame::mikktspace, material, map);
+    };
     const auto read = readBy();
     ASSERT_EQ(read.size(), 5u);
     EXPECT_EQ(read[0].name, "cotangent");
@@ -273,11 +275,24 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     Material material;
     material.normalFormat = {.expansion = Expansion::signedValues, .greenUp = false};
     const MappedSurface surface = makeSurface(mesh, Texture{});
-    const auto read = lint::readings(surface, pointsOver(surface, kPointsOfSurface), material,
+    const auto read = lint::readings(surface, pointsOver(surface, kPointsOfSurface), Frame::mikktspace, material,
                                      floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
     ASSERT_EQ(read.size(), 6u);
     EXPECT_EQ(read[5].name, "stored");
     EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
+}
+
+// A floor under a roof of its size: the middle of the floor shows only from below.
+TEST(Seen, countsTheDirectionsThatAPointShowsFrom)
+{
+    std::vector<Corner> roof = rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1});
+    for (Corner& corner : roof)
+        corner.position.z = 0.1f;
+    const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + roof);
+    const SurfacePoint ofFloor{0, {0.5, 0, 0.5}}, ofRoof{2, {0.5, 0, 0.5}};
+    EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, false), (std::vector<double>{0, 5}));
+    EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, true), (std::vector<double>{5, 5}));
+    EXPECT_EQ(lint::seen(surface, {ofFloor}, false), (std::vector<double>{1})); // hidden in itself: all alike
 }
 
 // ---- overlap --------------------------------------------------------------------------------

@@ -102,7 +102,7 @@ inline void writeScan(const std::filesystem::path& file, const ScanOptions& o)
             const glm::dvec3 dv = scan::pointAt(u, v + step) - scan::pointAt(u, v - step);
             positions.emplace_back(scan::pointAt(u, v));
             normals.emplace_back(glm::normalize(glm::cross(dv, du)));
-            uv.emplace_back(o.repeats * glm::dvec2(0.001 + 0.998 * u, 0.001 + 0.998 * v));
+            uv.emplace_back(double(o.repeats) * glm::dvec2(0.001 + 0.998 * u, 0.001 + 0.998 * v));
             if (o.tangents)
                 tangents.emplace_back(glm::normalize(du), 1);
         }
