@@ -7,6 +7,7 @@
 
 #include "bake_cases.hpp"
 #include "cotan/bake/bake.hpp"
+#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
 namespace {
