@@ -43,8 +43,8 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
         double sum = 0;
         for (std::size_t i = 0; i < pictures[0].data.size(); ++i)
             sum += std::abs(int(pictures[0].bytes8()[i]) - int(pictures[1].bytes8()[i]));
-        // Levels: 4.6 without the coat's shadow.
-        EXPECT_LT(sum / double(pictures[0].pixelCount() * 3), 0.5) << device;
+        // Levels: 7 without the coat's shadow. What is left is where decals, fur and buttons are not opaque.
+        EXPECT_LT(sum / double(pictures[0].pixelCount() * 3), 1) << device;
     }
 }
 

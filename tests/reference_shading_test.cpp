@@ -252,6 +252,7 @@ TEST(ReferenceShading, pictureIsToneMappedAndSrgbEncoded)
     scene.materials[0].baseColor = {0.5f, 0.01f, 8, 1};
     View view = shadedView();
     view.linearOutput = false;
+    view.dither = false;
     Image image = rendered(scene, view);
     ASSERT_EQ(image.type, PixelType::unorm8);
     for (int c = 0; c < 3; ++c) {

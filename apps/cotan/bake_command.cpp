@@ -150,6 +150,17 @@ Status checkOutputs(const BakeCommandOptions& o)
     return planOutputs(o, files);
 }
 
+// Who reads a map for that frame, and how.
+std::string readersOf(Frame frame)
+{
+    if (frame == Frame::mikktspace)
+        return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with tangents "
+               "that they make or import, Cotan's shaders without tangents by the frame orthonormal";
+    return fmt::format("the map is for the frame {0}: read it by that; engines make MikkTSpace tangents and show it "
+                       "wrongly (--frame mikktspace is for them)",
+                       name(frame));
+}
+
 Status run(const BakeCommandOptions& o)
 {
     if (Status ok = checkOutputs(o); !ok)
@@ -176,6 +187,8 @@ Status run(const BakeCommandOptions& o)
     const double writeSeconds = watch.lap();
     say(o, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,
         o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes());
+    if (o.kind == "normal")
+        say(o, readersOf(job->frame()));
     Json report{{"command", "bake"},
                 {"low", o.low},
                 {"high", o.high},
@@ -204,7 +217,10 @@ void declare(Arguments& a, BakeCommandOptions& o)
 {
     a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE").reads();
     a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE").reads();
-    a.option("--frame", o.frame, "the frame that the shader will use: " + frameNames()).in("NAME").offers(frameWords());
+    a.option("--frame", o.frame,
+             "the frame that the shader will use (mikktspace: Unity, Unreal, Godot, Blender and glTF): " + frameNames())
+        .in("NAME")
+        .offers(frameWords());
     a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");

@@ -9,6 +9,7 @@
 #include "cotan/convention_words.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/scene/meant_frame.hpp"
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/stored_green.hpp"
 #include "gltf_open.hpp"
@@ -160,6 +161,18 @@ Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
     return high;
 }
 
+// The frame that the high meshes' maps name, or those of --high-map.
+std::optional<Frame> namedHighFrame(const HighModel& high)
+{
+    for (const Image& map : high.maps)
+        if (const auto frame = frameFromName(map.frame))
+            return frame;
+    for (const Scene& scene : high.scenes)
+        if (const auto named = namedFrame(scene); named && high.maps.empty())
+            return named->frame;
+    return std::nullopt;
+}
+
 // What was odd about the files, each line once also where both are one file.
 std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high,
                                     bool mapsCount)
@@ -218,6 +231,8 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     auto high = loadHigh(o, mapsCount);
     if (!high)
         return high.error();
+    if (mapsCount && o.highFrame.empty())
+        options->highFrame = namedHighFrame(*high).value_or(options->highFrame);
     std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)

@@ -39,6 +39,8 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     BakedMap map;
     map.tile = tile;
     map.image = storeBaked(*baked, options.kind, setup.options.stored);
+    if (options.kind == BakeKind::normal)
+        map.image.frame = name(options.frame);
     map.format = storedFormat(options.kind, setup.options.stored.format);
     if (setup.options.mask)
         map.mask = maskOf(*baked);

@@ -68,7 +68,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
     b.kind = kindOf(o.kind ? o.kind : "normal");
-    b.frame = frameOr(o.frame, Frame::cotangent, "options.frame");
+    b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;
     b.samples = o.samples != 0 ? o.samples : 1;

@@ -78,7 +78,7 @@ def bake(
     high: Union[Geometry, Sequence[Geometry]],
     *,
     size: Any = 1024,
-    frame: str = "smooth",
+    frame: str = "mikktspace",
     kind: str = "normal",
     convention: str = "opengl",
     bits: int = 8,

@@ -261,7 +261,7 @@ const char* cotan_model_warnings(const cotan_model* model);
 
 typedef struct cotan_bake_options {
     size_t size;
-    const char* frame;       /* that will read the map; null: "cotangent" */
+    const char* frame;       /* that will read the map; null: "mikktspace", which every engine reads */
     const char* kind;        /* "normal", "object-normal", "height" or "occlusion"; null: "normal" */
     const char* convention;  /* of the map; null: "gltf" */
     int samples;             /* a texel and axis: 1, 2 or 4; 0: 1 */
