@@ -88,7 +88,7 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
 {
     ASSERT_EQ(run("convert quad.gltf --to-frame cotangent --bits 8 -o out.gltf").code, 0);
     const json material = reportOf(folder / "out.gltf").at("materials").at(0);
-    EXPECT_EQ(material["extras"], json({{"mine", 7}, {"cotanFrame", "cotangent"}}));
+    EXPECT_EQ(material["extras"], json({{"mine", 7}, {"cotanFrame", "cotangent"}, {"cotanUnsigned", "biased"}}));
 
     ToolRun r = run("render out.gltf -o a.png --size 64x48 --json a.json");
     ASSERT_EQ(r.code, 0) << r.err;
@@ -109,7 +109,7 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
     r = run("convert out.gltf --to-frame mikktspace --bits 8 -o back.gltf --json back.json");
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(reportOf(folder / "back.json").at("from"), "cotangent");
-    EXPECT_EQ(reportOf(folder / "back.gltf").at("materials").at(0).at("extras"), json({{"mine", 7}})); // glTF means MikkTSpace
+    EXPECT_EQ(reportOf(folder / "back.gltf").at("materials").at(0).at("extras"), json({{"mine", 7}, {"cotanUnsigned", "biased"}})); // glTF means MikkTSpace
 }
 
 TEST_F(AutoFrame, materialsThatNameDifferentFramesAreNotConvertedAsOne)

@@ -279,7 +279,7 @@ TEST(Lint, theAdviceFollowsTheNumbers)
 {
     EXPECT_EQ(lintScene(sceneOf({makePatch(1, 0, false, 4)})).advice, Advice::readOrthonormal);
     // A coarse sphere: an orthonormal frame that steps at edges is not MikkTSpace, and cotangent creases.
-    EXPECT_EQ(lintScene(sceneOf({makeSphere(1, 16)}, makeReliefMap(Relief::domes, 128))).advice,
+    EXPECT_EQ(lintScene(sceneOf({makeSphere(1, 8)}, makeReliefMap(Relief::domes, 128))).advice,
               Advice::convertToSmooth);
     Scene plain = sceneOf({makePatch(1, 0, false, 4)});
     plain.materials[0].normalMap.image = -1;

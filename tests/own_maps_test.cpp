@@ -246,7 +246,7 @@ TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
     const std::string frame = GetParam();
     const auto bake = [&](const char* low, const char* out) {
         const ToolRun r = runTool({"bake", "--high", "high.obj", "--low", low, "--size", "64x64", "--max-distance",
-                                   "0.2", "--frame", frame, "--quiet", "-o", out},
+                                   "0.2", "--frame", frame, "--unsigned", "exact", "--quiet", "-o", out},
                                   folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
     };

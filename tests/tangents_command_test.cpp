@@ -106,7 +106,6 @@ TEST(TangentsCommand, refusesWithOneLine)
         {{model, "-o", "out.obj"}, 1},
         {{"missing.gltf"}, 2},
         {{"model.obj"}, 1}, // its content is not taken for JSON
-        {{model, "-o", "out.GLB"}, 1},
         {{model, "-o", "no-such-folder/out.glb"}, 4},
     };
     for (auto [words, code] : cases) {

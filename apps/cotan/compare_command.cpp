@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,17 @@ Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
     return std::array{*a, *b};
 }
 
+// What may be written: `auto` may turn out to be any frame.
+std::vector<std::string> fileNames(const std::array<FrameChoice, 2>& pair)
+{
+    std::set<std::string> names = {"difference.png"};
+    for (const FrameChoice& choice : pair)
+        for (const FrameInfo& frame : cotan::frames())
+            if (!choice || *choice == frame.frame)
+                names.insert(std::string(frame.name) + ".png");
+    return {names.begin(), names.end()};
+}
+
 Status run(const CompareCommandOptions& o)
 {
     if (o.output.empty())
@@ -43,16 +55,14 @@ Status run(const CompareCommandOptions& o)
     for (const FrameChoice& frame : *pair)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
+    // Before the model is read, so that no file of it is replaced.
+    if (Status planned = planOutputs(o, plannedIn("-o", o.output, fileNames(*pair))); !planned)
+        return planned;
     auto picture = openPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
     const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
     const std::string a(name(frames[0])), b(name(frames[1]));
-    std::vector<std::string> names = {a + ".png", "difference.png"};
-    if (a != b)
-        names.push_back(b + ".png");
-    if (Status planned = planOutputs(o, plannedIn("-o", o.output, names)); !planned)
-        return planned;
     for (const Frame frame : frames)
         if (const std::string note = frameNote(picture->scene, frame); !note.empty())
             warn(o, note);

@@ -1,5 +1,5 @@
 // Cotan portable text: soft shadows from a map of depths, by percentage-closer filtering (R. Fernando,
-// Percentage-Closer Soft Shadows, 2005). Include lang.h, light.h and quantise.h first. The caller reads the map:
+// Percentage-Closer Soft Shadows, 2005). Include lang.h first. The map's reads are the caller's:
 //   1. COTAN_SHADOW_SEARCH reads around the point, as far as the light's disc can reach it, for the mean depth of
 //      what is before it; nothing there: all light arrives;
 //   2. COTAN_SHADOW_TAPS comparisons in the disc of cotan_penumbra around it: their mean is what arrives.
@@ -32,20 +32,6 @@ COTAN_FUNCTION cotan_real cotan_penumbra(
     cotan_real distance, cotan_real softness, cotan_real least, cotan_real most)
 {
     return min(max(distance * softness, least), most);
-}
-
-// The threshold of a texel of the map, in [0, 1): a translucent surface covers the texel where its alpha is greater, so
-// that the mean over some texels is its coverage. Of any 3 x 3 texels each ninth of the range has one threshold: their
-// mean is off by a ninth at most. layer: 0 to 3; surfaces of different layers, one behind the other, stop what is left,
-// as their thirds and what is finer than ninths are independent.
-COTAN_FUNCTION cotan_real cotan_shadow_threshold(cotan_uint x, cotan_uint y, cotan_uint layer)
-{
-    cotan_uint sum = (x + y) % 3u;
-    cotan_uint difference = (x + 2u * y) % 3u;
-    cotan_uint third = layer == 0u ? sum : layer == 1u ? difference : layer == 2u ? x % 3u : y % 3u;
-    cotan_uint ninth = layer == 0u ? difference : layer == 1u ? x % 3u : layer == 2u ? y % 3u : sum;
-    cotan_real finer = cotan_even_pattern(x / 3u, y / 3u, layer);
-    return (cotan_real_of(3u * third + ninth) + finer) / cotan_real(9.0);
 }
 
 #endif

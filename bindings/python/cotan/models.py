@@ -226,7 +226,7 @@ def lint(
     beside: Optional[Mapping[str, bytes]] = None,
     limit: Optional[float] = None,
     limit_area: Optional[float] = None,
-    frame: str = "cotangent",
+    frame: str = "orthonormal",
 ) -> Lint:
     """What to expect of a model whose normal maps are read without stored tangents, before anything is drawn.
 

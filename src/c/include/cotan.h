@@ -354,7 +354,7 @@ typedef struct cotan_lint_options {
      * Since version 4. */
     double limit;      /* degrees that the error with `frame` may exceed on 5 % of the area */
     double limit_area; /* % of a primitive's area with degenerate or mirrored overlapping uv, or wrong tangents */
-    const char* frame; /* cotangent, orthonormal, smooth, exact, triangle or stored; null: "cotangent" */
+    const char* frame; /* cotangent, orthonormal, smooth, exact, triangle or stored; null: "orthonormal" */
 } cotan_lint_options;
 
 /* The main figures of a report. Degrees are means over the surface, of the worst of the maps; -1: nothing was judged.

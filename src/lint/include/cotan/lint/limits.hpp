@@ -11,7 +11,7 @@ namespace cotan {
 struct LintLimits {
     double degrees = -1; // that the error with `frame` may exceed on 5 % of the area; -1: no limit
     double area = -1; // % of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv
-    std::string frame = "cotangent"; // a Reading::name
+    std::string frame = "orthonormal"; // a Reading::name
 
     // Whether anything is to be checked.
     bool any() const { return degrees >= 0 || area >= 0; }
