@@ -9,15 +9,15 @@
 namespace cotan {
 namespace {
 
-struct Error {
+struct Deviation {
     double mean = 0;
     int notFinite = 0;
 };
 
-Error meanError(double offset, double footprint, PositionSource source)
+Deviation meanError(double offset, double footprint, PositionSource source)
 {
     Random random(81);
-    Error error;
+    Deviation error;
     constexpr int kTrials = 3000;
     for (int i = 0; i < kTrials; ++i) {
         const PrecisionTrial t = makeTrial(random, {offset, footprint});
@@ -34,11 +34,11 @@ Error meanError(double offset, double footprint, PositionSource source)
 TEST(FrameBarD1, cameraRelativePositionsMakeTheDistanceFromTheOriginIrrelevant)
 {
     for (auto [footprint, bar] : {std::pair(1e-3, 0.002), std::pair(1e-5, 0.12)}) {
-        const Error near = meanError(0, footprint, PositionSource::cameraRelative);
+        const Deviation near = meanError(0, footprint, PositionSource::cameraRelative);
         EXPECT_EQ(near.notFinite, 0);
         EXPECT_LT(near.mean, bar) << footprint;
         for (double offset : {1e3, 1e6}) {
-            const Error far = meanError(offset, footprint, PositionSource::cameraRelative);
+            const Deviation far = meanError(offset, footprint, PositionSource::cameraRelative);
             EXPECT_EQ(far.notFinite, 0);
             EXPECT_NEAR(far.mean, near.mean, 0.1 * near.mean) << footprint << " at " << offset;
         }

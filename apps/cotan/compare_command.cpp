@@ -35,7 +35,7 @@ Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
 }
 
 // What may be written: `auto` may turn out to be any frame.
-std::vector<std::string> fileNames(const std::array<FrameChoice, 2>& pair)
+std::vector<std::string> comparedFiles(const std::array<FrameChoice, 2>& pair)
 {
     std::set<std::string> names = {"difference.png"};
     for (const FrameChoice& choice : pair)
@@ -56,7 +56,7 @@ Status run(const CompareCommandOptions& o)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
     // Before the model is read, so that no file of it is replaced.
-    if (Status planned = planOutputs(o, plannedIn("-o", o.output, fileNames(*pair))); !planned)
+    if (Status planned = planOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))); !planned)
         return planned;
     auto picture = openPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
     if (!picture)
