@@ -59,10 +59,10 @@ TEST(LintCheck, withoutALimitNothingIsChecked)
 TEST(LintCheck, degreesAreThoseOf95PercentWithTheFrameThatIsAskedFor)
 {
     const LintReport report = reportOf(sound());
-    EXPECT_TRUE(checkLimits(report, {.degrees = 1.01}).passed());
-    EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 0.99})), Kinds{"reading"});
-    EXPECT_TRUE(checkLimits(report, {.degrees = 3.01, .frame = "orthonormal"}).passed());
-    const LintCheck over = checkLimits(report, {.degrees = 2.99, .frame = "orthonormal"});
+    EXPECT_TRUE(checkLimits(report, {.degrees = 1.01, .frame = "cotangent"}).passed());
+    EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 0.99, .frame = "cotangent"})), Kinds{"reading"});
+    EXPECT_TRUE(checkLimits(report, {.degrees = 3.01}).passed());
+    const LintCheck over = checkLimits(report, {.degrees = 2.99}); // of orthonormal
     ASSERT_EQ(kindsOf(over), Kinds{"reading"});
     EXPECT_EQ(over.failures[0].where, "door");
     EXPECT_EQ(over.failures[0].value, 3);

@@ -136,14 +136,14 @@ TEST(LintCommand, aLimitEndsWithFiveWhereSomethingIsOverIt)
     COTAN_NEEDS("synthetic/uv_cases.gltf");
     const std::string model = shared("synthetic/uv_cases.gltf");
     TemporaryFolder folder;
-    const ToolRun over = runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path());
+    const ToolRun over = runTool({"lint", model, "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path());
     EXPECT_EQ(over.code, 5);
     EXPECT_EQ(lines(over.err), 1) << over.err;
     EXPECT_NE(over.err.find("limit 1"), std::string::npos) << over.err;
-    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--quiet"}, folder.path()).code, 5);
+    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path()).code, 5);
     EXPECT_EQ(runTool({"lint", model, "--limit", "60", "--quiet"}, folder.path()).code, 0);
     // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
-    EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--frame", "orthonormal", "--quiet"}, folder.path()).code, 0);
+    EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0); // orthonormal is the default
     EXPECT_EQ(runTool({"lint", model, "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
     EXPECT_EQ(runTool({"lint", model, "--quiet"}, folder.path()).code, 0);
 }
@@ -164,9 +164,9 @@ TEST(LintCommand, theReportOfACheckSaysWhatFailedAndByHowMuch)
               (json{{"passed", true},
                     {"limit", 90.0},
                     {"limit_area", nullptr},
-                    {"frame", "cotangent"},
+                    {"frame", "orthonormal"},
                     {"failures", json::array()}}));
-    const json failed = checked({"--limit", "1", "--limit-area", "3"}, 5)["check"];
+    const json failed = checked({"--limit", "1", "--limit-area", "3", "--frame", "cotangent"}, 5)["check"];
     EXPECT_FALSE(failed["passed"].get<bool>());
     EXPECT_EQ(failed["limit_area"], 3.0);
     ASSERT_EQ(failed["failures"].size(), 1u) << failed; // twice as wide as high: cotangent is off, the uv are sound
