@@ -47,14 +47,13 @@ TEST_F(AutoFrame, modelsWhoseTangentsReverseGreenAreDrawnAsTheirTangentsMean)
         if (!fs::exists(data / model))
             continue;
         any = true;
-        const ToolRun r = runTool({"compare", (data / model).string(), "-o", "out", "--overwrite", "--size", "320x240",
-                                   "--json", "out.json"},
-                                  folder.path(), 300);
+        const ToolRun r = runTool(
+            {"compare", (data / model).string(), "-o", "out", "--overwrite", "--size", "320x240", "--json", "out.json"},
+            folder.path(), 300);
         ASSERT_EQ(r.code, 0) << model << ": " << r.err;
         const json report = reportOf(folder / "out.json");
         EXPECT_EQ(report.at("frames"), json({"orthonormal", "mikktspace"})) << model;
         EXPECT_LT(report.at("normals").at("mean_degrees").get<double>(), 1) << model;
-        
     }
     if (!any)
         GTEST_SKIP() << data << " has no models";
@@ -96,8 +95,9 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
     EXPECT_EQ(r.err.find("read with"), std::string::npos) << r.err;
     r = run("render out.gltf -o b.png --size 64x48 --frame orthonormal");
     EXPECT_EQ(r.code, 0);
-    EXPECT_EQ(countOf(r.err, "the normal maps are for the frame cotangent, as the file says, and are read with "
-                             "orthonormal"),
+    EXPECT_EQ(countOf(r.err,
+                      "the normal maps are for the frame cotangent, as the file says, and are read with "
+                      "orthonormal"),
               1u)
         << r.err;
 
@@ -109,7 +109,8 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
     r = run("convert out.gltf --to-frame mikktspace --bits 8 -o back.gltf --json back.json");
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(reportOf(folder / "back.json").at("from"), "cotangent");
-    EXPECT_EQ(reportOf(folder / "back.gltf").at("materials").at(0).at("extras"), json({{"mine", 7}, {"cotanUnsigned", "biased"}})); // glTF means MikkTSpace
+    EXPECT_EQ(reportOf(folder / "back.gltf").at("materials").at(0).at("extras"),
+              json({{"mine", 7}, {"cotanUnsigned", "biased"}})); // glTF means MikkTSpace
 }
 
 TEST_F(AutoFrame, materialsThatNameDifferentFramesAreNotConvertedAsOne)

@@ -362,7 +362,7 @@ if lint_of(model) is not None:
     class CheckOptions(Struct):
         _fields_ = LintOptions._fields_ + [("limit", c.c_double), ("limit_area", c.c_double), ("frame", text)]
 
-    for limit, frame, passed in ((90, None, True), (1, None, False), (1, b"orthonormal", True), (0, None, None)):
+    for limit, frame, passed in ((90, b"cotangent", True), (1, b"cotangent", False), (1, None, True), (0, None, None)):
         check = CheckOptions(0, Progress(), None, limit, 0, frame)
         call("cotan_lint_gltf", model, c.c_size_t(len(model)), c.byref(files), c.byref(check), None, c.byref(report))
         found = json.loads(take(report))["check"]

@@ -18,8 +18,9 @@ using nlohmann::json;
 
 json converted(const std::filesystem::path& folder, const std::string& frame, const std::string& out = "out.glb")
 {
-    const ToolRun run =
-        runTool({"convert", "quad.gltf", "--to-frame", frame, "--unsigned", "exact", "-o", out, "--json", "-", "--quiet"}, folder, 120);
+    const ToolRun run = runTool(
+        {"convert", "quad.gltf", "--to-frame", frame, "--unsigned", "exact", "-o", out, "--json", "-", "--quiet"},
+        folder, 120);
     EXPECT_EQ(run.code, 0) << run.err;
     return json::parse(run.out, nullptr, false);
 }

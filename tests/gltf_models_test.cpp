@@ -159,8 +159,10 @@ TEST_F(GltfModels, sofaTransformsItsNormalMapOnly)
 
 TEST_F(GltfModels, invertedTangentSignsAreFoundAndOnlyThose)
 {
-    EXPECT_TRUE(warns(load("models/SketchfabCat/scene.gltf"), "TANGENT.w contradicts the texture coordinates on 100 %"));
-    EXPECT_TRUE(warns(load("models/TwoSidedPlane/TwoSidedPlane.glb"), "TANGENT.w contradicts the texture coordinates on 100 %"));
+    EXPECT_TRUE(
+        warns(load("models/SketchfabCat/scene.gltf"), "TANGENT.w contradicts the texture coordinates on 100 %"));
+    EXPECT_TRUE(warns(load("models/TwoSidedPlane/TwoSidedPlane.glb"),
+                      "TANGENT.w contradicts the texture coordinates on 100 %"));
     for (const char* const good :
          {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "models/ClearCoatTest/ClearCoatTest.glb",
           "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb", "synthetic/uv_cases_tangents.gltf"})

@@ -203,7 +203,8 @@ def offers(shell):
                 elif option.value in ("FOLDER", "DIR"):
                     wanted.append((line, {"pictures"}))
         wanted += [
-            ("cotan render --frame ", set(FRAMES)),
+            ("cotan render --frame ", {"auto", *FRAMES}),
+            ("cotan bake --frame ", set(FRAMES)),
             ("cotan render --frame orth", {"orthonormal"}),
             ("cotan render model.glb --frame=mik", {"mikktspace"}),
             ("cotan render -o ", everything),

@@ -56,7 +56,8 @@ TEST(Judgement, aMapWhoseRowLiesBetweenTexelCentresIsConvertedAndMeasured)
     const json lint = jsonOf({"lint", "quad.gltf"}, folder.path());
     const double predicted = lint["primitives"][0]["read_with"]["cotangent"]["mean"];
     EXPECT_GT(predicted, 1);
-    const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "--unsigned", "exact", "-o", "out.glb"}, folder.path());
+    const json r =
+        jsonOf({"convert", "quad.gltf", "--to", "cotangent", "--unsigned", "exact", "-o", "out.glb"}, folder.path());
     const json& map = r["maps"][0];
     EXPECT_FALSE(map["kept"].get<bool>());
     EXPECT_EQ(map["texels_covered"], 0);
@@ -92,8 +93,9 @@ TEST(Judgement, comparisonsWithoutANormalMapHaveNoAverage)
     Made m = quad(2);
     m.root["materials"][0].erase("normalTexture");
     write(m, folder.path());
-    const std::vector<std::string> compare = {"compare", "quad.gltf", "--frames", "cotangent,mikktspace", "--device", "reference",
-                                              "--size",  "64x48",     "-o",       "c"};
+    const std::vector<std::string> compare = {"compare",  "quad.gltf", "--frames", "cotangent,mikktspace",
+                                              "--device", "reference", "--size",   "64x48",
+                                              "-o",       "c"};
     const ToolRun run = runTool(compare, folder.path());
     EXPECT_TRUE(says(run.out, "nothing was compared: no normal map is drawn")) << run.out;
     const json r = jsonOf(compare, folder.path());

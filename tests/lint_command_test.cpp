@@ -140,7 +140,8 @@ TEST(LintCommand, aLimitEndsWithFiveWhereSomethingIsOverIt)
     EXPECT_EQ(over.code, 5);
     EXPECT_EQ(lines(over.err), 1) << over.err;
     EXPECT_NE(over.err.find("limit 1"), std::string::npos) << over.err;
-    EXPECT_EQ(runTool({"lint", model, "--strict", "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path()).code, 5);
+    EXPECT_EQ(
+        runTool({"lint", model, "--strict", "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path()).code, 5);
     EXPECT_EQ(runTool({"lint", model, "--limit", "60", "--quiet"}, folder.path()).code, 0);
     // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
     EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0); // orthonormal is the default

@@ -71,7 +71,7 @@ TEST(MeantFrame, isTheNamedOneOfTheLargestArea)
         EXPECT_EQ(autoFrame(scene, source), Frame::cotangent);
     auto named = namedFrame(scene);
     ASSERT_TRUE(named);
-    EXPECT_EQ(named->others, 3u); // two for smooth, one that names none
+    EXPECT_EQ(named->others, 3u);                            // two for smooth, one that names none
     scene.instances[2].toWorld = glm::mat4(glm::mat3(0.5f)); // a quarter of its area
     EXPECT_EQ(namedFrame(scene)->frame, Frame::smooth);
     scene.materials[0].normalMap = scene.materials[1].normalMap = {};

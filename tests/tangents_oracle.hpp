@@ -35,8 +35,8 @@ inline bool differ(glm::vec4 a, glm::vec4 b)
     return !(glm::length(glm::vec3(a) - glm::vec3(b)) <= kApart) || a.w != b.w;
 }
 
-// Whether neither has a direction, which is (1,0,0) in both: mikktspace.c has w = -1 then whichever way v runs, which is
-// +1 or -1 by the way in which it was called.
+// Whether neither has a direction, which is (1,0,0) in both: mikktspace.c has w = -1 then whichever way v runs, which
+// is +1 or -1 by the way in which it was called.
 inline bool bothWithout(glm::vec4 a, glm::vec4 b)
 {
     return glm::vec3(a) == glm::vec3(1, 0, 0) && glm::vec3(b) == glm::vec3(1, 0, 0);

@@ -205,8 +205,11 @@ TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotrop
     EXPECT_GT(page["loaded"]["stock"]["mean"].get<double>(), 179)
         << "three's bitangents run along v, glTF's against it";
     EXPECT_NE(page["refused"][0].get<std::string>().find("expected an Object3D"), std::string::npos);
-    EXPECT_EQ(page["refused"][1], "CotanError usage: options.frame: expected auto, cotangent, orthonormal, smooth, triangle, found 'mikktspace'");
-    EXPECT_EQ(page["refused"][2], "CotanError usage: options.fraem: expected one of frame, convention, note, found fraem");
+    EXPECT_EQ(
+        page["refused"][1],
+        "CotanError usage: options.frame: expected auto, cotangent, orthonormal, smooth, triangle, found 'mikktspace'");
+    EXPECT_EQ(page["refused"][2],
+              "CotanError usage: options.fraem: expected one of frame, convention, note, found fraem");
     EXPECT_EQ(page["refused"][3], "CotanError usage: options.convention: expected gltf, directx, found 'unity'");
     EXPECT_EQ(page["refused"][4], page["refused"][1]) << "before a model is loaded";
     EXPECT_EQ(page["refused"][5], page["refused"][1]);

@@ -154,7 +154,8 @@ Status checkOutputs(const BakeCommandOptions& o)
 std::string readersOf(Frame frame)
 {
     if (frame == Frame::mikktspace)
-        return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with tangents "
+        return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with "
+               "tangents "
                "that they make or import, Cotan's shaders without tangents by the frame orthonormal";
     return fmt::format("the map is for the frame {0}: read it by that; engines make MikkTSpace tangents and show it "
                        "wrongly (--frame mikktspace is for them)",

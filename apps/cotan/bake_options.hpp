@@ -13,8 +13,9 @@ namespace cotan::app {
 struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
-    std::string frame = "mikktspace", kind = "normal", size = "1024x1024", convention = "opengl", expansion, // empty: by -o
-                tangents = "stored";
+    std::string frame = "mikktspace", kind = "normal", size = "1024x1024", convention = "opengl",
+                expansion, // empty: by -o
+        tangents = "stored";
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     std::filesystem::path verify;

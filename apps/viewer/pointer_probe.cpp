@@ -31,7 +31,8 @@ void PointerProbe::follow(State& state)
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
         if (probe.hit)
-            probe.surface = prober_.at(model->scene, model->number, *probe.hit, chosenFrame(*parseFrameChoice(side.frame), picture, model->scene),
+            probe.surface = prober_.at(model->scene, model->number, *probe.hit,
+                                       chosenFrame(*parseFrameChoice(side.frame), picture, model->scene),
                                        side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
         return probe;
     };

@@ -39,7 +39,8 @@ bool plain(const PictureOptions& o, Frame frame)
 // Of a side, whose words are known to be right.
 Frame frameOf(const Order& order, bool second, const Scene& scene)
 {
-    return chosenFrame(*parseFrameChoice((second ? order.b : order.a).frame), second ? order.second : order.first, scene);
+    return chosenFrame(*parseFrameChoice((second ? order.b : order.a).frame), second ? order.second : order.first,
+                       scene);
 }
 
 std::string lightKey(const PictureOptions& o)
@@ -223,7 +224,8 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
     if (!choice)
         return choice.error();
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
-    const Frame frame = chosenFrame(*choice, o, order.model->scene); // of the model's own maps: others are not on it yet
+    const Frame frame =
+        chosenFrame(*choice, o, order.model->scene); // of the model's own maps: others are not on it yet
     const std::string key = sceneKey(*order.model, o, frame, inspection);
     for (Stage& known : stages_)
         if (known.key == key && known.painter)

@@ -1,4 +1,5 @@
-// Cotan portable text: even patterns, a picture's colours in 8 bits, and thresholds of translucent shadows. Include lang.h and light.h first.
+// Cotan portable text: even patterns, a picture's colours in 8 bits, and thresholds of translucent shadows. Include
+// lang.h and light.h first.
 
 #ifndef COTAN_QUANTISE_H
 #define COTAN_QUANTISE_H
@@ -39,10 +40,10 @@ COTAN_FUNCTION cotan_vec4 cotan_levels_of_pixel(cotan_vec4 color, cotan_uint x, 
         cotan_level_of(color.w, dither ? cotan_even_pattern(x, y, 3u) : middle));
 }
 
-// The threshold of a texel of a shadow map, in [0, 1): a translucent surface covers the texel where its alpha is greater, so
-// that the mean over some texels is its coverage. Of any 3 x 3 texels each ninth of the range has one threshold: their
-// mean is off by a ninth at most. layer: 0 to 3; surfaces of different layers, one behind the other, stop what is left,
-// as their thirds and what is finer than ninths are independent.
+// The threshold of a texel of a shadow map, in [0, 1): a translucent surface covers the texel where its alpha is
+// greater, so that the mean over some texels is its coverage. Of any 3 x 3 texels each ninth of the range has one
+// threshold: their mean is off by a ninth at most. layer: 0 to 3; surfaces of different layers, one behind the
+// other, stop what is left, as their thirds and what is finer than ninths are independent.
 COTAN_FUNCTION cotan_real cotan_shadow_threshold(cotan_uint x, cotan_uint y, cotan_uint layer)
 {
     cotan_uint sum = (x + y) % 3u;

@@ -64,9 +64,9 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
     if (!source.frame.empty()) {
         material.normalFrame = frameFromName(source.frame);
         if (!material.normalFrame)
-            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                                fmt::format("expected the name of a frame, found '{}'; left out",
-                                            oneLine(source.frame)));
+            model_.warnings.add(
+                fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
+                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(source.frame)));
     }
     material.baseColorMap = map(source.baseColor, "baseColorTexture");
     material.metallicRoughnessMap = map(source.metallicRoughness, "metallicRoughnessTexture");

@@ -317,9 +317,8 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lan
                 : frameOver(in, map, smooth, uv, quad.weights[std::size_t(lane)]);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
-        const auto format =
-            toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,
-                                               double(in.material->coat.normalScale));
+        const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,
+                                                               double(in.material->coat.normalScale));
         coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
         coat.spread += spreadOf(*in.view, texel);
     }

@@ -99,9 +99,8 @@ std::string frameNote(const Scene& scene, Frame frame)
     const std::string maps = "the normal maps are for the frame " + std::string(name(named->frame));
     if (named->frame != frame)
         return maps + ", as the file says, and are read with " + std::string(name(frame));
-    return named->others == 0
-        ? ""
-        : maps + " in the largest part of the model; those of " + std::to_string(named->others)
+    return named->others == 0 ? ""
+                              : maps + " in the largest part of the model; those of " + std::to_string(named->others)
             + " other material(s) are not, and are read with it all the same";
 }
 

@@ -122,8 +122,9 @@ std::vector<std::string> followStoredTangents(Scene& scene)
         chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !stays[group];
         if (group != i || fraction < kGreenMentionedFrom)
             continue;
-        lines.push_back("TANGENT.w contradicts the texture coordinates on " + std::to_string(std::lround(100 * fraction))
-                        + " % of the area of normal map " + nameOf(scene, scene.materials[i])
+        lines.push_back("TANGENT.w contradicts the texture coordinates on "
+                        + std::to_string(std::lround(100 * fraction)) + " % of the area of normal map "
+                        + nameOf(scene, scene.materials[i])
                         + (chosen[i] ? ": without stored tangents its green is read the other way (--convention gltf: "
                                        "as declared)"
                                      : ": its green is read as declared"));

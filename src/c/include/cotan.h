@@ -350,8 +350,8 @@ typedef struct cotan_lint_options {
     double distance;         /* from eye to surface, units of the model; 0: where the whole model fills the picture */
     cotan_progress progress; /* may be null */
     void* user;
-    /* What makes it a check, as of `cotan lint`: its verdict is "check" in the report. 0: no limit; 1e-9 allows nothing.
-     * Since version 4. */
+    /* What makes it a check, as of `cotan lint`: its verdict is "check" in the report. 0: no limit; 1e-9 allows
+     * nothing. Since version 4. */
     double limit;      /* degrees that the error with `frame` may exceed on 5 % of the area */
     double limit_area; /* % of a primitive's area with degenerate or mirrored overlapping uv, or wrong tangents */
     const char* frame; /* cotangent, orthonormal, smooth, exact, triangle or stored; null: "orthonormal" */

@@ -29,7 +29,7 @@ struct OwnMaps { // files; empty: what the model has
     std::string normal, baseColor, metallicRoughness, occlusion;
     std::string convention; // of the normal map, gltf where it is empty; without one: how the model's own are read, as
                             // the model says where it is empty
-    int material = -1;               // number of the only material that gets them; -1: all
+    int material = -1;      // number of the only material that gets them; -1: all
 };
 
 // What becomes of a picture.

@@ -26,7 +26,8 @@ void putPicture(Scene& scene, Image image, Texture Material::*slot, int material
     }
 }
 
-// The same for a normal map, at full strength and for the frame that the image names; the tangents of the meshes become those of the file again.
+// The same for a normal map, at full strength and for the frame that the image names; the tangents of the meshes become
+// those of the file again.
 inline void putNormalMap(Scene& scene, Image image, const Convention& format, int material = -1)
 {
     restoreDeclaredGreen(scene, material);

@@ -51,9 +51,9 @@ struct Coat {
     float roughness = 0;
     float normalScale = 1;   // factor on the slopes
     Convention normalFormat; // how normalMap is stored
-    Texture map;           // linear: r, times strength
-    Texture roughnessMap;  // linear: g, times roughness
-    Texture normalMap;     // linear
+    Texture map;             // linear: r, times strength
+    Texture roughnessMap;    // linear: g, times roughness
+    Texture normalMap;       // linear
 };
 
 // Highlights that are stretched along the surface (KHR_materials_anisotropy).
@@ -95,8 +95,8 @@ struct Material {
     float roughness = 1;
     glm::vec3 emissive{0, 0, 0}; // linear, KHR_materials_emissive_strength multiplied in
     float occlusionStrength = 1;
-    float normalScale = 1;        // factor on the slopes
-    Convention normalFormat;      // how normalMap is stored; v runs down, as everywhere in a scene
+    float normalScale = 1;            // factor on the slopes
+    Convention normalFormat;          // how normalMap is stored; v runs down, as everywhere in a scene
     std::optional<Frame> normalFrame; // that the normal maps were made for, where the file says so
     // Green of the normal maps is the other way than the file declares, and so is w of the meshes' tangents: see
     // cotan/scene/stored_green.hpp.
