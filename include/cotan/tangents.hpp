@@ -73,7 +73,8 @@ struct Cotangents {
 // vertices first (splitMirrored).
 // Degenerate input: triangles without area in space or uv add nothing; a vertex with no other
 // triangle gets zero, which the frame turns into the plain normal.
-Cotangents smoothCotangents(const MeshView& mesh);
+// threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
+Cotangents smoothCotangents(const MeshView& mesh, int threads = 0);
 
 // For every vertex the first one that counts as the same. Arrays of other sizes, or an index out of range, give an
 // empty result.
@@ -113,6 +114,6 @@ struct SplitCotangents {
     VertexSplit split;
     Cotangents cotangents; // one per new vertex
 };
-SplitCotangents splitSmoothCotangents(const MeshView& mesh);
+SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads = 0);
 
 } // namespace cotan

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/covector.hpp"
@@ -15,6 +16,7 @@ namespace cotan {
 namespace {
 
 constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
+constexpr int kMostOcclusionRays = 1 << 16;
 constexpr float kFarthest = 1e17f;  // model units: Embree ends the program for rays that start beyond 1.8e18
 
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
@@ -26,9 +28,19 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
         return usageError(
             fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
-    if (!(b.maxDistance <= kFarthest))
+    if (!isFrame(int(b.frame)) || !isFrame(int(options.highFrame)))
+        return usageError(fmt::format("options.{}: expected 0 to {}; found {}",
+                                      isFrame(int(b.frame)) ? "highFrame" : "bake.frame", kFrameCount - 1,
+                                      int(isFrame(int(b.frame)) ? options.highFrame : b.frame)));
+    if (options.tiles.empty())
+        return usageError("options.tiles: expected one tile or more; found none");
+    if (b.occlusionRays < 1 || b.occlusionRays > kMostOcclusionRays)
         return usageError(
-            fmt::format("options.maxDistance: expected at most {:g}; found {:g}", kFarthest, b.maxDistance));
+            fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMostOcclusionRays, b.occlusionRays));
+    if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))
+        return usageError(fmt::format("options.maxDistance: expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance));
+    if (!(b.cageReach >= 0 && b.cageReach <= kFarthest))
+        return usageError(fmt::format("options.cageReach: expected 0 to {:g}; found {:g}", kFarthest, b.cageReach));
     if (!(b.extrusion >= 0 && b.extrusion <= kFarthest))
         return usageError(fmt::format("options.extrusion: expected 0 to {:g}; found {:g}", kFarthest, b.extrusion));
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
@@ -82,6 +94,20 @@ Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
                 return inputError(
                     fmt::format("{}: expected positions up to {:g} from the origin; found {:g}", what, kFarthest, x));
     return Done{};
+}
+
+// A transform of zero, for one, leaves none.
+Status checkArea(const LowSurface& low)
+{
+    for (std::size_t i = 0; i < low.indices.size(); i += 3) {
+        const glm::dvec3 p(low.positions[low.indices[i]]);
+        if (glm::cross(glm::dvec3(low.positions[low.indices[i + 1]]) - p,
+                       glm::dvec3(low.positions[low.indices[i + 2]]) - p)
+            != glm::dvec3(0))
+            return Done{};
+    }
+    return inputError(fmt::format("low: expected a triangle with an area; all {} have none as they are placed",
+                                  low.triangleCount()));
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
@@ -194,8 +220,9 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
     if (!highSurface)
         return highSurface.error();
-    for (const Status& placed : {checkPlaces(lowSurface->positions, "low"), checkPlaces(cage, "options.cage"),
-                                 checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+    for (const Status& placed :
+         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
+          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
         if (!placed)
             return placed.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};

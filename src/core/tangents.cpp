@@ -16,6 +16,8 @@ using tangents::edgesAt;
 using tangents::Side;
 using tangents::slot;
 
+constexpr std::size_t kLeastCorners = 100000; // of a thread
+
 // The unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
 {
@@ -50,21 +52,14 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
     return out;
 }
 
-Cotangents smoothCotangents(const MeshView& mesh)
+Cotangents smoothCotangents(const MeshView& mesh, int threads)
 {
-    if (!tangents::usable(mesh))
+    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    if (!tangents::usable(mesh, all))
         return {};
-    const tangents::CornerGroups groups = tangents::groupCorners(mesh);
-    const tangents::CotangentSums& sums = groups.sums;
-    const std::size_t count = mesh.positions.size();
-    Cotangents out{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
-    for (std::size_t vertex = 0; vertex < count; ++vertex) {
-        const std::size_t at = groups.slots[vertex];
-        const float scale = sums.isEmpty(at) ? 0 : 1 / sums.weight[at];
-        out.u[vertex] = sums.u[at] * scale;
-        out.v[vertex] = sums.v[at] * scale;
-    }
-    return out;
+    Cotangents made{std::vector<glm::vec3>(mesh.positions.size()), std::vector<glm::vec3>(mesh.positions.size())};
+    tangents::groupCorners(mesh, all, &made);
+    return made;
 }
 
 std::vector<std::uint32_t> firstEqualVertices(const MeshView& mesh)
@@ -102,30 +97,54 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
     return split;
 }
 
+namespace {
+
+VertexSplit unsplit(const MeshView& mesh)
+{
+    VertexSplit split{std::vector<std::uint32_t>(mesh.positions.size()), {mesh.indices.begin(), mesh.indices.end()}};
+    std::iota(split.sources.begin(), split.sources.end(), 0u);
+    return split;
+}
+
+// For every vertex whether it has corners of each side.
+std::vector<std::uint8_t> sidesOfVertices(const MeshView& mesh, const std::vector<Side>& sides)
+{
+    std::vector<std::uint8_t> has(mesh.positions.size(), 0);
+    for (std::size_t c = 0; c < sides.size(); ++c)
+        if (sides[c] != Side::none)
+            has[mesh.indices[c]] = std::uint8_t(has[mesh.indices[c]] | 1 << int(sides[c]));
+    return has;
+}
+
+constexpr std::uint8_t kUnmirrored = 1, kBoth = 3;
+
+bool anyHasBoth(const MeshView& mesh, std::size_t threads)
+{
+    const std::vector<std::uint8_t> has = sidesOfVertices(mesh, tangents::cornerSides(mesh, threads));
+    return std::find(has.begin(), has.end(), kBoth) != has.end();
+}
+
+} // namespace
+
 VertexSplit splitMirrored(const MeshView& mesh)
 {
     if (!tangents::usable(mesh))
         return {};
-    const std::size_t count = mesh.positions.size();
     const std::vector<Side> sides = tangents::cornerSides(mesh);
-    std::vector<bool> unmirrored(count);
-    for (std::size_t c = 0; c < sides.size(); ++c)
-        if (sides[c] == Side::unmirrored)
-            unmirrored[mesh.indices[c]] = true;
-    VertexSplit split{std::vector<std::uint32_t>(count), {mesh.indices.begin(), mesh.indices.end()}};
-    std::iota(split.sources.begin(), split.sources.end(), 0u);
-    std::vector<Side> owner(count, Side::none); // the side met first keeps the vertex
-    std::vector<std::uint32_t> copies;          // per vertex, that of the other side
+    const std::vector<std::uint8_t> has = sidesOfVertices(mesh, sides);
+    VertexSplit split = unsplit(mesh);
+    std::vector<Side> owner(has.size(), Side::none); // the side met first keeps the vertex
+    std::vector<std::uint32_t> copies;               // per vertex, that of the other side
     for (std::size_t c = 0; c < sides.size(); ++c) {
         const std::uint32_t vertex = mesh.indices[c];
-        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !unmirrored[vertex]);
+        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !(has[vertex] & kUnmirrored));
         const Side side = mirrored ? Side::mirrored : Side::unmirrored;
         if (owner[vertex] == Side::none)
             owner[vertex] = side;
         if (owner[vertex] == side)
             continue;
         if (copies.empty())
-            copies.assign(count, tangents::kNone);
+            copies.assign(has.size(), tangents::kNone);
         if (copies[vertex] == tangents::kNone) {
             copies[vertex] = static_cast<std::uint32_t>(split.sources.size());
             split.sources.push_back(vertex);
@@ -142,17 +161,21 @@ std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int t
     return frame == Frame::vertex ? vertexTangents(mesh) : std::vector<glm::vec4>{};
 }
 
-SplitCotangents splitSmoothCotangents(const MeshView& mesh)
+SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
 {
-    SplitCotangents made{splitMirrored(mesh), {}};
-    if (made.split.sources.size() == mesh.positions.size()) { // none has both sides
-        made.cotangents = smoothCotangents(mesh);
+    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    if (!tangents::usable(mesh, all))
+        return {};
+    if (!anyHasBoth(mesh, all)) { // the copies of the indices come last: that is the most memory that it takes
+        SplitCotangents made{{}, smoothCotangents(mesh, threads)};
+        made.split = unsplit(mesh);
         return made;
     }
+    SplitCotangents made{splitMirrored(mesh), {}};
     const auto positions = gathered(mesh.positions, made.split);
     const auto normals = gathered(mesh.normals, made.split);
     const auto texcoords = gathered(mesh.texcoords, made.split);
-    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices});
+    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices}, threads);
     return made;
 }
 

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/texture_uv.hpp"
-#include "cotan/tangents.hpp"
 
 namespace cotan {
 
@@ -82,21 +81,18 @@ CornerValues<glm::vec4> gathered(std::size_t vertices, const std::vector<std::ui
 }
 
 // Cotangents, mirrored and unmirrored triangles apart.
-CornerValues<std::array<glm::vec3, 2>> cotangentsOf(const MeshView& mesh)
+CornerCotangents cotangentsOf(const MeshView& mesh)
 {
-    CornerValues<std::array<glm::vec3, 2>> result;
     SplitCotangents made = splitSmoothCotangents(mesh);
-    result.values.reserve(made.cotangents.u.size());
-    for (std::size_t i = 0; i < made.cotangents.u.size(); ++i)
-        result.values.push_back({made.cotangents.u[i], made.cotangents.v[i]});
-    if (result.values.size() != mesh.positions.size()) // else none was split
+    CornerCotangents result{std::move(made.cotangents), {}};
+    if (result.values.u.size() != mesh.positions.size()) // else none was split
         result.places = std::move(made.split.indices);
     return result;
 }
 
-template<class T> const T& valueAt(const SurfaceMesh& s, const CornerValues<T>& made, std::size_t corner)
+std::size_t placeOf(const SurfaceMesh& s, const std::vector<std::uint32_t>& places, std::size_t corner)
 {
-    return made.values[made.places.empty() ? s.mesh->indices[corner] : made.places[corner]];
+    return places.empty() ? s.mesh->indices[corner] : places[corner];
 }
 
 // The weighted sum over the corners of a triangle.
@@ -126,12 +122,13 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
     }
     if (s.shared->cotangents.empty())
         return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
-    const auto along = [&](std::size_t k) {
+    const CornerCotangents& made = s.shared->cotangents;
+    const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
-            return movedCovector(s.linear, valueAt(*s.shared, s.shared->cotangents, corner)[k]);
+            return movedCovector(s.linear, values[placeOf(*s.shared, made.places, corner)]);
         });
     };
-    return evaluateCotangents(frame, n, along(0), along(1));
+    return evaluateCotangents(frame, n, gradient(made.values.u), gradient(made.values.v));
 }
 
 std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const Texture& map, const FrameSet& wanted)
@@ -192,7 +189,8 @@ glm::dvec4 MappedSurface::stored(std::size_t corner) const
 
 glm::dvec4 MappedSurface::generated(Frame frame, std::size_t corner) const
 {
-    return moved(linear, valueAt(*shared, shared->generated[std::size_t(frame)], corner));
+    const CornerValues<glm::vec4>& made = shared->generated[std::size_t(frame)];
+    return moved(linear, made.values[placeOf(*shared, made.places, corner)]);
 }
 
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
@@ -215,7 +213,7 @@ SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const Fra
         bytes.making = std::max(bytes.making, perVertex * vertices + perTriangle * triangles);
     };
     if (wanted[std::size_t(Frame::smooth)])
-        add(2 * sizeof(glm::vec3), 100, 16);
+        add(2 * sizeof(glm::vec3), 13, 12);
     for (const FrameInfo& f : frames())
         if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
             add(sizeof(glm::vec4), 0, 80);

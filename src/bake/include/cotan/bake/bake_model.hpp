@@ -58,8 +58,8 @@ struct BakeSetup {
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
 // vertices and the matches.
 // Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins
-// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of
-// range; ErrorKind::input: a cage of another number of triangles, a mesh without its match.
+// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, frame, distance, number of rays,
+// material or number of maps out of range, or no tile; ErrorKind::input: a cage of another number of triangles, a mesh without its match.
 // An extrusion or the search `nearest` together with a cage are ErrorKind::usage, too.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
 

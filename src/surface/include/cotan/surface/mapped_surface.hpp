@@ -19,6 +19,7 @@
 #include "cotan/surface/triangle.hpp"
 #include "cotan/surface/uv_raster.hpp"
 #include "cotan/surface/vertex_frames.hpp"
+#include "cotan/tangents.hpp"
 
 namespace cotan {
 
@@ -35,13 +36,21 @@ template<class T> struct CornerValues {
     bool empty() const { return values.empty(); }
 };
 
+// Gradients of u and v, as CornerValues.
+struct CornerCotangents {
+    Cotangents values;
+    std::vector<std::uint32_t> places;
+
+    bool empty() const { return values.u.empty(); }
+};
+
 // What all placings of a mesh share, in the mesh's own space.
 struct SurfaceMesh {
     std::shared_ptr<const Mesh> mesh;
     std::vector<glm::vec2> uv; // of the map, transformed, one a vertex; empty if the mesh has none
     // glTF's tangents, of the frames that read tangents; empty where they were not asked for.
     std::array<CornerValues<glm::vec4>, kFrameCount> generated;
-    CornerValues<std::array<glm::vec3, 2>> cotangents; // gradients of u and v; likewise
+    CornerCotangents cotangents; // likewise
     bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent` here
 };
 
