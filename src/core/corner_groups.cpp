@@ -99,8 +99,8 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
 // The averages of vertices that are equal.
 class Averaging {
 public:
-    Averaging(const MeshView& mesh, const Chains& chains, std::vector<Side>& sides, Cotangents* cotangents)
-        : mesh_(mesh), chains_(chains), sides_(sides), cotangents_(cotangents)
+    Averaging(const MeshView& mesh, const Chains& chains, std::vector<Side>& sides, const Averages& averages)
+        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages)
     {
     }
 
@@ -112,17 +112,25 @@ public:
         const auto isEmpty = [&](std::size_t slot) { return sums[slot % 2].isEmpty(); };
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
             sides_[v] = sideOrNearest(sides_[v], first, isEmpty);
-            if (!cotangents_)
+            store(sums[std::size_t(sides_[v])], v);
+            if (averages_.copies.empty() || averages_.copies[v] == kNone)
                 continue;
-            const Sum& sum = sums[std::size_t(sides_[v])];
-            const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
-            cotangents_->u[v] = sum.u * scale;
-            cotangents_->v[v] = sum.v * scale;
+            const Side other = averages_.keepers[v] == Side::mirrored ? Side::unmirrored : Side::mirrored;
+            const bool known = !sums[std::size_t(other)].isEmpty();
+            store(sums[std::size_t(sideOrNearest(known ? other : Side::none, first, isEmpty))], averages_.copies[v]);
         }
     }
 
 private:
-    // Returns the side of most of its angle.
+    void store(const Sum& sum, std::uint32_t vertex)
+    {
+        if (!averages_.cotangents)
+            return;
+        const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
+        averages_.cotangents->u[vertex] = sum.u * scale;
+        averages_.cotangents->v[vertex] = sum.v * scale;
+    }
+    // Returns the side whose average it takes.
     Side addVertex(std::uint32_t vertex, Sum (&sums)[2])
     {
         const glm::vec3 n = mesh_.normals[vertex];
@@ -133,7 +141,7 @@ private:
                 weights[std::size_t(side)] += addCorner(e, n, sums[std::size_t(side)]);
         }
         if (weights[0] > 0 && weights[1] > 0)
-            return largerSide(vertex, n);
+            return averages_.keepers.empty() ? largerSide(vertex, n) : averages_.keepers[vertex];
         return weights[0] > 0 ? Side::unmirrored : weights[1] > 0 ? Side::mirrored : Side::none;
     }
     // Where triangles of both sides index a vertex: that of the larger sum of angle times openness.
@@ -152,18 +160,18 @@ private:
     const MeshView& mesh_;
     const Chains& chains_;
     std::vector<Side>& sides_;
-    Cotangents* cotangents_;
+    const Averages& averages_;
 };
 
 } // namespace
 
-CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, Cotangents* cotangents)
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages)
 {
     const std::size_t count = mesh.positions.size();
     CornerGroups groups{weld(mesh, threads), std::vector<Side>(count)};
     const Chains chains = chainsOf(mesh, groups.first);
     runParts(count, threads, [&](std::size_t begin, std::size_t end) {
-        Averaging averaging(mesh, chains, groups.sides, cotangents);
+        Averaging averaging(mesh, chains, groups.sides, averages);
         for (std::size_t v = begin; v != end; ++v)
             if (groups.first[v] == v)
                 averaging.average(std::uint32_t(v));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -47,8 +48,16 @@ struct CornerGroups {
     std::vector<Side> sides;         // per vertex: of which corners of the equal ones it takes the cotangents
 };
 
-// mesh: usable. cotangents: null, or of the mesh's size, where the averages go. The result does not depend on the number
-// of threads.
-CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, Cotangents* cotangents = nullptr);
+// Where averages go.
+struct Averages {
+    Cotangents* cotangents = nullptr; // of all vertices, copies included; null: nowhere
+    // Where vertices that both sides index have a copy for one of them, per vertex: the side that keeps it, and the copy
+    // or kNone. Empty: such a vertex takes the side with more to say.
+    std::span<const Side> keepers;
+    std::span<const std::uint32_t> copies;
+};
+
+// mesh: usable. The result does not depend on the number of threads.
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {});
 
 } // namespace cotan::tangents

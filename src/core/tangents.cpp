@@ -58,7 +58,7 @@ Cotangents smoothCotangents(const MeshView& mesh, int threads)
     if (!tangents::usable(mesh, all))
         return {};
     Cotangents made{std::vector<glm::vec3>(mesh.positions.size()), std::vector<glm::vec3>(mesh.positions.size())};
-    tangents::groupCorners(mesh, all, &made);
+    tangents::groupCorners(mesh, all, {&made, {}, {}});
     return made;
 }
 
@@ -99,59 +99,59 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
 
 namespace {
 
-VertexSplit unsplit(const MeshView& mesh)
+// Which vertices mirrored and unmirrored triangles share.
+struct Shared {
+    std::vector<Side> sides;            // per corner; none has become one of the others
+    std::vector<Side> keepers;          // per vertex: the side that is met first and keeps it
+    std::vector<std::uint32_t> copies;  // per vertex, that of the other side, or kNone; empty: there are none
+    std::vector<std::uint32_t> sources; // of the copies
+};
+
+Shared sharedVertices(const MeshView& mesh, std::size_t threads)
 {
-    VertexSplit split{std::vector<std::uint32_t>(mesh.positions.size()), {mesh.indices.begin(), mesh.indices.end()}};
+    const std::size_t count = mesh.positions.size();
+    Shared shared{tangents::cornerSides(mesh, threads), std::vector<Side>(count, Side::none), {}, {}};
+    std::vector<bool> unmirrored(count);
+    for (std::size_t c = 0; c < shared.sides.size(); ++c)
+        if (shared.sides[c] == Side::unmirrored)
+            unmirrored[mesh.indices[c]] = true;
+    for (std::size_t c = 0; c < shared.sides.size(); ++c) {
+        const std::uint32_t vertex = mesh.indices[c];
+        Side& side = shared.sides[c];
+        if (side == Side::none)
+            side = unmirrored[vertex] ? Side::unmirrored : Side::mirrored;
+        Side& keeper = shared.keepers[vertex];
+        if (keeper == Side::none)
+            keeper = side;
+        if (keeper == side)
+            continue;
+        if (shared.copies.empty())
+            shared.copies.assign(count, tangents::kNone);
+        if (shared.copies[vertex] == tangents::kNone) {
+            shared.copies[vertex] = static_cast<std::uint32_t>(count + shared.sources.size());
+            shared.sources.push_back(vertex);
+        }
+    }
+    return shared;
+}
+
+VertexSplit splitOf(const MeshView& mesh, const Shared& shared)
+{
+    const std::size_t count = mesh.positions.size();
+    VertexSplit split{std::vector<std::uint32_t>(count), {mesh.indices.begin(), mesh.indices.end()}};
     std::iota(split.sources.begin(), split.sources.end(), 0u);
+    split.sources.insert(split.sources.end(), shared.sources.begin(), shared.sources.end());
+    for (std::size_t c = 0; c < shared.sides.size() && !shared.copies.empty(); ++c)
+        if (const std::uint32_t vertex = mesh.indices[c]; shared.sides[c] != shared.keepers[vertex])
+            split.indices[c] = shared.copies[vertex];
     return split;
-}
-
-// For every vertex whether it has corners of each side.
-std::vector<std::uint8_t> sidesOfVertices(const MeshView& mesh, const std::vector<Side>& sides)
-{
-    std::vector<std::uint8_t> has(mesh.positions.size(), 0);
-    for (std::size_t c = 0; c < sides.size(); ++c)
-        if (sides[c] != Side::none)
-            has[mesh.indices[c]] = std::uint8_t(has[mesh.indices[c]] | 1 << int(sides[c]));
-    return has;
-}
-
-constexpr std::uint8_t kUnmirrored = 1, kBoth = 3;
-
-bool anyHasBoth(const MeshView& mesh, std::size_t threads)
-{
-    const std::vector<std::uint8_t> has = sidesOfVertices(mesh, tangents::cornerSides(mesh, threads));
-    return std::find(has.begin(), has.end(), kBoth) != has.end();
 }
 
 } // namespace
 
 VertexSplit splitMirrored(const MeshView& mesh)
 {
-    if (!tangents::usable(mesh))
-        return {};
-    const std::vector<Side> sides = tangents::cornerSides(mesh);
-    const std::vector<std::uint8_t> has = sidesOfVertices(mesh, sides);
-    VertexSplit split = unsplit(mesh);
-    std::vector<Side> owner(has.size(), Side::none); // the side met first keeps the vertex
-    std::vector<std::uint32_t> copies;               // per vertex, that of the other side
-    for (std::size_t c = 0; c < sides.size(); ++c) {
-        const std::uint32_t vertex = mesh.indices[c];
-        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !(has[vertex] & kUnmirrored));
-        const Side side = mirrored ? Side::mirrored : Side::unmirrored;
-        if (owner[vertex] == Side::none)
-            owner[vertex] = side;
-        if (owner[vertex] == side)
-            continue;
-        if (copies.empty())
-            copies.assign(has.size(), tangents::kNone);
-        if (copies[vertex] == tangents::kNone) {
-            copies[vertex] = static_cast<std::uint32_t>(split.sources.size());
-            split.sources.push_back(vertex);
-        }
-        split.indices[c] = copies[vertex];
-    }
-    return split;
+    return tangents::usable(mesh) ? splitOf(mesh, sharedVertices(mesh, 1)) : VertexSplit{};
 }
 
 std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads)
@@ -166,16 +166,11 @@ SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
     const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
     if (!tangents::usable(mesh, all))
         return {};
-    if (!anyHasBoth(mesh, all)) { // the copies of the indices come last: that is the most memory that it takes
-        SplitCotangents made{{}, smoothCotangents(mesh, threads)};
-        made.split = unsplit(mesh);
-        return made;
-    }
-    SplitCotangents made{splitMirrored(mesh), {}};
-    const auto positions = gathered(mesh.positions, made.split);
-    const auto normals = gathered(mesh.normals, made.split);
-    const auto texcoords = gathered(mesh.texcoords, made.split);
-    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices}, threads);
+    const Shared shared = sharedVertices(mesh, all);
+    const std::size_t count = mesh.positions.size() + shared.sources.size();
+    SplitCotangents made{{}, {std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)}};
+    tangents::groupCorners(mesh, all, {&made.cotangents, shared.keepers, shared.copies});
+    made.split = splitOf(mesh, shared); // now that the memory of the groups is free
     return made;
 }
 
