@@ -35,7 +35,8 @@ Cotangents unitCotangents(const Cotangents& cotangents);
 // `smooth` in 8 bytes a vertex: four SNORM16, for cotan_unpack_smooth8. 0.003 degrees at most.
 // normals: unit, as many as cotangents, and exactly those that unpacking will see. Arrays of other sizes
 // give an empty result; so for the next two.
-std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const packed::vec3> normals, const Cotangents& cotangents);
+std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const packed::vec3> normals,
+                                                     const Cotangents& cotangents);
 
 // `smooth` in 4 bytes a vertex, for cotan_unpack_smooth4. 0.2 degrees at most, 0.02 in the mean.
 std::vector<std::uint32_t> packSmooth4(std::span<const packed::vec3> normals, const Cotangents& cotangents);

@@ -16,8 +16,8 @@ enum class Coherence { incoherent, coherent };
 // Lets scenes take filters from a query.
 inline constexpr RTCSceneFlags kFiltersInQueries = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
-// What a trace is given beside its rays: how they lie to one another, and a filter or null. Filters find the context at the
-// start of it.
+// What a trace is given beside its rays: how they lie to one another, and a filter or null. Filters find the context at
+// the start of it.
 struct RayQuery {
     RTCIntersectContext context;
 
@@ -54,7 +54,8 @@ struct RayQuery {
     explicit RayQuery(Coherence coherence, RTCFilterFunctionN filter_ = nullptr) : filter(filter_)
     {
         rtcInitRayQueryContext(&context);
-        const int order = coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+        const int order =
+            coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
         flags = RTCRayQueryFlags(order | (filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : 0));
     }
     // RTCIntersectArguments or RTCOccludedArguments, of which init sets the rest.

@@ -41,9 +41,9 @@ inline RTCRayHit toEmbree(const Ray& ray)
 
 // What the filters of a trace read.
 struct Asked {
-    RayQuery query;       // first, as Embree hands it to filters
-    const float* fronts;  // of the instances: 1, or -1 where triangles are wound against their normals
-    glm::vec3 normal{0};         // for keepFacing: of the low surface
+    RayQuery query;      // first, as Embree hands it to filters
+    const float* fronts; // of the instances: 1, or -1 where triangles are wound against their normals
+    glm::vec3 normal{0}; // for keepFacing: of the low surface
 };
 
 // Rays carry the instance that they look for as their id.

@@ -24,8 +24,8 @@ template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
     }
 }
 
-// Uploads the fonts. submit: called with a function that records into a command buffer, which it is to run and wait for;
-// needed before 1.90 only, since when the backend does that itself, and from 1.92 on whenever a font changes.
+// Uploads the fonts. submit: called with a function that records into a command buffer, which it is to run and wait
+// for; needed before 1.90 only, since when the backend does that itself, and from 1.92 on whenever a font changes.
 template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
 {
 #if IMGUI_VERSION_NUM < 19000
