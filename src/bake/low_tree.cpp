@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
@@ -149,10 +148,9 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
 
 LowTree::Met LowTree::first(const Ray& ray) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayQuery query(Coherence::incoherent);
     RTCRayHit r = toEmbree(ray);
-    rtcIntersect1(state_->scene, &context, &r);
+    intersect(state_->scene, query, r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     return {true, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar};

@@ -148,7 +148,7 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
         require(high || high_count == 0, "high: expected models, found null");
         HighModel model;
         for (std::size_t i = 0; i < high_count; ++i)
-            model.scenes.push_back(sceneOf(high[i], "high[" + std::to_string(i) + "]"));
+            model.scenes.push_back(sceneOf(high[i], ("high[" + std::to_string(i) + "]").c_str()));
         bakeInto(simple, std::move(model), options, map, result, warnings);
     });
 }

@@ -24,10 +24,11 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
                      + ", found " + std::to_string(indices[i]));
 }
 
-inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string& name, bool needsUv,
+inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const char* called, bool needsUv,
                                      bool needsNormals = true)
 {
-    const cotan_mesh& m = checked(given, name.c_str());
+    const cotan_mesh& m = checked(given, called);
+    const std::string name = called;
     if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage,
              name + ": expected positions" + (needsNormals ? ", normals" : "") + (needsUv ? " and texcoords" : "")

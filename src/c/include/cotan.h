@@ -25,11 +25,22 @@ extern "C" {
 #define COTAN_API_VERSION 4
 /* clang-format off */
 #ifdef __cplusplus
-#define COTAN_INIT(type) { sizeof(type) }
+#define COTAN_INIT(type) cotan_init<type>()
 #else
 #define COTAN_INIT(type) { .size = sizeof(type) }
 #endif
 /* clang-format on */
+#ifdef __cplusplus
+/* A struct with its size, all else 0. */
+extern "C++" {
+template<class Struct> inline Struct cotan_init()
+{
+    Struct made = Struct();
+    made.size = sizeof(Struct);
+    return made;
+}
+}
+#endif
 
 typedef enum cotan_status {
     COTAN_OK = 0,

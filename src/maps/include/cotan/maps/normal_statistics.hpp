@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cotan/maps/texels.hpp"
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan::maps {

@@ -1,0 +1,39 @@
+// What differs between versions of Dear ImGui's backend for Vulkan, from Debian 12's 1.86 on.
+#pragma once
+
+#include <backends/imgui_impl_vulkan.h>
+#include <imgui.h>
+
+namespace cotan::viewer {
+
+// Starts the backend with a render pass, of one sample, that `info` may have no field for.
+template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
+{
+    if constexpr (requires { info.PipelineInfoMain.RenderPass; }) { // 1.92.4
+        info.PipelineInfoMain.RenderPass = pass;
+        info.PipelineInfoMain.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+        return ImGui_ImplVulkan_Init(&info);
+    } else {
+        info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+        if constexpr (requires { info.RenderPass; }) { // 1.90.3
+            info.RenderPass = pass;
+            return ImGui_ImplVulkan_Init(&info);
+        } else {
+            return ImGui_ImplVulkan_Init(&info, pass);
+        }
+    }
+}
+
+// Uploads the fonts. submit: called with a function that records into a command buffer, which it is to run and wait
+// for; needed before 1.90 only, since when the backend does that itself, and from 1.92 on whenever a font changes.
+template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
+{
+#if IMGUI_VERSION_NUM < 19000
+    submit([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
+    ImGui_ImplVulkan_DestroyFontUploadObjects();
+#elif IMGUI_VERSION_NUM < 19200
+    ImGui_ImplVulkan_CreateFontsTexture();
+#endif
+}
+
+} // namespace cotan::viewer
