@@ -36,8 +36,9 @@ std::string commandFor(const LintCommandOptions& o, const LintReport& report)
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
     if (report.mapsConverted == 0 && !report.dropsTangents)
         return {};
-    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{} -o {} --verify {}", quoted(o.model),
-                       to, report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
+    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{}{} -o {} --verify {}", quoted(o.model),
+                       to, report.advice == Advice::readOrthonormal ? " --keep-maps" : "",
+                       report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
                        quoted(stem + "-verify"));
 }
 

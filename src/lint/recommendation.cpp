@@ -225,18 +225,18 @@ std::string seen(const LintReport& report, const Whole& orthonormal, const Whole
                        how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
 }
 
-// Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Where the maps
-// are to be read as they are, `convert` may not touch them: where it would make one anew, there is no command.
+// Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Maps that are to
+// be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a command.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)
         ++(fitsAsItIs(of(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
-    const bool untouched = report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal;
-    if (untouched && (report.mapsConverted > 0 || report.advice == Advice::readNamed)) {
+    if (report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal) {
         report.mapsConverted = 0;
         report.mapsKept = report.fits.size();
-        return;
     }
+    if (report.advice == Advice::readNamed)
+        return;
     for (const PrimitiveLint& p : report.primitives)
         report.dropsTangents =
             report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);

@@ -121,6 +121,9 @@ typedef struct cotan_mesh {
     const uint32_t* indices; /* each below vertex_count */
 } cotan_mesh;
 
+/* All functions that take a mesh refuse one with numbers that are not finite (COTAN_INPUT), and name the first:
+ * "mesh.positions[7]: ...". */
+
 /* One tangent for each index: x, y, z along increasing u, w as glTF's TANGENT. `kind`: "mikktspace" or "vertex".
  * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
