@@ -25,6 +25,10 @@ Status run(const MapConvertCommandOptions& o)
         return conventions.error();
     const StatedConvention& from = conventions->first;
     const Convention& to = conventions->second.convention;
+    if (conventions->second.damage.any())
+        return usageError(fmt::format("--to: srgb, linearised, bgr and grb say how a broken map is stored; expected "
+                                      "others, found '{}'",
+                                      o.to));
     if (Status given = needOutput(o, "convert"); !given)
         return given;
     const bool blocks = o.compress != "none";
@@ -78,9 +82,16 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required().reads();
-    a.option("--from", o.from, "how the map is stored: " + conventionWords())
+    std::vector<std::string> words = conventionWordList();
+    std::string damages;
+    for (const std::string& word : damageWords()) {
+        words.push_back(word);
+        damages += ' ' + word;
+    }
+    a.option("--from", o.from,
+             "how the map is stored: " + conventionWords() + "; and of broken maps, which are mended:" + damages)
         .in("WORDS")
-        .offers(conventionWordList())
+        .offers(words)
         .required();
     a.option("--to", o.to, "how to store the result; the same words")
         .in("WORDS")

@@ -38,7 +38,7 @@ Status runDetect(const InspectOptions& o)
         return planned;
     const auto found =
         onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::greenOfFile(o.file, files); });
-    return found ? tell(o, maps::linesOf(*found), "map detect", maps::toJson(*found)) : found.error();
+    return found ? tell(o, maps::linesOf(*found, o.file), "map detect", maps::toJson(*found)) : found.error();
 }
 
 void declare(Arguments& a, InspectOptions& o)
