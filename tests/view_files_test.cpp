@@ -1,6 +1,8 @@
 // What `cotan view` opens, and what it cannot.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cotan/shapes/shapes.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
