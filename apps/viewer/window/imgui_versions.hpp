@@ -24,8 +24,8 @@ template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
     }
 }
 
-// Makes the fonts ready for the next frame. From 1.92 on the backend makes their textures as glyphs are needed; the flag
-// says so already before the backend starts.
+// Makes the fonts ready for the next frame. From 1.92 on the backend makes their textures as glyphs are needed; the
+// flag says so already before the backend starts.
 inline void buildImGuiFonts()
 {
     ImGuiIO& io = ImGui::GetIO();
