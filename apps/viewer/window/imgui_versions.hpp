@@ -48,4 +48,16 @@ template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& subm
 #endif
 }
 
+// What was laid out before the backend started names no texture, which since 1.87 is bound as it is: gives it the
+// fonts'.
+inline void nameImGuiTexture([[maybe_unused]] ImDrawData& data)
+{
+#if IMGUI_VERSION_NUM < 19200
+    for (int i = 0; i < data.CmdListsCount; ++i)
+        for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer)
+            if (!command.TextureId)
+                command.TextureId = ImGui::GetIO().Fonts->TexID;
+#endif
+}
+
 } // namespace cotan::viewer
