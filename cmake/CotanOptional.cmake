@@ -54,7 +54,7 @@ get_property(COTAN_EMBREE_MAJOR GLOBAL PROPERTY COTAN_EMBREE_MAJOR)
 cotan_optional(VULKAN Vulkan::Headers Vulkan "libvulkan-dev glslang-tools"
   "pictures are drawn on the processor, no cotan cost" Vulkan)
 cotan_optional(WINDOW Cotan::Window "GLFW and Dear ImGui" "libglfw3-dev and libimgui-dev" "no cotan view" CotanWindow)
-if(NOT COTAN_BUS_LIBRARY OR NOT COTAN_BUS_INCLUDE_DIR)
+if(TARGET Cotan::Window AND NOT (COTAN_BUS_LIBRARY AND COTAN_BUS_INCLUDE_DIR))
   cotan_without(sd-bus "not found: install libsystemd-dev" "the window does not ask the desktop for files")
 endif()
 find_program(COTAN_GLSLANG glslangValidator)

@@ -1,6 +1,7 @@
 // `cotan convert` as a user runs it: what the files say afterwards, and what --verify measures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

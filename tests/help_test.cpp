@@ -1,6 +1,7 @@
 // What --help says is so: its examples run, its options are used, and wrong words get an answer that helps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "cotan/image/file.hpp"

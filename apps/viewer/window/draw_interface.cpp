@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <imgui.h>
+#include "imgui_versions.hpp"
 
 namespace cotan::viewer {
 
@@ -273,7 +273,7 @@ void setFont(float scale)
         config.SizePixels = pixels;
         fonts.AddFontDefault(&config);
     }
-    fonts.Build();
+    buildImGuiFonts();
 }
 
 std::vector<std::string> drawInterface(const Interface& interface, float scale)

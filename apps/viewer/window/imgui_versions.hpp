@@ -24,8 +24,20 @@ template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
     }
 }
 
-// Uploads the fonts. submit: called with a function that records into a command buffer, which it is to run and wait
-// for; needed before 1.90 only, since when the backend does that itself, and from 1.92 on whenever a font changes.
+// Makes the fonts ready for the next frame. From 1.92 on the backend makes their textures as glyphs are needed; the
+// flag says so already before the backend starts.
+inline void buildImGuiFonts()
+{
+    ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM < 19200
+    io.Fonts->Build();
+#else
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures;
+#endif
+}
+
+// Uploads the fonts. submit: before 1.90, called with a function that records into a command buffer, which it is to run
+// and wait for. Since then the backend submits by itself; from 1.92 on there is nothing to upload here.
 template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
 {
 #if IMGUI_VERSION_NUM < 19000
@@ -33,6 +45,18 @@ template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& subm
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 #elif IMGUI_VERSION_NUM < 19200
     ImGui_ImplVulkan_CreateFontsTexture();
+#endif
+}
+
+// What was laid out before the backend started names no texture, which since 1.87 is bound as it is: gives it the
+// fonts'.
+inline void nameImGuiTexture([[maybe_unused]] ImDrawData& data)
+{
+#if IMGUI_VERSION_NUM < 19200
+    for (int i = 0; i < data.CmdListsCount; ++i)
+        for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer)
+            if (!command.TextureId)
+                command.TextureId = ImGui::GetIO().Fonts->TexID;
 #endif
 }
 

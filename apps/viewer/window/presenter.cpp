@@ -249,6 +249,8 @@ bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int h
             keep(other_, *shown.other);
         serial_ = shown.serial;
     }
+    if (interface)
+        nameImGuiTexture(*interface);
     record(index, shown, interface);
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
