@@ -72,32 +72,35 @@ JobRecord skippedRecord(const std::string& failed)
 void judge(const Ending& ending, const RunOptions& options, JobRecord& record)
 {
     const std::string words = lastWords(ending.said);
-    const auto is = [&](JobState state, int code, std::string reason) {
+    const auto is = [&](JobState state, std::string reason) {
         record.state = state;
-        record.code = code;
         record.reason = std::move(reason);
     };
     const int status = ending.status;
     const bool signalled = WIFSIGNALED(status);
     const int signal = signalled ? WTERMSIG(status) : 0, code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (signalled)
+        record.signal = signal;
+    else
+        record.code = code;
     const bool noMemory = code == kNoMemoryCode || (signalled && ending.said.find("bad_alloc") != std::string::npos);
     if (ending.late)
-        return is(JobState::late, signal, fmt::format("took longer than {:.4g} s and was ended", options.seconds));
+        return is(JobState::late, fmt::format("took longer than {:.4g} s and was ended", options.seconds));
     if (noMemory && options.megabytes > 0)
-        return is(JobState::memory, code, fmt::format("wanted more memory than {} MiB", options.megabytes));
+        return is(JobState::memory, fmt::format("wanted more memory than {} MiB", options.megabytes));
     if (noMemory)
-        return is(JobState::memory, code, "wanted more memory than there is");
+        return is(JobState::memory, "wanted more memory than there is");
     if (signal == SIGKILL)
         return is(
-            JobState::crashed, signal,
+            JobState::crashed,
             fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps for want of memory", ending.megabytes));
     if (signalled)
-        return is(JobState::crashed, signal,
+        return is(JobState::crashed,
                   fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
                               ending.megabytes, words));
     if (code == 0)
-        return is(JobState::done, 0, "");
-    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, code, words);
+        return is(JobState::done, "");
+    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
 }
 
 // The run of a batch: one thread, which starts processes, waits for what they say, and keeps their results.
