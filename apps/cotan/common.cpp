@@ -10,6 +10,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/image/format_table.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/report/report_format.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
@@ -84,7 +85,7 @@ Status writeReport(const CommonOptions& options, const Json& report)
 {
     if (options.json.empty())
         return Done{};
-    const std::string text = toText(report);
+    const std::string text = toText(versioned(report));
     if (options.json == "-") {
         print(text);
         return flushOutput();

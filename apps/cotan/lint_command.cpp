@@ -113,9 +113,7 @@ Status run(const LintCommandOptions& o)
                                   {"share", spot.share},
                                   {"camera", cameraWords(spot.camera)}});
     j["check"] = toJson(check);
-    j["over_limit"] = Json::array();
-    for (const LintFailure& failure : check.failures)
-        j["over_limit"].push_back(failure.text);
+    j["over_limit"] = overLimits(check);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
         return written;
@@ -138,8 +136,8 @@ void declare(Arguments& a, LintCommandOptions& o)
         .in("D");
     a.option(
          "--limit", o.limits.degrees,
-         "a check: exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area, "
-         "a map's green points the other way, or a normal map could not be judged")
+         "a check of each primitive by itself: exit code 5 where the error with --frame exceeds this many degrees on "
+         "more than 5 % of a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault();
     a.option("--limit-area", o.limits.area,
