@@ -76,6 +76,8 @@ Status flushOutput()
 {
     if (printErrno == 0 && std::fflush(stdout) != 0)
         printErrno = errno;
+    if (printErrno == EPIPE) // the reader, such as `head`, has what it wanted
+        return Done{};
     if (printErrno != 0)
         return outputError("standard output: cannot write: " + reasonOf(printErrno));
     return Done{};
