@@ -4,7 +4,7 @@
   json_fields_test.py TOOL DOCS          says which fields differ; exit code 1 if one does
   json_fields_test.py TOOL DOCS --rows   prints the rows that the tables lack, to be given a meaning
 
-How a table reads: `a.b[].c` is the member c of each item of the list b of the object a; NAME is any name; a field that
+How a table reads: `...` stands for the fields of a shape; `a.b[].c` is the member c of each item of the list b of the object a; NAME is any name; a field that
 ends in ? is not in every report. A type that is the name of a shape stands for the object of that shape's table.
 """
 import importlib.util
@@ -26,6 +26,7 @@ compare panel.gltf --size 32x32 -o compared --device reference
 compare low.obj --size 32x32 -o compared --device reference
 bake --high high.obj --low low.obj --size 32x32 -o b.png --verify baked --device reference
 bake --high high.obj --low low.obj --size 32x32 -o b.png
+bake --high high.obj --low low.obj --size 16 -o each.png --per-object --verify each --device reference
 tangents panel.gltf -o t.glb
 tangents panel.gltf
 tangents panel.gltf --frame smooth
@@ -99,9 +100,13 @@ class Documented:
         found = {}
         for field, types in fields.items():
             shape = types.removesuffix(" or null").removeprefix("list of ")
+            if field == "...":  # all of a shape's, where the report has them
+                inside = self.expanded(shapes[shape], shapes)
+                found |= {name if "." in name or name.endswith("?") else name + "?": t for name, t in inside.items()}
+                continue
             found[field] = types.replace(shape, "object") if shape in shapes else types
             inner = field.rstrip("?") + ("[]" if types.startswith("list of ") else "")
-            for member, member_types in shapes.get(shape, {}).items():
+            for member, member_types in self.expanded(shapes.get(shape, {}), shapes).items():
                 found[f"{inner}.{member}"] = member_types
                 if member.endswith("?"):
                     self.perhaps.add(f"{inner}.{member}".replace("?", ""))

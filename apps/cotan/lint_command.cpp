@@ -16,7 +16,7 @@ namespace cotan::app {
 namespace {
 
 struct LintCommandOptions : CommonOptions {
-    std::string model;
+    std::string model, up = "y";
     int memory = kDefaultMemory;
     bool details = false;
     OwnMaps maps;
@@ -62,7 +62,9 @@ Status run(const LintCommandOptions& o)
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadTold(o, limitsFor(o.memory, Pixels::whereReadable), o.model);
+    LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
+    limits.up = upFrom(o.up);
+    auto scene = loadTold(o, limits, o.model);
     if (!scene)
         return scene.error();
     if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
@@ -126,6 +128,7 @@ void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
+    addUpOption(a, o.up);
     addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
     a.flag("--details", o.details,
            "print the figures of each primitive and map, too, and cameras that look at the worst places");

@@ -36,6 +36,7 @@ def render(
     view: str = "shaded",
     camera: Union[str, int, Sequence[float], None] = None,
     shape: Optional[str] = None,
+    up: Optional[str] = None,
     device: str = "auto",
     floats: bool = False,
     samples: int = 4,
