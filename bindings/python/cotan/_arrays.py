@@ -90,6 +90,33 @@ def pixels(given, field="map"):
     return whole
 
 
+def finite(array, field):
+    """Refuses floats that are no number or infinite, with the place of the first."""
+    if array.dtype != np.float32:
+        return
+    wrong_at = ~np.isfinite(array[..., :3])
+    if wrong_at.any():
+        row, column, channel = (int(i) for i in np.argwhere(wrong_at)[0])
+        found = f"{array[row, column, channel]} at row {row}, column {column}"
+        raise wrong(field, "finite numbers", found, InputError)
+
+
+_SLACK = 1e-3  # what filters and half floats leave
+
+
+def stored(array, words, field):
+    """Refuses floats that no map of that convention holds: outside of 0 to 1, or of -1 to 1 where it is signed. Slopes
+    have no range."""
+    finite(array, field)
+    words = os.fsdecode(words).split(",") if isinstance(words, (str, bytes)) else []
+    if array.dtype != np.float32 or "slope" in words:
+        return
+    low = -1.0 if "signed" in words else 0.0
+    for found in (float(array[..., :3].min()), float(array[..., :3].max())):
+        if not low - _SLACK <= found <= 1 + _SLACK:
+            raise wrong(field, f"floats from {low:g} to 1 as {','.join(words)} stores them", f"{found:g}", InputError)
+
+
 def picture(array):
     """A cotan_picture over an array of `pixels` or of `made`, which must outlive it."""
     return structs.Picture(width=array.shape[1], height=array.shape[0], bits=BITS[array.dtype], pixels=at(array))
