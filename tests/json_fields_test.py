@@ -41,8 +41,10 @@ lint low.obj
 map info rocks.png
 map info b.png
 map info height.png
+map info rocks.png gone.png
 map detect rocks.png
 map detect height.png
+map detect rocks.png gone.png
 map convert rocks.png --from gltf --to directx -o o.png
 map diff rocks.png o.png
 map from-height height.png -o fh.png
@@ -102,6 +104,7 @@ class Documented:
             shape = types.removesuffix(" or null").removeprefix("list of ")
             if field == "...":  # all of a shape's, where the report has them
                 inside = self.expanded(shapes[shape], shapes)
+                self.perhaps |= {name.rstrip("?") for name in inside if name.endswith("?") and "." not in name}
                 found |= {name if "." in name or name.endswith("?") else name + "?": t for name, t in inside.items()}
                 continue
             found[field] = types.replace(shape, "object") if shape in shapes else types

@@ -63,6 +63,7 @@ std::string toText(const JobRecord& r, const std::vector<std::string>& words, co
                       {"state", name(r.state)},
                       {"code", orNull(r.code)},
                       {"signal", orNull(r.signal)},
+                      {"runs", r.runs},
                       {"reason", r.reason},
                       {"said", r.said},
                       {"seconds", r.seconds},
@@ -89,6 +90,7 @@ std::optional<JobRecord> parseRecord(std::string_view text)
         r.state = JobState(state - kStates.begin());
         r.code = numberIn(j.at("code"));
         r.signal = numberIn(j.at("signal"));
+        r.runs = j.at("runs");
         r.reason = j.at("reason");
         r.said = j.at("said");
         r.seconds = j.at("seconds");
