@@ -22,13 +22,17 @@ def _shape_text(shape):
     return "(" + ", ".join("n" if s is None else str(s) for s in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
+def _array(given, field, expected):
+    try:
+        return np.asarray(given)
+    except ValueError:  # whose text is numpy's
+        raise wrong(field, expected, "rows of different lengths") from None
+
+
 def floats(given, field, width, count=None):
     """(count, width) of float32, C order; width None: (count,). Numbers of other types are converted."""
     shape = (count,) if width is None else (count, width)
-    try:
-        array = np.asarray(given)
-    except ValueError as error:
-        raise wrong(field, f"numbers of shape {_shape_text(shape)}", str(error)) from None
+    array = _array(given, field, f"numbers of shape {_shape_text(shape)}")
     if array.dtype.kind not in "fiub":
         raise wrong(field, "numbers, best of dtype float32", f"dtype {array.dtype}")
     if array.ndim != len(shape) or any(s not in (None, a) for s, a in zip(shape, array.shape)):
@@ -38,7 +42,7 @@ def floats(given, field, width, count=None):
 
 def triangles(given, field="indices"):
     """(3 n,) of uint32 from (3 n,) or (n, 3) of any integers."""
-    array = np.asarray(given)
+    array = _array(given, field, "integers of shape (n,) or (n, 3)")
     if array.size == 0 and array.dtype.kind == "f":  # what an empty list becomes
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
@@ -73,7 +77,7 @@ def at(array):
 def pixels(given, field="map"):
     """(height, width, 4) of uint8, uint16 or float32, C order. One or three channels become four by a copy: grey is
     repeated, alpha is full. Other floats become float32."""
-    array = np.asarray(given)
+    array = _array(given, field, "a picture")
     if array.dtype.kind == "f" and array.dtype != np.float32:
         array = array.astype(np.float32)
     if array.dtype not in BITS:
