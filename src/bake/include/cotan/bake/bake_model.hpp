@@ -36,10 +36,10 @@ struct BakeModelOptions {
                                  // run from it inwards. Null: none. Read by prepareBake only
     const Scene* others = nullptr; // other simple meshes: no map is made for them now, and detail that is nearer to
                                    // them is theirs. Null: none. Read by prepareBake only
-    bool matchByName = false; // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
-                              // without a name have that of their mesh
-    bool ownMaps = false;     // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
-                              // occlusion take no notice
+    bool matchByName = false;      // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
+                                   // without a name have that of their mesh
+    bool ownMaps = false; // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
+                          // occlusion take no notice
     Frame highFrame = Frame::mikktspace;  // that those maps were made for
     std::optional<Convention> highFormat; // how they are stored; none: as the materials say, the default one for
                                           // HighModel::maps
