@@ -343,7 +343,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .from({"y", "z"})
         .in("NAME");
     a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
-        .in("NAME");
+        .in("TEXT");
     a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png");
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");

@@ -43,7 +43,7 @@ public:
     bool parse_error(std::size_t position, const std::string& last, const nlohmann::detail::exception& problem) override
     {
         const std::string_view before = text_.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text_.size()));
-        const auto line = 1 + std::ranges::count(before, '\n');
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t column = before.size() - (before.find_last_of('\n') + 1) + 1; // npos + 1 is 0
         constexpr int kNumberTooLarge = 406;
         const bool ended = position > text_.size();

@@ -39,7 +39,7 @@ double shared(const Bounds& a, const Bounds& b)
 
 void turnZUp(Scene& scene)
 {
-    constexpr glm::mat4 kTurn(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+    const glm::mat4 kTurn(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
     for (Instance& instance : scene.instances)
         instance.toWorld = kTurn * instance.toWorld;
     for (Light& light : scene.lights) {
