@@ -456,7 +456,7 @@ if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="fil
     call("cotan_image_picture", made, c.byref(drawn))
     assert (drawn.width, drawn.height, drawn.bits) == (8, 6, 8)
     cotan.cotan_image_free(made)
-    wanted.words[1] = b"8"
+    wanted.words[1] = b"8x"
     assert "--size: expected WxH" in call("cotan_render", None, c.c_size_t(0), None, c.byref(wanted), c.byref(made), None, expect=1)
     call("cotan_set_reader", c.c_size_t(0), None)
     assert "words: expected an array" in call("cotan_set_reader", c.c_size_t(1), None, expect=1)

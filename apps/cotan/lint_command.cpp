@@ -16,7 +16,7 @@ namespace cotan::app {
 namespace {
 
 struct LintCommandOptions : CommonOptions {
-    std::string model;
+    std::string model, up = "y";
     int memory = kDefaultMemory;
     bool details = false;
     OwnMaps maps;
@@ -63,7 +63,9 @@ Status run(const LintCommandOptions& o)
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadTold(o, limitsFor(o.memory, Pixels::whereReadable), o.model);
+    LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
+    limits.up = upFrom(o.up);
+    auto scene = loadTold(o, limits, o.model);
     if (!scene)
         return scene.error();
     if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
@@ -114,9 +116,7 @@ Status run(const LintCommandOptions& o)
                                   {"share", spot.share},
                                   {"camera", cameraWords(spot.camera)}});
     j["check"] = toJson(check);
-    j["over_limit"] = Json::array();
-    for (const LintFailure& failure : check.failures)
-        j["over_limit"].push_back(failure.text);
+    j["over_limit"] = overLimits(check);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
         return written;
@@ -129,6 +129,7 @@ void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
+    addUpOption(a, o.up);
     addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
     a.flag("--details", o.details,
            "print the figures of each primitive and map, too, and cameras that look at the worst places");
@@ -139,8 +140,8 @@ void declare(Arguments& a, LintCommandOptions& o)
         .in("D");
     a.option(
          "--limit", o.limits.degrees,
-         "a check: exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area, "
-         "a map's green points the other way, or a normal map could not be judged")
+         "a check of each primitive by itself: exit code 5 where the error with --frame exceeds this many degrees on "
+         "more than 5 % of a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault();
     a.option("--limit-area", o.limits.area,

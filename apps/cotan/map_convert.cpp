@@ -14,7 +14,7 @@ struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
     bool normalise = false, dither = false;
-    std::string mesh, frame = "smooth", tangents = "stored", compress = "none";
+    std::string mesh, frame = "smooth", tangents = "stored", compress = "none", up = "y";
     int material = -1;
 };
 
@@ -45,7 +45,7 @@ Status run(const MapConvertCommandOptions& o)
         if (!frame)
             return frame.error();
         options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated,
-                        o.material};
+                        o.material, upFrom(o.up)};
     }
     const auto done =
         onFilesToMap(o, o.mesh.empty() ? o.file : "turning texels by the mesh", [&](const maps::FileOptions& files) {
@@ -105,6 +105,7 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE").reads();
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map").offers(frameWords());
+    addUpOption(a, o.up, "--mesh");
     a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all").within(-1, 1 << 20);
     a.option("--tangents", o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated")
         .from({"stored", "generated"});

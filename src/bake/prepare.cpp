@@ -8,6 +8,7 @@
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/scene/check.hpp"
+#include "cotan/scene/objects.hpp"
 #include "cotan/scene/put_picture.hpp"
 #include "cotan/scene/stored_green.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
 constexpr int kMostOcclusionRays = 1 << 16;
-constexpr float kFarthest = 1e17f;  // model units: Embree ends the program for rays that start beyond 1.8e18
+constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
 
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
@@ -35,8 +36,8 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (options.tiles.empty())
         return usageError("options.tiles: expected one tile or more; found none");
     if (b.occlusionRays < 1 || b.occlusionRays > kMostOcclusionRays)
-        return usageError(
-            fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMostOcclusionRays, b.occlusionRays));
+        return usageError(fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMostOcclusionRays,
+                                      b.occlusionRays));
     if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))
         return usageError(fmt::format("options.maxDistance: expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance));
     if (!(b.cageReach >= 0 && b.cageReach <= kFarthest))
@@ -64,7 +65,10 @@ Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptio
     Status sound = checkScene(low, "low", rules);
     for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
         sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
-    return sound && options.cage ? checkScene(*options.cage, "options.cage", rules) : sound;
+    for (const auto& [scene, what] : {std::pair(options.cage, "options.cage"), {options.others, "options.others"}})
+        if (sound && scene)
+            sound = checkScene(*scene, what, rules);
+    return sound;
 }
 
 // The cage's corner positions, brought to the vertices of the low surface.
@@ -106,8 +110,8 @@ Status checkArea(const LowSurface& low)
             != glm::dvec3(0))
             return Done{};
     }
-    return inputError(fmt::format("low: expected a triangle with an area; all {} have none as they are placed",
-                                  low.triangleCount()));
+    return inputError(
+        fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
@@ -142,25 +146,32 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
     return Done{};
 }
 
-// The triangles of the other materials.
-LowRest restOf(const Scene& low, int material)
+// An instance's triangles, in the world.
+void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint32_t number)
+{
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const auto base = std::uint32_t(rest.positions.size());
+    const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
+        rest.normals.push_back(covectors * mesh.normals[v]);
+    }
+    for (const std::uint32_t v : mesh.indices)
+        rest.indices.push_back(base + v);
+    rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), number);
+}
+
+// The triangles of the other materials, and those of options.others. By name a mesh sees its own detail alone: then
+// those do not matter.
+LowRest restOf(const Scene& low, const BakeModelOptions& options)
 {
     LowRest rest;
-    for (std::size_t i = 0; i < low.instances.size() && material >= 0; ++i) {
-        const Instance& instance = low.instances[i];
-        const Mesh& mesh = low.meshes[std::size_t(instance.mesh)];
-        if (mesh.material == material)
-            continue;
-        const auto base = std::uint32_t(rest.positions.size());
-        const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
-        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-            rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
-            rest.normals.push_back(covectors * mesh.normals[v]);
-        }
-        for (const std::uint32_t v : mesh.indices)
-            rest.indices.push_back(base + v);
-        rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), std::uint32_t(i));
-    }
+    for (std::size_t i = 0; i < low.instances.size() && options.material >= 0; ++i)
+        if (low.meshes[std::size_t(low.instances[i].mesh)].material != options.material)
+            add(rest, low, low.instances[i], std::uint32_t(i));
+    if (options.others && !options.matchByName)
+        for (const Instance& instance : options.others->instances)
+            add(rest, *options.others, instance, 0);
     return rest;
 }
 
@@ -188,7 +199,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 {
     std::vector<std::int64_t> result;
     for (const Instance& instance : low.instances) {
-        const std::string& name = !instance.name.empty() ? instance.name : low.meshes[std::size_t(instance.mesh)].name;
+        const std::string& name = objectName(low, instance);
         const auto& names = high.names();
         const auto found =
             std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
@@ -227,7 +238,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             return placed.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
     BakeOptions& bake = setup.options.bake;
-    setup.options.cage = nullptr;
+    setup.options.cage = setup.options.others = nullptr;
     bake.cage = std::move(cage);
     bake.highMaps = nullptr;
     bake.matched.clear();
@@ -243,7 +254,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         bake.matched = std::move(*matched);
     }
     bake.starts = nullptr;
-    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options.material)); !ready)
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)
         return ready.error();
     return setup;
 }

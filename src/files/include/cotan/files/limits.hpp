@@ -30,6 +30,12 @@ struct Pose {
     double seconds = 0;    // from the animation's start; its first and last key hold before and after
 };
 
+// Which axis of a model's file is up.
+enum class Up {
+    y, // as in a scene
+    z, // the model is turned, see turnZUp in cotan/scene/up.hpp
+};
+
 // Limits on what a file may ask for. Over a limit the file is refused before memory is taken. All members have an
 // initialiser, so that callers who name some of them, {.pixels = Pixels::none}, get no warning about the others.
 struct LoadLimits {
@@ -47,6 +53,7 @@ struct LoadLimits {
         std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
     Pixels pixels = Pixels::all;                                   // of a glTF model
     Pose pose = Pose();    // likewise; other models have none. Written out: else g++ 12 warns in callers
+    Up up = Up::y;          // of a model
     std::string variant{}; // of a glTF model's materials, its name or number in the file; empty: as the file has them
     Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
