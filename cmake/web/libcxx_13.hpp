@@ -1,7 +1,32 @@
 // What the library of emscripten 3.1.6, libc++ 13, lacks of C++20 and the parts use; included before every file by the
-// preset `web`. A newer one has it all, and then this is nothing.
+// preset `web`. Newer ones have it, atomic_ref from 19 on, and then this is nothing.
 #pragma once
 #include <version>
+#if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_atomic_ref)
+
+#include <atomic>
+
+namespace std {
+
+// Of the preset's modules, which have one thread: plain reads and writes.
+template<class T> struct atomic_ref {
+    explicit atomic_ref(T& object) : object_(object) {}
+    T load(std::memory_order) const { return object_; }
+    void store(T value, std::memory_order) const { object_ = value; }
+    bool compare_exchange_weak(T& expected, T wanted, std::memory_order) const
+    {
+        const bool same = object_ == expected;
+        (same ? object_ : expected) = same ? wanted : object_;
+        return same;
+    }
+
+private:
+    T& object_;
+};
+
+} // namespace std
+
+#endif
 #if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_bit_cast)
 
 #include <algorithm>

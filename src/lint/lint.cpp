@@ -194,8 +194,9 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
             FrameSpreads order; // of the frames, as eachAdvised has it
+            const Frame made = madeFor(scene, image);
             eachAdvised(order, [&](Frame frame) {
-                pairs.push_back({madeFor(scene, image), frame, from, TangentOrigin::generated});
+                pairs.push_back({made, frame, from, TangentOrigin::generated});
                 return Spread{};
             });
             const std::vector<Spread> errors = mapErrors(map, map, shown, pairs);
