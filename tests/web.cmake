@@ -19,7 +19,8 @@ endfunction()
 set(data ${PROJECT_SOURCE_DIR}/../shared/data)
 cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
   CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes pngFilesLoseNothing
-    mapsConvertAndTellTheirGreen errorsSayWhatAndWhere badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
+    mapsConvertAndTellTheirGreen errorsSayWhatAndWhere encodePngLooksAtThePictureBeforeItBegins
+    everyFunctionAnswersNonsenseWithACotanError whatNpmLacksIsSaidForUsersOfNpm badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
     aModelWithGreenReversedFailsTheCheck newMapsAreForEnginesThatTake2cMinus1 materialsNameTheFrameOfTheirMaps itsCheckHasAThresholdAReportAndAnExitCode
@@ -29,9 +30,14 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${dat
   CASES greenFollowsReversedTangentsOnNineTenthsOfAMapsArea mixedTangentsLeaveGreenAsDeclaredAndAreNamed
     tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
     aSecondCallChangesNothingAndALaterMeshIsReadAsTheFirst autoIsTheFrameThatTheMaterialNamesElseWhatMapsOfModelsMean
-    mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch smoothHasTheCotangentsOfTheLibrary whatIsUnknownIsRefused)
+    mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch smoothHasTheCotangentsOfTheLibrary hooksThatComeLaterAreInTheKeyAndKeepTheFrame
+    clonesOfMaterialsKeepTheFrame whatTookThePlaceOfAGeometryIsFreedWithIt olderVersionsOfThreeAreTakenAndTooOldOnesNamed
+    whatIsUnknownIsRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsTakeEveryExportInStrictMode typingsNameWhatThereIsAndNothingElse wrongCallsAreRefusedLineByLine)
+cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES viteServesIt viteBuildsIt viteBuildsItForNode webpackBuildsIt webpackBuildsItForNode esbuildBuildsIt esbuildBuildsItForNode
+    aBrowserLoadsTheFileOfUnpkg)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
 cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)

@@ -2,20 +2,36 @@
 import { options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
+import { bytesOf, checkedPicture } from './picture.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
-
-const bytesOf = (value, name) => {
-  if (value instanceof ArrayBuffer) return new Uint8Array(value);
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  throw usage(`${name}: expected bytes, found ${wordsFor(value)}`);
-};
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 // In the place of pictures that are no normal maps: nobody looks at their pixels.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
+
+// The library's advice is for those who build it.
+function inNpm(error) {
+  const lacks = /^(.*?: )?not built with (Draco|meshoptimizer): /.exec(error.message);
+  return lacks ? new CotanError('unavailable', `${lacks[1] ?? ''}expected plain geometry, found what ${lacks[2]} has compressed: take lintNormals and untangent `
+    + "of cotan/gltf-transform, which unpack it with glTF-Transform's decoders") : error;
+}
+
+// Options, each of its kind.
+function modelOptions(given, known) {
+  const o = options(given, known);
+  const refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
+  if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object of bytes by URI');
+  for (const name of ['decode', 'encode', 'progress'])
+    if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
+  for (const name of ['keepTangents', 'generateTangents'])
+    if (o[name] !== undefined && typeof o[name] !== 'boolean') refuse(name, 'true or false');
+  if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
+  if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
+  return o;
+}
 
 export function modelFunctions(library, host) {
   /** Runs work(scratch, address of the bytes, of their functions) with what the library may ask for. */
@@ -34,7 +50,7 @@ export function modelFunctions(library, host) {
     try {
       return work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done)));
     } catch (error) {
-      throw host.now.error ?? error;
+      throw host.now.error ?? inNpm(error);
     }
   });
 
@@ -47,7 +63,7 @@ export function modelFunctions(library, host) {
     });
     for (const picture of known) {
       try {
-        picture.picture = await o.decode(picture.bytes, picture.name);
+        picture.picture = checkedPicture(await o.decode(picture.bytes, picture.name), 'options.decode', [8, 16]);
       } catch (error) {
         picture.error = error instanceof CotanError ? error : new CotanError('input', `${picture.name}: ${error?.message ?? error}`);
       }
@@ -70,7 +86,7 @@ export function modelFunctions(library, host) {
 
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
-    const o = options(more, { ...kCommon, distance: 0, ...kLimits });
+    const o = modelOptions(more, { ...kCommon, distance: 0, ...kLimits });
     const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
@@ -86,7 +102,7 @@ export function modelFunctions(library, host) {
 
   async function convert(given, more) {
     const model = bytesOf(given, 'model');
-    const o = options(more, {
+    const o = modelOptions(more, {
       ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
     });
     const known = await decoded(model, o);
