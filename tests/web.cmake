@@ -43,7 +43,8 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)
 
 # What cotan/three draws by default, from its sources, judged by stock three.js. The cat alone takes a minute.
-foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace)
+foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace
+    mirroredInstancesAreInsideOutWithRightBumps anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
