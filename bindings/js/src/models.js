@@ -5,12 +5,17 @@ import { kFunction } from './host.js';
 import { bytesOf, checkedPicture } from './picture.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
+import { parsedModel, sizeOf } from './glb.js';
+import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 // In the place of pictures that are no normal maps: nobody looks at their pixels.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
+const kConvert = {
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
+};
 
 // The library's advice is for those who build it.
 function inNpm(error) {
@@ -101,10 +106,34 @@ export function modelFunctions(library, host) {
   }
 
   async function convert(given, more) {
-    const model = bytesOf(given, 'model');
-    const o = modelOptions(more, {
-      ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
-    });
+    const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
+    if (!parsed) return madeAnew(model, o); // which says what is wrong
+    const before = sizeOf(model, parsed.json, o.files), anew = (to) => madeAnew(model, { ...o, to }).then((made) => inOldFormats(parsed, o.files, made));
+    const plain = (keepTangents) => dropped(parsed, o.files, (bytes, more) => madeAnew(bytes, { ...o, ...more }), keepTangents);
+    const found = mode === 'convert' ? await anew(o.to ?? 'cotangent') : mode === 'drop' ? await plain() : await asAdvised(model, o, before, anew, plain);
+    return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
+  }
+
+  // What lint advises, unless new maps cost more than they gain.
+  async function asAdvised(model, o, before, anew, plain) {
+    const { files, decode } = o, notes = [];
+    let report = await lint(model, { files, decode }).catch((error) => { if (error.code !== 'unavailable') throw error; notes.push(error.message); });
+    const unread = !report; // tangents tell what they mean without the maps
+    report ??= await lint(model, { files, decode: async () => kUnread });
+    const plan = advised(unread ? { ...report, maps_converted: 0, maps: [] } : report), noted = (found, line) => ({ ...found, report: { ...found.report, notes: [...notes, line, ...found.report.notes].filter(Boolean) } });
+    if (plan.mode === 'drop') return noted(await plain());
+    if (unread) return noted(await plain(true), needsTangents(plan.green, 'new maps cannot be made here'));
+    const made = await anew(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
+    if (made.report.maps.every((map) => map.kept) && plan.green.length > 0) {
+      const kept = noted(await plain(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be made anew'));
+      return { ...kept, report: { ...kept.report, unread_maps: unreadMaps } };
+    }
+    if (after <= kGrowth * before) return made;
+    return plan.green.length > 0 ? noted(await plain(true), needsTangents(plan.green, `new maps would make the file ${after} bytes of ${before}: mode 'convert' makes them`))
+      : noted(await plain(), notWorthIt(plan.to, plan.off, before, after));
+  }
+
+  async function madeAnew(model, o) {
     const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
@@ -129,7 +158,7 @@ export function modelFunctions(library, host) {
         files.forEach((png, i) => s.call('cotan_conversion_set', conversion, i, s.put(png), png.length));
         const glb = s.put(new Uint32Array(1)), report = s.put(new Uint32Array(1));
         s.call('cotan_convert_end', conversion, glb, report);
-        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)) };
+        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)), pictures };
       });
     } finally {
       if (library.generation === generation) library.run((s) => s.wasm.cotan_conversion_free(conversion));
