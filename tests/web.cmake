@@ -60,7 +60,9 @@ foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToB
     aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo badFilesAreAnsweredInOneLineEach
     theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice theShaderOfTheFrameTriangleIsGivenByStage
     webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl thePatchAnswersKeysAndPointerWithRightDegrees
-    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
+    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen
+    aModelWithGreenReversedIsMended anOldVerdictGoesWhenANewFileFails whiteKeepsItsBumps itWorksUnderTheContentSecurityPolicyThatItStates
+    aLibraryThatDoesNotLoadIsSaidEachTime whatTakesLongSaysSo facetsAreAnswered)
   add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
     ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
   set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)

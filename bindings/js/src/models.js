@@ -3,9 +3,9 @@ import { options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
 import { bytesOf, checkedPicture } from './picture.js';
-import { decodePicture } from './pictures.js';
+import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
 import { encodePng } from './png.js';
-import { parsedModel, sizeOf } from './glb.js';
+import { imageIn, parsedModel, sizeOf, withImages } from './glb.js';
 import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
@@ -14,7 +14,7 @@ const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
 const kConvert = {
-  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', mendGreen: false,
 };
 
 // The library's advice is for those who build it.
@@ -26,19 +26,20 @@ function inNpm(error) {
 
 // Options, each of its kind.
 function modelOptions(given, known) {
-  const o = options(given, known);
+  const o = options(given, known), defaults = Object.entries(known).filter(([name, value]) => o[name] === undefined && value !== undefined);
+  for (const [name, value] of defaults) o[name] = value;
   const refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
   if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object of bytes by URI');
   for (const name of ['decode', 'encode', 'progress'])
     if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
-  for (const name of ['keepTangents', 'generateTangents'])
+  for (const name of ['keepTangents', 'generateTangents', 'mendGreen'])
     if (o[name] !== undefined && typeof o[name] !== 'boolean') refuse(name, 'true or false');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
   return o;
 }
 
-export function modelFunctions(library, host) {
+export function modelFunctions(library, host, turnGreen) {
   /** Runs work(scratch, address of the bytes, of their functions) with what the library may ask for. */
   const withModel = (model, files, known, progress, work) => library.run((s) => {
     host.now = {
@@ -108,10 +109,26 @@ export function modelFunctions(library, host) {
   async function convert(given, more) {
     const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
     if (!parsed) return madeAnew(model, o); // which says what is wrong
+    if (o.mendGreen) return mended(model, parsed, o, { ...more, mendGreen: undefined });
     const before = sizeOf(model, parsed.json, o.files), anew = (to) => madeAnew(model, { ...o, to }).then((made) => inOldFormats(parsed, o.files, made));
     const plain = (keepTangents) => dropped(parsed, o.files, (bytes, more) => madeAnew(bytes, { ...o, ...more }), keepTangents);
     const found = mode === 'convert' ? await anew(o.to ?? 'cotangent') : mode === 'drop' ? await plain() : await asAdvised(model, o, before, anew, plain);
     return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
+  }
+
+  // With the maps turned whose green points the other way than the model says, by the maps themselves; then as without this option.
+  async function mended(model, parsed, o, more) {
+    const { maps } = await lint(model, { files: o.files, decode: o.decode }), wrong = maps.filter((map) => map.decided && !map.as_declared);
+    if (wrong.length === 0) return convert(model, more);
+    const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => madeAnew(bytes, { ...o, ...given }), true), inside = parsedModel(whole), turned = new Map();
+    for (const { image, name } of wrong) {
+      const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
+      const right = turnGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
+      turned.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
+    }
+    const { glb, report } = await convert(withImages(inside, turned), { ...more, files: undefined });
+    return { glb, report: { ...report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_mended: wrong.map(({ name }) => name),
+      notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...report.notes] } };
   }
 
   // What lint advises, unless new maps cost more than they gain.

@@ -184,6 +184,8 @@ export interface ConvertReport {
   mode: 'drop' | 'convert' | 'keep';
   /** Of the model with the files that it names. */
   bytes: { before: number; after: number };
+  /** Names of the maps that `mendGreen` has turned. */
+  green_mended?: string[];
   tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
   /** What the user should know, one line each; unread maps are among it. */
   notes: string[];
@@ -206,6 +208,8 @@ export function convert(model: Bytes, options?: ModelOptions & {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  /** Maps whose green points the other way than the model says, by the maps themselves (`lint`), are turned first. */
+  mendGreen?: boolean;
   /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
   unsigned?: 'biased' | 'exact';
   /** The PNG file of a picture; default: encodePng. */
