@@ -1,4 +1,4 @@
-// Transforms for glTF-Transform 4.5: see index.d.ts.
+// Transforms for glTF-Transform 4: see index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { choice, options as checked } from '../src/arrays.js';
