@@ -34,7 +34,7 @@ export async function showModel(result, files) {
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),
-      el('h3', {}, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
       ...(lint.maps?.length > 0 ? linesFor(lint) : []),
       ...(lint.error ? [] : checkOf(lint, name, library))),
     el('figure', { class: 'view' }, canvas, halves.element,
@@ -91,7 +91,7 @@ function wrongGreen(lint) {
 // What a program in three.js takes in place of a new file.
 function linesFor(lint) {
   const wrong = wrongGreen(lint).length > 0, all = wrong && wrongGreen(lint).length === lint.maps.length;
-  return [el('h3', {}, 'Without a new file'), el('p', {}, 'In three.js, after the model is loaded:'), el('pre', { tabindex: 0 }, el('code', { 'data-paste': '' },
+  return [el('h2', { class: 'part' }, 'Without a new file'), el('p', {}, 'In three.js, after the model is loaded:'), el('pre', { tabindex: 0 }, el('code', { 'data-paste': '' },
     `import { untangle } from 'cotan/three';\nuntangle(gltf${all ? ", { convention: 'directx' }" : ''});${wrong ? '\n\n// or, with three alone, of each material once:\nmaterial.normalScale.y *= -1;' : ''}`))];
 }
 
@@ -138,7 +138,7 @@ function checkOf(lint, name, library) {
   }
   judge();
   const save = () => download(new TextEncoder().encode(`${JSON.stringify({ model: name, ...lint, limits: limits(), over_limit: over }, null, 2)}\n`), `${name.replace(/\.[^.]*$/, '')}_lint.json`, 'application/json');
-  return [el('h3', {}, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
+  return [el('h2', { class: 'part' }, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
     el('button', { type: 'button', onclick: save }, 'Download the report (JSON)')];
 }
 

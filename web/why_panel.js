@@ -150,7 +150,7 @@ function papers() {
   }, { rootMargin: '200px' });
   near.observe(picture);
   return el('div', {}, el('h3', {}, 'The figures of the chapter, measured'),
-    el('div', { class: 'scroll' }, el('table', {}, el('thead', {}, el('tr', {}, ...['Figure 2.6.4', 'orthonormal', 'cotangent', 'unit lengths'].map(name => el('th', { scope: 'col' }, name)))),
+    el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': 'The figures of the chapter, measured' }, el('table', {}, el('thead', {}, el('tr', {}, ...['Figure 2.6.4', 'orthonormal', 'cotangent', 'unit lengths'].map(name => el('th', { scope: 'col' }, name)))),
       el('tbody', {}, ...rows.map(([name, ...values]) => el('tr', {}, el('th', { scope: 'row' }, name), ...values.map(value => el('td', {}, value))))))),
     el('figure', { class: 'view' }, picture,
     el('figcaption', {}, 'Pairs: orthonormal vertex frames and cotangents on the teapot; orthonormal and cotangents on a stretched and sheared patch; two short forms of 2006 on a plane; tangents without their sign and cotangents.')),
