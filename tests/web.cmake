@@ -19,7 +19,7 @@ endfunction()
 set(data ${PROJECT_SOURCE_DIR}/../shared/data)
 cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
   CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes droppingTangentsNeverMakesAFileLarger
-    modesOfConversionAreChosenAndRefused pngFilesLoseNothing
+    greenThatTangentsMeanIsNotMended modesOfConversionAreChosenAndRefused pngFilesLoseNothing
     mapsConvertAndTellTheirGreen errorsSayWhatAndWhere encodePngLooksAtThePictureBeforeItBegins
     everyFunctionAnswersNonsenseWithACotanError whatNpmLacksIsSaidForUsersOfNpm badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
@@ -45,7 +45,7 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
 
 # What cotan/three draws by default, from its sources, judged by stock three.js. The cat alone takes a minute.
 foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace
-    mirroredInstancesAreInsideOutWithRightBumps anOlderThreeDrawsTheSame)
+    mirroredInstancesAreInsideOutWithRightBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)

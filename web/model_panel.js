@@ -142,11 +142,11 @@ function checkOf(lint, name, library) {
     el('button', { type: 'button', onclick: save }, 'Download the report (JSON)')];
 }
 
-function savedWords({ report }) {
+function savedWords({ report, unpacked }) {
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
   const { before, after } = report.bytes, mended = report.green_mended ?? [];
   return `${mended.length > 0 ? `Green of ${mended.join(', ')} is turned; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, `
-    + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.`
+    + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is not compressed any more: glTF-Transform\u2019s untangent keeps that.' : ''}`
     + `${off.length > 0 ? ` With the new maps normals are off by ${degrees(Math.max(...off))}.` : ''}`
     + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('')
     + (report.mode === 'convert' ? '' : report.notes.map(line => ` ${line}.`).join(''));

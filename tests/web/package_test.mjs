@@ -132,6 +132,15 @@ const cases = {
     assert.ok(dropped >= 8, `${dropped} with their maps as they are`);
   },
 
+  // By themselves its maps' green is wrong, with its tangents right: nothing is to be turned twice.
+  async greenThatTangentsMeanIsNotMended() {
+    needsData();
+    const place = path.join(data, 'models/SketchfabCat'), model = fs.readFileSync(path.join(place, 'scene.gltf')), files = {};
+    for (const { uri } of [...JSON.parse(model).buffers, ...JSON.parse(model).images]) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(place, decodeURIComponent(uri)));
+    const { report } = await cotan.convert(model, { files, mendGreen: true, mode: 'drop' });
+    assert.deepEqual([report.green_mended, report.mode], [undefined, 'drop']);
+  },
+
   async modesOfConversionAreChosenAndRefused() {
     needsData();
     const model = fs.readFileSync(path.join(data, 'models/TwoSidedPlane/TwoSidedPlane.glb'));

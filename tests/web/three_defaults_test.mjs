@@ -83,6 +83,12 @@ const cases = {
       assert.ok(Math.abs(mirrored[frame].inside - upright[frame].truth) < 0.5, `${frame}: ${mirrored[frame].inside} and ${upright[frame].truth} degrees`);
   },
 
+  // The old geometry stayed on the device for ever, and the new one after the caller had disposed of his.
+  async replacedGeometriesAreFreed() {
+    for (const frame of ['orthonormal', 'smooth', 'triangle'])
+      assert.deepEqual(await page.evaluate(async (frame) => (await import('/tests/three_instances.js')).heldGeometries(frame), frame), [1, 1, 0], frame);
+  },
+
   async anOlderThreeDrawsTheSame() {
     if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
     page = await pageWith('three180');

@@ -87,3 +87,18 @@ export function measure() {
   }
   return found;
 }
+
+// How many geometries the renderer holds: drawn with tangents, drawn after untangle(), and once what the caller made is disposed of.
+export function heldGeometries(frame) {
+  const renderer = new THREE.WebGLRenderer(), camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100), geometry = ring();
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: bumps(16) })), scene = new THREE.Scene().add(mesh), held = [];
+  camera.position.z = 3;
+  const count = () => { renderer.render(scene, camera); held.push(renderer.info.memory.geometries); };
+  count();
+  untangle(mesh, { frame });
+  count();
+  geometry.dispose();
+  held.push(renderer.info.memory.geometries);
+  renderer.dispose();
+  return held;
+}

@@ -6,7 +6,7 @@ import { bytesOf, checkedPicture } from './picture.js';
 import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
 import { encodePng } from './png.js';
 import { imageIn, parsedModel, sizeOf, withImages } from './glb.js';
-import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt } from './modes.js';
+import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
@@ -118,7 +118,8 @@ export function modelFunctions(library, host, turnGreen) {
 
   // With the maps turned whose green points the other way than the model says, by the maps themselves; then as without this option.
   async function mended(model, parsed, o, more) {
-    const { maps } = await lint(model, { files: o.files, decode: o.decode }), wrong = maps.filter((map) => map.decided && !map.as_declared);
+    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // with their tangents those are right
+    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
     if (wrong.length === 0) return convert(model, more);
     const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => madeAnew(bytes, { ...o, ...given }), true), inside = parsedModel(whole), turned = new Map();
     for (const { image, name } of wrong) {
@@ -126,9 +127,9 @@ export function modelFunctions(library, host, turnGreen) {
       const right = turnGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
       turned.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
     }
-    const { glb, report } = await convert(withImages(inside, turned), { ...more, files: undefined });
-    return { glb, report: { ...report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_mended: wrong.map(({ name }) => name),
-      notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...report.notes] } };
+    const made = await convert(withImages(inside, turned), { ...more, files: undefined }), { glb } = made;
+    return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_mended: wrong.map(({ name }) => name),
+      notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...made.report.notes] } };
   }
 
   // What lint advises, unless new maps cost more than they gain.

@@ -15,19 +15,22 @@ export function modeOf(given) {
   return mode === 'auto' ? (more ? 'convert' : undefined) : mode;
 }
 
-/** What a report of lint asks for: { mode, to, green }. green: names of maps that mean the other green than the file says, by
- * tangents that contradict the uv on nine tenths of their area: without them they show dents. */
-export function advised({ primitives, maps, maps_converted: toConvert, advice, fits }) {
-  const areas = new Map(); // by image: all with tangents, and reversed
+/** Images whose stored tangents contradict the uv on nine tenths of their area, by a report of lint. */
+export function reversedImages({ primitives }) {
+  const areas = new Map(); // all with tangents, and reversed
   for (const { normal_map: image, stored_tangents: stored, uv } of primitives) {
     if (!stored || !(uv?.area > 0)) continue;
     const [all, reversed] = areas.get(image) ?? [0, 0];
     areas.set(image, [all + uv.area, reversed + uv.area * stored.reversed_w]);
   }
-  const green = [...areas].filter(([image, [all, reversed]]) => {
-    const map = maps.find((one) => one.image === image);
-    return reversed >= kReversed * all && !(map?.decided && map.as_declared);
-  }).map(([image]) => maps.find((one) => one.image === image)?.name ?? `image ${image}`);
+  return [...areas].filter(([, [all, reversed]]) => reversed >= kReversed * all).map(([image]) => image);
+}
+
+/** What a report of lint asks for: { mode, to, green }. green: names of maps that mean the other green than the file says, by
+ * tangents that contradict the uv on nine tenths of their area: without them they show dents. */
+export function advised(report) {
+  const { maps, maps_converted: toConvert, advice, fits } = report, mapOf = (image) => maps.find((one) => one.image === image);
+  const green = reversedImages(report).filter((image) => !(mapOf(image)?.decided && mapOf(image).as_declared)).map((image) => mapOf(image)?.name ?? `image ${image}`);
   const off = fits.map((fit) => fit.orthonormal?.mean).filter((mean) => typeof mean === 'number');
   return { mode: toConvert > 0 || green.length > 0 ? 'convert' : 'drop', to: toConvert > 0 ? advice : 'orthonormal', green, off: Math.max(0, ...off) };
 }
