@@ -19,26 +19,34 @@ function(cotan_web_test file)
 endfunction()
 set(data ${PROJECT_SOURCE_DIR}/../shared/data)
 cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
-  CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes pngFilesLoseNothing
-    mapsConvertAndTellTheirGreen errorsSayWhatAndWhere badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
+  CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes droppingTangentsNeverMakesAFileLarger
+    greenThatTangentsMeanIsNotMended modesOfConversionAreChosenAndRefused pngFilesLoseNothing
+    mapsConvertAndTellTheirGreen errorsSayWhatAndWhere encodePngLooksAtThePictureBeforeItBegins
+    everyFunctionAnswersNonsenseWithACotanError whatNpmLacksIsSaidForUsersOfNpm badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentDoesWhatConvertDoes lintNormalsReportsAndChangesNothing
     aModelWithGreenReversedFailsTheCheck newMapsAreForEnginesThatTake2cMinus1 materialsNameTheFrameOfTheirMaps itsCheckHasAThresholdAReportAndAnExitCode
-    provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders webpMapsBecomePng mapsInKtx2AreNamedWithWhatToDo
-    itsCommandLineRunsOurCommands)
+    provokingGivesEachTriangleAVertex compressedModelsComeThroughItsOwnDecoders newMapsAreInTheFormatOfTheOldOnes mapsInKtx2AreNamedWithWhatToDo
+    untangentDropsTangentsAndNoFileGrows unknownOptionsAreRefusedAtOnce itsCommandLineRunsOurCommands)
 cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES greenFollowsReversedTangentsOnNineTenthsOfAMapsArea mixedTangentsLeaveGreenAsDeclaredAndAreNamed
     tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
     aSecondCallChangesNothingAndALaterMeshIsReadAsTheFirst autoIsTheFrameThatTheMaterialNamesElseWhatMapsOfModelsMean
-    mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch smoothHasTheCotangentsOfTheLibrary whatIsUnknownIsRefused)
+    mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch smoothHasTheCotangentsOfTheLibrary hooksThatComeLaterAreInTheKeyAndKeepTheFrame
+    clonesOfMaterialsKeepTheFrame whatTookThePlaceOfAGeometryIsFreedWithIt olderVersionsOfThreeAreTakenAndTooOldOnesNamed
+    whatIsUnknownIsRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsTakeEveryExportInStrictMode typingsNameWhatThereIsAndNothingElse wrongCallsAreRefusedLineByLine)
+cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES viteServesIt viteBuildsIt viteBuildsItForNode webpackBuildsIt webpackBuildsItForNode esbuildBuildsIt esbuildBuildsItForNode
+    aBrowserLoadsTheFileOfUnpkg)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
 cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeBringsAModelWithoutTangentsOnScreen)
 
 # What cotan/three draws by default, from its sources, judged by stock three.js. The cat alone takes a minute.
-foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace)
+foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWithThem modelsWithoutTangentsAreReadAsMikkTSpace
+    mirroredInstancesAreInsideOutWithRightBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
@@ -53,7 +61,9 @@ foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToB
     aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo badFilesAreAnsweredInOneLineEach
     theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice theShaderOfTheFrameTriangleIsGivenByStage
     webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl thePatchAnswersKeysAndPointerWithRightDegrees
-    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)
+    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen
+    aModelWithGreenReversedIsMended anOldVerdictGoesWhenANewFileFails whiteKeepsItsBumps itWorksUnderTheContentSecurityPolicyThatItStates
+    aLibraryThatDoesNotLoadIsSaidEachTime whatTakesLongSaysSo facetsAreAnswered)
   add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
     ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
   set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)

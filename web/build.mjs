@@ -28,12 +28,14 @@ cpSync(join(cotan, 'wasm/cotan.wasm'), join(out, 'cotan.wasm')); // beside worke
 cpSync(join(modules, 'draco3dgltf/draco_decoder_gltf.wasm'), join(out, 'draco/gltf.wasm'));
 const libs = join(modules, 'three/examples/jsm/libs');
 for (const name of ['draco_decoder.js', 'draco_decoder.wasm', 'draco_wasm_wrapper.js']) cpSync(join(libs, 'draco/gltf', name), join(out, 'draco', name));
-for (const name of ['basis_transcoder.js', 'basis_transcoder.wasm']) cpSync(join(libs, 'basis', name), join(out, 'basis', name));
+cpSync(join(libs, 'basis/basis_transcoder.wasm'), join(out, 'basis/basis_transcoder.wasm'));
+writeFileSync(join(out, 'basis/basis_transcoder.js'), withoutEval(readFileSync(join(libs, 'basis/basis_transcoder.js'), 'utf8')));
 
 // Documents of the repository that the page shows, with their pictures. Links lead to each other; those to other files
 // lead nowhere here, and stay words.
 const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost' };
 mkdirSync(join(out, 'pictures'));
+const [policy] = /<meta http-equiv="Content-Security-Policy"[^>]*>/.exec(readFileSync(join(here, 'index.html'), 'utf8'));
 for (const [name, title] of Object.entries(documents)) {
   const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs', `${name}.md`), 'utf8'))
     .replace(/<h(\d)>(.*?)<\/h\1>/gs, (_, level, words) => `<h${level} id="${anchor(words, headings)}">${words}</h${level}>`)
@@ -44,9 +46,33 @@ for (const [name, title] of Object.entries(documents)) {
       return `src="pictures/${file}"`;
     })
     .replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
-  writeFileSync(join(out, `${name}.html`), `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+  writeFileSync(join(out, `${name}.html`), `<!doctype html><html lang="en"><head><meta charset="utf-8">${policy}<meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark"><link rel="icon" href="data:,"><title>Cotan: ${title.toLowerCase()}</title><link rel="stylesheet" href="style.css"></head>
 <body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, words]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);
+}
+
+// The transcoder makes functions out of texts, which the page's Content-Security-Policy forbids; as emscripten has them without
+// (DYNAMIC_EXECUTION=0).
+function withoutEval(text) {
+  const replaced = [[/let\[args,invokerFnBody\]=createJsInvoker\(.*?var invokerFn=newFunc\(Function,args\)\(\.\.\.closureArgs\);/s, `
+var count=argCount-2;
+var invokerFn=function(...given){
+  var destructors=[],self=isClassMethodFunc?argTypes[1].toWireType(destructors,this):null,wired=[];
+  for(var i=0;i<count;++i)wired.push(argTypes[i+2].toWireType(destructors,given[i]));
+  var rv=isClassMethodFunc?cppInvokerFunc(cppTargetFunc,self,...wired):cppInvokerFunc(cppTargetFunc,...wired);
+  if(needsDestructorStack)runDestructors(destructors);
+  else for(var i=isClassMethodFunc?1:2;i<argTypes.length;++i)if(argTypes[i].destructorFunction!==null)argTypes[i].destructorFunction(i===1?self:wired[i-2]);
+  if(returns)return argTypes[0].fromWireType(rv);
+};`], [/var invokerFunction=newFunc\(Function,params\)\(\.\.\.args\);/, `
+var invokerFunction=(obj,func,destructorsRef,given)=>{
+  var at=0,list=types.map(type=>{var value=type.readValueFromPointer(given+at);at+=type.argPackAdvance;return value});
+  var rv=kind===1?new func(...list):kind===0?func.call(obj,...list):func.call(...list);
+  if(!retType.isVoid)return emval_returnValue(retType,destructorsRef,rv);
+};`]];
+  return replaced.reduce((some, [pattern, by]) => {
+    if (!pattern.test(some)) throw new Error(`basis_transcoder.js: expected ${pattern}, found none: it is another version than three 0.187 has`);
+    return some.replace(pattern, () => by);
+  }, text);
 }
 
 // The name of a heading in links, as GitHub makes it.

@@ -19,7 +19,7 @@ export function choice(label, names, chosen, changed) {
 
 // Rows of two columns: [['name', 'value'], ...]; rows without a value are left out.
 export function table(caption, rows) {
-  return el('div', { class: 'scroll' }, el('table', { 'aria-label': caption }, el('tbody', {},
+  return el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': caption }, el('table', { 'aria-label': caption }, el('tbody', {},
     ...rows.filter(([, value]) => value !== undefined).map(([name, value]) => el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, value))))));
 }
 

@@ -10,17 +10,19 @@ export function cotan() {
 async function start() {
   const worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
   const waiting = new Map();
-  let calls = 0;
+  let calls = 0, broken;
   worker.onmessage = ({ data: { call, result, error } }) => {
     const { done, failed } = waiting.get(call);
     waiting.delete(call);
     if (error) failed(Object.assign(new Error(error.message), error)); else done(result);
   };
-  worker.onerror = event => {
-    for (const { failed } of waiting.values()) failed(new Error(`the library could not be loaded: ${event.message ?? 'no worker'}`));
+  worker.onerror = worker.onmessageerror = event => { // for ever: what is asked later is answered, too
+    broken = new Error(`the library could not be loaded${event.message ? `: ${event.message}` : ': is the page served whole, and do its server and browser allow workers and WebAssembly?'}`);
+    for (const { failed } of waiting.values()) failed(broken);
     waiting.clear();
   };
   const ask = name => (...values) => new Promise((done, failed) => {
+    if (broken) { failed(broken); return; }
     waiting.set(++calls, { done, failed });
     worker.postMessage({ call: calls, name, values });
   });

@@ -11,14 +11,15 @@ let latest = 0; // only the newest files are shown
 async function show(reading) {
   const turn = ++latest;
   problem.textContent = '';
-  status.textContent = 'Reading …';
+  const waits = waiting();
+  waits.on('Reading …');
   try {
     const files = await reading;
     if (files.length === 0) throw new Error('expected a file, found none');
     if (turn !== latest) return;
     const scratch = el('div');
     const model = modelAmong(files);
-    status.textContent = `Looking at ${(model?.model ?? files[0]).name} …`;
+    waits.on(`Looking at ${(model?.model ?? files[0]).name} …`);
     if (model) {
       const { showModel } = await import('./model_panel.js');
       await showModel(scratch, model);
@@ -33,10 +34,31 @@ async function show(reading) {
     if (result.getBoundingClientRect().top > 0.6 * innerHeight) result.scrollIntoView({ behavior: 'smooth', block: 'start' });
   } catch (error) {
     if (turn !== latest) return;
+    result.replaceChildren(); // what is there is of another file
     status.textContent = '';
     problem.textContent = error.message;
     if (!['CotanError', 'Error'].includes(error.name)) console.error(error);
+  } finally {
+    waits.over();
   }
+}
+
+// What is being done, and from time to time for how long.
+function waiting() {
+  let words = '', timer;
+  const began = performance.now();
+  const say = () => {
+    status.textContent = `${words} ${Math.round((performance.now() - began) / 1000)} s so far`;
+    timer = setTimeout(say, 10000);
+  };
+  return {
+    on(now) {
+      words = status.textContent = now;
+      clearTimeout(timer);
+      timer = setTimeout(say, 5000);
+    },
+    over() { clearTimeout(timer); },
+  };
 }
 
 document.getElementById('choose').addEventListener('change', event => {

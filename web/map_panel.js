@@ -20,6 +20,7 @@ export async function showMap(result, name, picture) {
   const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
   const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the mended map');
   const command = el('code', {});
+  const inThree = el('p', { class: 'small', hidden: true }, 'Without a new file, in three.js: ', el('code', { 'data-paste': '' }, 'material.normalScale.y *= -1;'));
   const known = green.green !== 'unknown', isDown = green.green === 'down';
   let target = isDown ? 'gltf' : 'unreal', mended;
   const engine = choice('Your engine reads', kEngines, target, value => { target = value; mend(); });
@@ -40,6 +41,7 @@ export async function showMap(result, name, picture) {
       : fits ? `Green is right for ${kEngines[target]}.` : `Green points the wrong way for ${kEngines[target]}: bumps look like dents.`;
     advice.textContent = words;
     advice.hidden = button.disabled = !known;
+    inThree.hidden = !(target === 'gltf' && isDown);
     command.textContent = `cotan map convert ${name} --from ${from} --to ${target} -o ${newName()}`;
   }
   async function save() {
@@ -49,7 +51,7 @@ export async function showMap(result, name, picture) {
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, verdict, advice, el('div', { class: 'choices' }, engine.element, button),
       table('What the numbers of the map say', rows(name, picture, green, info)),
-      !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command)),
+      !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree),
     el('figure', { class: 'view' }, preview.element, halves.element,
       el('figcaption', {}, 'Move the pointer over the picture to move the light. Left: the map as your engine reads it now.'))));
   await Promise.all([mend(), preview.ready]);

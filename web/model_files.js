@@ -6,9 +6,11 @@ const kPacked = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_m
 
 export const lintModel = async files => lint(...await given(files));
 
+// unpacked: whether geometry that was compressed is not any more.
 export async function convertModel(files, options) {
-  const [model, more] = await given(files);
-  return convert(model, { ...more, ...options });
+  const [model, more] = await given(files), made = await convert(model, { ...more, ...options }), unpacked = model !== files.model.bytes;
+  if (unpacked) made.report.bytes.before = files.model.bytes.length + [...files.beside.values()].reduce((sum, bytes) => sum + bytes.length, 0);
+  return { ...made, unpacked };
 }
 
 // The arguments that the library takes.

@@ -6,6 +6,24 @@ import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { besideModel } from './files.js';
 
+const kPatience = 120000; // milliseconds
+
+// three's decoders work in threads whose failures it does not hand on.
+async function answered(loading) {
+  let timer, forbidden;
+  const failing = new Promise((_, failed) => {
+    timer = setTimeout(() => failed(new Error(`no answer of the decoders for ${kPatience / 1000} seconds`)), kPatience);
+    forbidden = event => failed(new Error(`${event.effectiveDirective} of the page's Content-Security-Policy forbids ${event.blockedURI}`));
+    document.addEventListener('securitypolicyviolation', forbidden);
+  });
+  try {
+    return await Promise.race([loading, failing]);
+  } finally {
+    clearTimeout(timer);
+    document.removeEventListener('securitypolicyviolation', forbidden);
+  }
+}
+
 let formats; // a renderer that is asked what textures there are
 
 export async function loadModel(files) {
@@ -24,7 +42,7 @@ export async function loadModel(files) {
   const loader = new GLTFLoader(manager).setDRACOLoader(draco).setKTX2Loader(ktx2).setMeshoptDecoder(MeshoptDecoder);
   try {
     const { bytes } = files.model;
-    const gltf = await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength), '');
+    const gltf = await answered(loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength), ''));
     gltf.scene ??= gltf.scenes[0];
     if (!gltf.scene) throw new Error('no scene');
     return gltf;

@@ -9,6 +9,7 @@ const kFrames = {
   tangents: 'stored tangents', auto: 'auto: as the maps were made', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
   smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors a triangle)',
 };
+const kMapsAfter = { '': 'as they are where that is near enough', orthonormal: 'made anew for orthonormal', cotangent: 'made anew for cotangent', smooth: 'made anew for smooth' };
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
 let open; // the view on screen: there is one at a time
 
@@ -28,15 +29,16 @@ export async function showModel(result, files) {
   const mode = el('input', { type: 'checkbox', onchange: () => { view.angle = mode.checked; scale.hidden = !mode.checked; } });
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
-  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, 'Convert and download');
-  const to = choice('New maps for', { cotangent: 'cotangent', orthonormal: 'orthonormal', smooth: 'smooth' }, lint.advice || 'orthonormal', () => {});
+  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Mend green and download' : 'Convert and download');
+  const to = choice('Its normal maps', kMapsAfter, '', () => {});
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),
-      el('h3', {}, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      ...(lint.maps?.length > 0 ? linesFor(lint) : []),
       ...(lint.error ? [] : checkOf(lint, name, library))),
     el('figure', { class: 'view' }, canvas, halves.element,
-      el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { style: 'display: flex' }, mode, 'Show the angle between them')),
+      el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { class: 'tick' }, mode, 'Show the angle between them')),
       scale, figures, notes, under,
       el('figcaption', {}, 'Drag turns, the wheel comes nearer. The number under the pointer is the angle between the normals of both halves.'))));
   view.open(gltf);
@@ -70,14 +72,27 @@ export async function showModel(result, files) {
     button.disabled = true;
     saved.textContent = 'Converting …';
     try {
-      const made = await library.convert(files, { to: to.select.value });
-      download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value}.glb`, 'model/gltf-binary');
-      saved.textContent = savedWords(made, files);
+      const made = await library.convert(files, { to: to.select.value || undefined, mendGreen: wrongGreen(lint).length > 0 });
+      download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value || 'free'}.glb`, 'model/gltf-binary');
+      saved.textContent = savedWords(made);
     } catch (error) {
       saved.textContent = error.message;
     }
     button.disabled = false;
   }
+}
+
+// Maps whose green points the other way than the model says, with no tangents that mean it so.
+function wrongGreen(lint) {
+  const meant = new Set((lint.primitives ?? []).filter(({ stored_tangents: stored }) => stored?.reversed_w > 0.5).map(({ normal_map: image }) => image));
+  return (lint.maps ?? []).filter(map => map.decided && !map.as_declared && !meant.has(map.image));
+}
+
+// What a program in three.js takes in place of a new file.
+function linesFor(lint) {
+  const wrong = wrongGreen(lint).length > 0, all = wrong && wrongGreen(lint).length === lint.maps.length;
+  return [el('h2', { class: 'part' }, 'Without a new file'), el('p', {}, 'In three.js, after the model is loaded:'), el('pre', { tabindex: 0 }, el('code', { 'data-paste': '' },
+    `import { untangle } from 'cotan/three';\nuntangle(gltf${all ? ", { convention: 'directx' }" : ''});${wrong ? '\n\n// or, with three alone, of each material once:\nmaterial.normalScale.y *= -1;' : ''}`))];
 }
 
 // The verdict of the library in a few words, and its own.
@@ -123,14 +138,16 @@ function checkOf(lint, name, library) {
   }
   judge();
   const save = () => download(new TextEncoder().encode(`${JSON.stringify({ model: name, ...lint, limits: limits(), over_limit: over }, null, 2)}\n`), `${name.replace(/\.[^.]*$/, '')}_lint.json`, 'application/json');
-  return [el('h3', {}, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
+  return [el('h2', { class: 'part' }, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
     el('button', { type: 'button', onclick: save }, 'Download the report (JSON)')];
 }
 
-function savedWords({ glb, report }, { model, beside }) {
-  const before = model.bytes.length + [...beside.values()].reduce((sum, bytes) => sum + bytes.length, 0), saved = before - glb.length;
+function savedWords({ report, unpacked }) {
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
-  return `${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, ${size(report.tangents.bytes)} of tangents dropped; `
-    + `the file is ${saved >= 0 ? `${size(saved)} smaller` : `${size(-saved)} larger`}.${off.length > 0 ? ` With the new frame normals are off by ${degrees(Math.max(...off))}.` : ''}`
-    + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('');
+  const { before, after } = report.bytes, mended = report.green_mended ?? [];
+  return `${mended.length > 0 ? `Green of ${mended.join(', ')} is turned; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, `
+    + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is not compressed any more: glTF-Transform\u2019s untangent keeps that.' : ''}`
+    + `${off.length > 0 ? ` With the new maps normals are off by ${degrees(Math.max(...off))}.` : ''}`
+    + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('')
+    + (report.mode === 'convert' ? '' : report.notes.map(line => ` ${line}.`).join(''));
 }

@@ -7,6 +7,8 @@ import { clone as cloneScene } from 'three/addons/utils/SkeletonUtils.js';
 import { untangle } from 'cotan/three';
 import { giveMikkTSpace } from './mikktspace.js';
 
+const kStraight = 0.7; // the neutral tone curve bends from 0.76 on
+
 // Of a canvas whose size follows its place in the page.
 export function modelView(canvas) {
   const renderer = new three.WebGLRenderer({ canvas, antialias: true });
@@ -49,8 +51,7 @@ export function modelView(canvas) {
     if (canvas.width !== width || canvas.height !== height) renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    light.position.copy(camera.position).add(new three.Vector3(-1, 1.4, 0.6).applyQuaternion(camera.quaternion).multiplyScalar(camera.position.distanceTo(controls.target)));
-    light.target.position.copy(controls.target);
+    placeLight();
     const pair = state.names.map(variant);
     renderer.setRenderTarget(null);
     renderer.setScissorTest(false);
@@ -78,8 +79,27 @@ export function modelView(canvas) {
     world.remove(model);
   }
 
-  function drawNormals(pair, width, height) {
-    what.value = 1;
+  // White keeps its bumps: what is brightest, but for highlights, stays where the tone curve is straight.
+  function expose() {
+    const small = [240, 135];
+    placeLight();
+    drawInto([variant(state.names[0])], 0, ...small);
+    const values = new Float32Array(small[0] * small[1] * 4), found = [];
+    renderer.readRenderTargetPixels(targets[0], 0, 0, ...small, values);
+    for (let k = 0; k < values.length; k += 4) if (values[k + 3] > 0.5) found.push(Math.max(values[k], values[k + 1], values[k + 2]));
+    const bright = found.sort((a, b) => a - b)[Math.floor(0.9 * found.length)];
+    renderer.toneMappingExposure = bright > 0 ? Math.min(1, kStraight / bright) : 1;
+  }
+
+  function placeLight() {
+    light.position.copy(camera.position).add(new three.Vector3(-1, 1.4, 0.6).applyQuaternion(camera.quaternion).multiplyScalar(camera.position.distanceTo(controls.target)));
+    light.target.position.copy(controls.target);
+  }
+
+  const drawNormals = (pair, width, height) => drawInto(pair, 1, width, height);
+
+  function drawInto(pair, shown, width, height) {
+    what.value = shown;
     const background = world.background;
     world.background = null;
     pair.forEach((model, k) => {
@@ -116,6 +136,7 @@ export function modelView(canvas) {
     drawNow,
     open(gltf) {
       state.gltf = gltf;
+      state.exposed = false;
       state.variants.clear();
       state.notes.clear();
       frameAll(gltf.scene, camera, controls);
@@ -132,6 +153,8 @@ export function modelView(canvas) {
           state.variants.set(name, made);
         }
       state.names = [left, right];
+      if (!state.exposed) expose();
+      state.exposed = true;
       show();
     },
     get names() { return state.names; },

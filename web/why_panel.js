@@ -37,9 +37,9 @@ export function showWhy(panel) {
     el('div', {}, drawing,
       el('div', { class: 'sliders' }, ...stretch.elements, ...shear.elements),
       el('p', {}, box('Mirrored', 'mirrored'), ' ', box('Rows run down, as in Vulkan, Direct3D and WebGPU', 'rowsDown')),
-      el('p', { class: 'small' }, 'Filled arrows: gradients of ', el('span', { style: 'color: var(--u)' }, 'u'), ' and ', el('span', { style: 'color: var(--v)' }, 'v'),
+      el('p', { class: 'small' }, 'Filled arrows: gradients of ', el('span', { class: 'u' }, 'u'), ' and ', el('span', { class: 'v' }, 'v'),
         ', at right angles to the lines of the grid. Hollow arrows: tangents, along the lines.')),
-    el('div', { class: 'patches', style: 'grid-template-columns: repeat(2, minmax(0, 1fr))' }, ...pictures.map(({ element }) => element))),
+    el('div', { class: 'patches two' }, ...pictures.map(({ element }) => element))),
   el('p', {}, 'Degrees are the mean over the dots, against the relief that is stretched with the surface. The gradients need nothing stored: in the pixel shader, the differences of position ',
     'and uv between neighbouring pixels give them (2006, 2013). Only the sign needs care. The differences say which way rows run on the screen, and that is no property of the surface. One ',
     'more product puts the sign right on every backend. ', el('a', { href: 'theory.html' }, 'The derivation'), ' has the rest.'),
@@ -141,7 +141,7 @@ function papers() {
   const rows = [
     ['Embossed dots, stretched 2 : 1', '9.5°', '0.02°', '9.5°'], ['Sheared by 45°', '16.2°', '0.02°', '5.3°'], ['Both', '13.6°', '0.02°', '5.3°'],
   ];
-  const picture = el('img', { width: 990, height: 378, style: 'max-width: 100%; height: auto; border-radius: 8px',
+  const picture = el('img', { width: 990, height: 378, class: 'figure',
     alt: 'Four pairs: the teapot’s nozzle, embossed dots, a plane in perspective, mirrored texture coordinates' });
   const near = new IntersectionObserver(entries => { // loading="lazy" would fetch it with the first view
     if (!entries.some(entry => entry.isIntersecting)) return;
@@ -150,7 +150,7 @@ function papers() {
   }, { rootMargin: '200px' });
   near.observe(picture);
   return el('div', {}, el('h3', {}, 'The figures of the chapter, measured'),
-    el('div', { class: 'scroll' }, el('table', {}, el('thead', {}, el('tr', {}, ...['Figure 2.6.4', 'orthonormal', 'cotangent', 'unit lengths'].map(name => el('th', { scope: 'col' }, name)))),
+    el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': 'The figures of the chapter, measured' }, el('table', {}, el('thead', {}, el('tr', {}, ...['Figure 2.6.4', 'orthonormal', 'cotangent', 'unit lengths'].map(name => el('th', { scope: 'col' }, name)))),
       el('tbody', {}, ...rows.map(([name, ...values]) => el('tr', {}, el('th', { scope: 'row' }, name), ...values.map(value => el('td', {}, value))))))),
     el('figure', { class: 'view' }, picture,
     el('figcaption', {}, 'Pairs: orthonormal vertex frames and cotangents on the teapot; orthonormal and cotangents on a stretched and sheared patch; two short forms of 2006 on a plane; tangents without their sign and cotangents.')),

@@ -10,7 +10,7 @@ export function skip(why) {
 }
 
 const left = [];
-process.on('exit', () => left.forEach((folder) => fs.rmSync(folder, { recursive: true, force: true })));
+process.on('exit', () => left.forEach((folder) => fs.rmSync(folder, { recursive: true, force: true, maxRetries: 10, retryDelay: 100 })));
 
 export function emptyFolder() {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'cotan-web-'));

@@ -13,11 +13,18 @@ if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (s
 if (!fs.existsSync(process.env.CHROMIUM ?? '/usr/bin/chromium')) skip('no chromium');
 if (!fs.existsSync(path.join(data, 'models'))) skip(`${data} is not here`);
 const { address, close } = await serve({ package: sources, modules, data, tests: import.meta.dirname });
-const browser = await launch(modules), page = await browser.newPage();
-await page.route(address, route => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
-  three: '/modules/three/build/three.module.js', 'three/addons/': '/modules/three/examples/jsm/' } })}</script>` }));
-page.on('console', message => { if (process.env.VERBOSE) console.log(message.type(), message.text()); });
-await page.goto(address);
+const browser = await launch(modules);
+
+// A page with that version of three, by the name of its package.
+async function pageWith(three) {
+  const made = await browser.newPage();
+  await made.route(address, route => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
+    three: `/modules/${three}/build/three.module.js`, 'three/addons/': `/modules/${three}/examples/jsm/` } })}</script>` }));
+  made.on('console', message => { if (process.env.VERBOSE) console.log(message.type(), message.text()); });
+  await made.goto(address);
+  return made;
+}
+let page = await pageWith('three');
 const measure = (file, ways) => page.evaluate(async ([url, ways]) => (await import('/tests/three_judge.js')).measure(url, ways), [`/data/${file}`, ways]);
 
 function show(file, found) {
@@ -61,6 +68,32 @@ const cases = {
   // three alone reads them by cotangent: 0.425 degrees on BoomBox where orthonormal has 0.056.
   async modelsWithoutTangentsAreReadAsMikkTSpace() {
     for (const file of ['NormalTangentTest/NormalTangentTest.glb', 'BoomBox/BoomBox.gltf', 'GlamVelvetSofa/GlamVelvetSofa.glb']) await holds(`models/${file}`, 0.15);
+  },
+
+  // 179.7 and 153 degrees from the truth: three takes every instance of a mirrored matrix for its back, and turns the normal.
+  // Of that, the bumps are right with our frame, to what a pixel's frame differs from one that is interpolated; with stored
+  // tangents they are off by as much as on a mirrored mesh, whose bitangent three makes of a mirrored tangent and a normal that is not.
+  async mirroredInstancesAreInsideOutWithRightBumps() {
+    const { upright, mirrored } = await page.evaluate(async () => (await import('/tests/three_instances.js')).measure());
+    console.log(JSON.stringify({ upright, mirrored }));
+    assert.ok(upright.stock.truth < 0.01 && upright.orthonormal.truth < 0.5);
+    assert.ok(mirrored.orthonormal.inside < 0.5, `${mirrored.orthonormal.inside} degrees`);
+    assert.ok(mirrored.stock.inside > 20, `${mirrored.stock.inside} degrees`);
+    for (const frame of ['cotangent', 'smooth', 'triangle']) // which differ from stored tangents on sheared uv, by the same amount whatever the matrix
+      assert.ok(Math.abs(mirrored[frame].inside - upright[frame].truth) < 0.5, `${frame}: ${mirrored[frame].inside} and ${upright[frame].truth} degrees`);
+  },
+
+  // The old geometry stayed on the device for ever, and the new one after the caller had disposed of his.
+  async replacedGeometriesAreFreed() {
+    for (const frame of ['orthonormal', 'smooth', 'triangle'])
+      assert.deepEqual(await page.evaluate(async (frame) => (await import('/tests/three_instances.js')).heldGeometries(frame), frame), [1, 1, 0], frame);
+  },
+
+  async anOlderThreeDrawsTheSame() {
+    if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
+    page = await pageWith('three180');
+    await holds('models/BoomBox/BoomBox.gltf', 0.15);
+    await holds('models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb', 0.5);
   },
 };
 if (process.env.FILES) {

@@ -160,10 +160,108 @@ const cases = {
     }
   },
 
+  // Each was blue: the key of the program was that of the hook which untangle() found.
+  hooksThatComeLaterAreInTheKeyAndKeepTheFrame() {
+    const shader = () => ({ vertexShader: '#include <common>', fragmentShader: `#include <normalmap_pars_fragment>\n#include <normal_fragment_maps>\n` });
+    const [red, blue] = [0, 1].map(() => square(mapOf(), 0)), calls = [];
+    untangle({ scenes: [new THREE.Group().add(red, blue)] });
+    const plain = red.material.customProgramCacheKey();
+    assert.equal(plain, blue.material.customProgramCacheKey());
+    red.material.onBeforeCompile = () => { calls.push('red'); };
+    blue.material.onBeforeCompile = () => { calls.push('blue'); };
+    const keys = [red, blue].map(({ material }) => material.customProgramCacheKey());
+    assert.equal(new Set([plain, ...keys]).size, 3, keys.join('\n'));
+    for (const { material } of [red, blue]) {
+      const given = shader();
+      material.onBeforeCompile(given, null);
+      assert.match(given.fragmentShader, /cotan_frame_orthonormal/);
+    }
+    assert.deepEqual(calls, ['red', 'blue']);
+    // One that calls what was there, as three's examples do: everything once.
+    const { material } = red, before = material.onBeforeCompile;
+    material.onBeforeCompile = (given, renderer) => { before(given, renderer); calls.push('after'); };
+    const given = shader();
+    material.onBeforeCompile(given, null);
+    assert.deepEqual(calls.slice(2), ['red', 'after']);
+    assert.equal(given.fragmentShader.match(/mat3 getTangentFrame/g).length, 1);
+    material.customProgramCacheKey = () => 'mine';
+    assert.match(material.customProgramCacheKey(), /^cotan,orthonormal.*mine$/s);
+  },
+
+  clonesOfMaterialsKeepTheFrame() {
+    for (const frame of ['cotangent', 'smooth']) {
+      const mesh = square(mapOf(), -1);
+      untangledSigns([mesh], { frame });
+      const clone = mesh.material.clone(), again = clone.clone();
+      for (const material of [clone, again]) {
+        assert.equal(frameOf({ material }), frame);
+        assert.equal(material.normalScale.y, 1); // as the original reads its green
+        const given = { vertexShader: '#include <common>\n#include <defaultnormal_vertex>', fragmentShader: '#include <normalmap_pars_fragment>\n#include <normal_fragment_maps>' };
+        material.onBeforeCompile(given, null);
+        assert.match(given.fragmentShader, new RegExp(`cotan_frame_${frame}\\( n`));
+      }
+      mesh.material = clone;
+      assert.deepEqual(untangledSigns([mesh]).signs, [1]); // and it is known: nothing is turned twice
+    }
+    const material = new THREE.MeshStandardMaterial({ normalMap: mapOf() });
+    replaceFrame(material, { frame: 'cotangent' });
+    assert.equal(frameOf({ material: material.clone() }), 'cotangent');
+    const copy = new THREE.MeshStandardMaterial().copy(material); // copy() asks nobody: the frame is taken from the other
+    assert.equal(frameOf({ material: replaceFrame(copy, { from: material }) }), 'cotangent');
+  },
+
+  // WebGLRenderer frees what it holds of a geometry or material on its event `dispose`.
+  whatTookThePlaceOfAGeometryIsFreedWithIt() {
+    for (const frame of ['smooth', 'triangle', 'orthonormal']) {
+      const mesh = square(mapOf(), 1), old = mesh.geometry, freed = [];
+      const watch = (geometry, name) => geometry.addEventListener('dispose', () => freed.push(name));
+      watch(old, 'old');
+      untangledSigns([mesh], { frame });
+      assert.ok(freed.includes('old'), `${frame}: what was drawn of the tangents and the old vertices is freed`);
+      if (mesh.geometry === old) continue;
+      watch(mesh.geometry, 'new');
+      old.dispose();
+      assert.ok(freed.includes('new'), frame);
+    }
+    const map = mapOf(), material = new THREE.MeshStandardMaterial({ normalMap: map }), meshes = [square(map, 1, { material }), square(map, 1, { material, mirrored: true })];
+    meshes[1].geometry.attributes.tangent.array.fill(-1);
+    material.userData.cotanFrame = 'smooth';
+    const other = square(map, 1, { material });
+    other.geometry.morphAttributes.position = [other.geometry.attributes.position]; // cannot have that frame
+    const { warn } = console;
+    console.warn = () => {};
+    untangledSigns([...meshes, other]);
+    console.warn = warn;
+    assert.notEqual(other.material, meshes[0].material);
+    const [first, copy] = meshes[0].material === material ? [material, other.material] : [other.material, meshes[0].material];
+    let gone = 0;
+    copy.addEventListener('dispose', () => { ++gone; });
+    first.dispose();
+    assert.equal(gone, 1);
+  },
+
+  async olderVersionsOfThreeAreTakenAndTooOldOnesNamed() {
+    if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
+    const place = installed(tarball);
+    fs.symlinkSync(path.join(path.resolve(modules), 'three180'), path.join(place, 'node_modules/three'));
+    fs.writeFileSync(path.join(place, 'from.mjs'), 'export const from = (name) => import(name);\n');
+    globalThis.self ??= globalThis; // three 0.180's nodes ask for it
+    const { from: older } = await import(pathToFileURL(path.join(place, 'from.mjs'))), old = await older('three');
+    assert.equal(old.REVISION, '180');
+    const material = new old.MeshStandardMaterial({ normalMap: new old.DataTexture(new Uint8Array(4), 1, 1) });
+    (await older('cotan/three')).untangle(new old.Mesh(new old.PlaneGeometry(), material));
+    assert.match(material.customProgramCacheKey(), /cotan,cotangent/);
+    await assert.rejects(older('cotan/three/tsl'), (error) => error.code === 'unavailable' && error.message === 'three: expected version 0.185 or later for cotan/three/tsl, found 180');
+    // What npm is asked for: no more than that.
+    assert.equal(JSON.parse(fs.readFileSync(path.join(place, 'node_modules/cotan/package.json'), 'utf8')).peerDependencies.three, '>=0.160.0');
+  },
+
   whatIsUnknownIsRefused() {
     for (const [work, field] of [[() => untangle(), 'target'], [() => untangle(new THREE.Scene(), { frame: 'mikktspace' }), 'options.frame'],
       [() => untangle(new THREE.Scene(), { fraem: 'smooth' }), 'options.fraem'], [() => untangle(new THREE.Scene(), { note: 'loud' }), 'options.note'],
-      [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention']])
+      [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention'], [() => replaceFrame(), 'material'], [() => replaceFrame(new THREE.Mesh()), 'material'],
+      [() => replaceFrame(new THREE.MeshStandardMaterial(), { frame: 'smoth' }), 'options.frame'], [() => replaceFrame(new THREE.MeshStandardMaterial(), { fraem: 'smooth' }), 'options.fraem'],
+      [() => replaceFrame(new THREE.MeshStandardMaterial(), { against: 1 }), 'options.against'], [() => replaceFrame(new THREE.MeshStandardMaterial(), { from: {} }), 'options.from']])
       assert.throws(work, (error) => error instanceof CotanError && error instanceof library.CotanError && error.code === 'usage' && error.field === field);
   },
 };

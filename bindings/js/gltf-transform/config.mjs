@@ -10,7 +10,10 @@ const both = (program, name, description) => program.command(name, description)
 const run = (io, makeTransform) => async ({ args, options, logger }) => {
   const document = (await io.read(String(args.input))).setLogger(logger);
   await document.transform(makeTransform(options));
-  if (args.output) await io.write(String(args.output), document);
+  if (!args.output) return;
+  await io.write(String(args.output), document);
+  const [before, after] = [args.input, args.output].map((file) => (String(file).endsWith('.glb') ? fs.statSync(String(file)).size : undefined));
+  if (before !== undefined && after !== undefined) logger.info(`${args.input}: ${before} bytes; ${args.output}: ${after} bytes`);
 };
 
 // As of the tool.
@@ -38,11 +41,13 @@ export default {
       .option('--kind <kind>', 'mikktspace or vertex', { default: 'mikktspace' })
       .option('--overwrite <overwrite>', 'Replace tangents that are there', { validator: program.BOOLEAN, default: false })
       .action(run(io, ({ kind, overwrite }) => tangents({ kind, overwrite })));
-    both(program, 'untangent', 'Make normal maps for another frame and drop tangents')
+    both(program, 'untangent', 'Drop tangents; make normal maps for another frame where that is asked for or needed')
+      .option('--mode <mode>', 'auto: drop tangents with the maps as they are, new maps only where they are needed and cost little; drop: maps as they are; '
+        + 'convert: new maps. Default: auto, convert with one of the next options')
       .option('--from <frame>', 'Frame that the maps were made for; left out: the one that the materials name, else mikktspace')
-      .option('--to <frame>', 'Frame that they shall be for', { default: 'cotangent' })
-      .option('--unsigned <how>', 'How engines take the numbers of the new maps: biased, 2c - 1, or exact, where 128 is zero', { default: 'biased' })
-      .action(run(io, ({ from, to, unsigned }) => untangent({ from, to, unsigned })));
+      .option('--to <frame>', 'Frame that they shall be for; left out with --mode convert: cotangent')
+      .option('--unsigned <how>', 'How engines take the numbers of the new maps: biased, 2c - 1 (the default), or exact, where 128 is zero')
+      .action(run(io, ({ mode, from, to, unsigned }) => untangent({ mode, from, to, unsigned })));
     both(program, 'provoking', 'Number vertices so that vertex k provokes triangle k')
       .option('--vertex <vertex>', 'first or last of the three', { default: 'first' })
       .action(run(io, ({ vertex }) => provoking({ vertex })));

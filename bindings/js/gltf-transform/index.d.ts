@@ -5,10 +5,14 @@ import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
  * Primitives that have some keep them, unless overwrite is true. What cannot have any is left, with a warning. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
-/** Makes the normal maps for another frame and drops TANGENT, as `cotan convert` does: see convert of the package
- * cotan. Materials name the frame in their extras, as `cotanFrame`; `from` is by default the frame that they name. Gives new tangents where `to` reads some. Maps in WebP and AVIF become PNG. Those in KTX2 stay as they are, and so do
- * the tangents that they need: the report has them as unread_maps. */
+/** Drops TANGENT: see convert of the package cotan for `mode`, whose default is what lint advises: the maps byte for byte as they
+ * are, for readers that take `orthonormal` or MikkTSpace; or new ones. Compressed geometry and maps in KTX2 are dropped from
+ * without being decoded. New maps are in the format of the old ones, JPEG and WebP where their encoder is there, else PNG. With
+ * them materials name the frame in their extras, as `cotanFrame`; `from` is by default the frame that they name. Gives new
+ * tangents where `to` reads some. New maps cannot be made from KTX2: such a map stays as it is, and so do the tangents that it
+ * needs; the report has it as unread_maps. */
 export function untangent(options?: {
+  mode?: 'auto' | 'drop' | 'convert';
   from?: string;
   to?: string;
   bits?: 0 | 8 | 16;
@@ -16,7 +20,8 @@ export function untangent(options?: {
   generateTangents?: boolean;
   unsigned?: 'biased' | 'exact';
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
-  /** Gets the report of the conversion. Its notes are warnings of the document's logger too. */
+  /** Gets the report of the conversion; `bytes` of it are of normal maps and tangents, uncompressed. Its notes are warnings of the
+   * document's logger too. */
   report?: (report: ConvertReport) => void;
 }): Transform;
 

@@ -1,6 +1,9 @@
-// Transforms for glTF-Transform 4.5: see index.d.ts.
+// Transforms for glTF-Transform 4: see index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
+import { choice, options as checked } from '../src/arrays.js';
+import { advised, kGrowth, modeOf, needsTangents, notWorthIt } from '../src/modes.js';
+import { encodeLossy, lossyFormat } from '../src/pictures.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -97,7 +100,9 @@ function giveTangents(document, primitive, uvs, kind) {
     .setBuffer(primitive.getAttribute('POSITION').getBuffer()));
 }
 
-export function tangents({ kind = 'mikktspace', overwrite = false } = {}) {
+export function tangents(given) {
+  const { kind, overwrite } = checked(given, { kind: 'mikktspace', overwrite: false });
+  choice(kind, 'options.kind', ['mikktspace', 'vertex']);
   return named('tangents', async (document) => {
     await ready;
     const logger = document.getLogger();
@@ -116,7 +121,9 @@ export function tangents({ kind = 'mikktspace', overwrite = false } = {}) {
   });
 }
 
-export function provoking({ vertex = 'first' } = {}) {
+export function provoking(given) {
+  const { vertex } = checked(given, { vertex: 'first' });
+  choice(vertex, 'options.vertex', ['first', 'last']);
   return named('provoking', async (document) => {
     await ready;
     for (const { primitive, name } of primitivesOf(document)) {
@@ -132,15 +139,13 @@ export function provoking({ vertex = 'first' } = {}) {
 const kCompressions = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
 const kDecoded = ['image/webp', 'image/avif']; // by the platform, to PNG
 
-/** The document as plain glTF in memory. Compressions of geometry are set aside while it is written: they would need
+/** The document as plain glTF in memory. decode: null leaves maps in WebP and AVIF as they are. Compressions of geometry are set aside while it is written: they would need
  * encoders. Normal maps in WebP and AVIF are written as PNG. */
 async function written(document, decode) {
   const aside = document.getRoot().listExtensionsUsed().filter((extension) => kCompressions.includes(extension.extensionName))
     .map((extension) => ({ Type: extension.constructor, required: extension.isRequired(), options: extension._encoderOptions }));
   const pictures = new Map();
-  const normalMaps = new Set(document.getRoot().listMaterials().flatMap((material) =>
-    [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()]).filter(Boolean));
-  for (const texture of normalMaps)
+  for (const texture of decode ? normalMapsOf(document) : [])
     if (kDecoded.includes(texture.getMimeType()) && texture.getImage())
       pictures.set(texture, { image: texture.getImage(), mimeType: texture.getMimeType(), uri: texture.getURI(),
         png: await encodePng(await decode(texture.getImage(), texture.getName())) });
@@ -160,7 +165,7 @@ async function written(document, decode) {
   }
 }
 
-function replaceMap(document, map, png) {
+function replaceMap(document, map, { bytes, mimeType }) {
   const old = document.getRoot().listTextures()[map.image];
   const readers = [];
   for (const material of document.getRoot().listMaterials()) {
@@ -172,7 +177,8 @@ function replaceMap(document, map, png) {
   const texture = elsewhere ? old.clone() : old;
   if (elsewhere) readers.forEach((read) => read(texture));
   const uri = texture.getURI();
-  texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.png`);
+  const ending = { 'image/png': 'png', 'image/jpeg': 'jpg', 'image/webp': 'webp' }[mimeType];
+  texture.setImage(bytes).setMimeType(mimeType).setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.${ending}`);
 }
 
 /** What readers of a material's maps must know, cotanFrame and cotanUnsigned, as the conversion has it. */
@@ -181,34 +187,121 @@ function takeExtras(material, extras = {}) {
   material.setExtras({ ...ours(material.getExtras(), false), ...ours(extras, true) });
 }
 
-export function untangent({ from, to = 'cotangent', bits = 0, keepTangents = false, generateTangents = false,
-  unsigned = 'biased', decode = decodePicture, report } = {}) {
+// Of a document: its normal maps, and what tangents take uncompressed.
+const normalMapsOf = (document) => [...new Set(document.getRoot().listMaterials().flatMap((material) =>
+  [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()]).filter(Boolean))];
+const imageBytes = (texture) => texture.getImage()?.byteLength ?? 0;
+const arrayBytes = (accessors) => accessors.reduce((sum, accessor) => sum + (accessor.getArray()?.byteLength ?? 0), 0);
+
+function tangentsOfDocument(document) {
+  const accessors = new Set();
+  let primitives = 0;
+  for (const { primitive } of primitivesOf(document)) {
+    const found = [primitive, ...primitive.listTargets()].map((holder) => holder.getAttribute('TANGENT')).filter(Boolean);
+    primitives += found.length > 0;
+    found.forEach((accessor) => accessors.add(accessor));
+  }
+  const vertices = [...accessors].reduce((sum, accessor) => sum + accessor.getCount(), 0), bytes = arrayBytes([...accessors]);
+  return { dropped_primitives: primitives, bytes_per_vertex: vertices ? bytes / vertices : 0, vertices, bytes };
+}
+
+const kUnpacked = 0.2; // of what geometry takes in memory, in a file that compresses it
+
+/** What the document takes in a file, about. */
+function sizeAbout(document) {
+  const root = document.getRoot(), packed = root.listExtensionsUsed().some((extension) => kCompressions.includes(extension.extensionName));
+  const weight = packed ? kUnpacked : 1;
+  return { whole: root.listTextures().reduce((sum, texture) => sum + imageBytes(texture), 0) + weight * arrayBytes(root.listAccessors()), weight };
+}
+
+function dropAll(document, keepTangents) {
+  const tangents = tangentsOfDocument(document), textures = document.getRoot().listTextures();
+  if (!keepTangents) for (const { primitive } of primitivesOf(document)) dropTangents(primitive);
+  return {
+    mode: keepTangents ? 'keep' : 'drop', unread_maps: [], notes: [], tangents: keepTangents ? { kept: true } : tangents,
+    maps: normalMapsOf(document).map((texture) => ({ image: textures.indexOf(texture), name: texture.getName() || texture.getURI() || 'normal map', kept: true,
+      bytes_before: imageBytes(texture), bytes_after: imageBytes(texture) })),
+  };
+}
+
+/** The new maps, made and not yet put in: { report, images, glb }. images: { bytes, mimeType } of those that are not kept. */
+async function newMaps(document, { model, files }, o) {
+  const made = [], pictures = [], textures = document.getRoot().listTextures();
+  const { glb, report } = await convert(model, { ...o, mode: 'convert', files, encode: async (picture) => {
+    pictures.push(picture);
+    made.push(await encodePng(picture));
+    return made.at(-1);
+  } });
+  const maps = report.maps.map((map) => ({ ...map })), notes = [...report.notes], images = [];
+  for (const [k, map] of maps.filter((one) => !one.kept).entries()) {
+    const old = textures[map.image], format = old?.getImage() && pictures[k].bits === 8 ? lossyFormat(old.getImage()) : null;
+    const lossy = format && await encodeLossy(pictures[k], format);
+    images.push(lossy && lossy.length < made[k].length ? { bytes: lossy, mimeType: format.mimeType } : { bytes: made[k], mimeType: 'image/png' });
+    if (format && !lossy) notes.push(`${map.name}: becomes PNG: there is no encoder for ${format.mimeType} here (in node the package sharp)`);
+    Object.assign(map, { bytes_before: imageBytes(old), bytes_after: images.at(-1).bytes.length });
+  }
+  for (const map of maps.filter((one) => one.kept)) Object.assign(map, { bytes_before: imageBytes(textures[map.image]), bytes_after: imageBytes(textures[map.image]) });
+  return { glb, images, report: { ...report, maps, notes, mode: 'convert' } };
+}
+
+function putIn(document, { glb, images, report }, to) {
+  report.maps.filter((map) => !map.kept).forEach((map, k) => replaceMap(document, map, images[k]));
+  const view = new DataView(glb.buffer, glb.byteOffset), json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
+  document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
+    const has = 'TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {});
+    if (!has) dropTangents(primitive);
+    else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
+  }));
+  document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
+  return report;
+}
+
+/** What lint advises, unless new maps cost more than they gain. */
+async function asAdvised(document, decode) {
+  const noted = (report, line) => ({ ...report, notes: [line, ...report.notes] });
+  let model, plan, unread = '';
+  try {
+    model = await written(document, decode);
+    plan = advised(await lint(model.model, { files: model.files, decode }));
+  } catch (error) { // maps that cannot be decoded here: tangents tell what they mean without them
+    if (error.code !== 'unavailable') throw error;
+    unread = error.message;
+    model = await written(document, null);
+    plan = advised({ ...await lint(model.model, { files: model.files, decode: async () => ({ width: 1, height: 1, data: Uint8Array.of(128, 128, 255, 255) }) }), maps_converted: 0, maps: [] });
+  }
+  if (plan.mode === 'drop') return unread ? noted(dropAll(document), unread) : dropAll(document);
+  if (unread) return noted(dropAll(document, true), needsTangents(plan.green, unread));
+  const { whole, weight } = sizeAbout(document), made = await newMaps(document, model, { to: plan.to, decode });
+  const unreadMaps = made.report.unread_maps;
+  if (made.report.maps.every((map) => map.kept) && plan.green.length > 0)
+    return { ...noted(dropAll(document, true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be made anew')), unread_maps: unreadMaps };
+  const grown = made.report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * made.report.tangents.bytes;
+  if (grown <= (kGrowth - 1) * whole) return putIn(document, made, plan.to);
+  const after = Math.round(whole + grown), before = Math.round(whole);
+  return plan.green.length > 0 ? noted(dropAll(document, true), needsTangents(plan.green, `new maps would make it ${after} bytes of ${before}: mode 'convert' makes them`))
+    : noted(dropAll(document), notWorthIt(plan.to, plan.off, before, after));
+}
+
+const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, decode: decodePicture, report: undefined };
+
+export function untangent(given) {
+  const { mode: _, report, decode, ...o } = checked(given, kUntangent), mode = modeOf(given);
   return named('untangent', async (document) => {
     await ready;
-    const { model, files } = await written(document, decode), made = [];
-    const { glb, report: found } = await convert(model, {
-      files, from, to, bits, keepTangents, generateTangents, unsigned, decode,
-      encode: async (picture) => {
-        made.push(await encodePng(picture));
-        return made.at(-1);
-      },
-    });
-    const maps = found.maps.filter((map) => !map.kept);
-    maps.forEach((map, k) => replaceMap(document, map, made[k]));
-    const view = new DataView(glb.buffer, glb.byteOffset), json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
-    document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
-      const has = 'TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {});
-      if (!has) dropTangents(primitive);
-      else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
-    }));
-    document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
+    const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes;
+    const wished = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
+    const found = mode === 'drop' ? dropAll(document) : mode === 'convert' ? putIn(document, await newMaps(document, await written(document, decode), wished), wished.to)
+      : await asAdvised(document, decode);
+    found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes };
+    const remade = found.maps.filter((map) => !map.kept).length;
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
-    document.getLogger().info(`untangent: ${maps.length} maps made for ${to}, ${found.maps.length - maps.length} kept`);
+    document.getLogger().info(`untangent: ${found.mode}: ${remade} maps made anew, ${found.maps.length - remade} kept; normal maps and tangents ${found.bytes.before} bytes before, ${found.bytes.after} after`);
     report?.(found);
   });
 }
 
-export function lintNormals({ distance = 0, limit, limitArea, frame = 'orthonormal', decode = decodePicture, report } = {}) {
+export function lintNormals(given) {
+  const { distance, limit, limitArea, frame, decode, report } = checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', decode: decodePicture, report: undefined });
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await written(document, decode);

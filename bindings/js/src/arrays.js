@@ -9,7 +9,7 @@ export function floats(value, name, size, count) {
   if (value.length % size !== 0) throw usage(`${name}: expected a multiple of ${size} numbers, found ${value.length}`);
   if (count !== undefined && value.length !== size * count)
     throw usage(`${name}: expected ${size * count} numbers, found ${value.length}`);
-  return value instanceof Float32Array ? value : Float32Array.from(value);
+  return value instanceof Float32Array ? value : Float32Array.from(value, Number);
 }
 
 /** Whole numbers from 0. */

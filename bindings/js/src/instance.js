@@ -83,7 +83,8 @@ export class Library {
   generation = 0; // what is held over calls is gone when it changes
 
   async load(bytes, imports = {}) {
-    this.#module = await WebAssembly.compile(await bytes);
+    const found = await bytes; // an answer of a server is compiled while it arrives
+    this.#module = await WebAssembly[found.headers ? 'compileStreaming' : 'compile'](found);
     this.#imports = { ...imports };
     for (const { module, name } of WebAssembly.Module.imports(this.#module)) // of the system: there is none
       (this.#imports[module] ??= {})[name] ??= name === 'proc_exit' ? () => { throw new Error('the library ended'); }

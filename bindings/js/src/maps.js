@@ -2,23 +2,9 @@
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
+import { checkedPicture } from './picture.js';
 
 const kTypes = { 8: Uint8Array, 16: Uint16Array, 32: Float32Array };
-
-function checked(picture, name) {
-  if (picture === null || typeof picture !== 'object') throw usage(`${name}: expected a picture, found ${wordsFor(picture)}`);
-  const { width, height } = picture;
-  let { data } = picture;
-  if (data instanceof Uint8ClampedArray) data = new Uint8Array(data.buffer, data.byteOffset, data.length);
-  const bits = data instanceof Uint8Array ? 8 : data instanceof Uint16Array ? 16 : data instanceof Float32Array ? 32 : 0;
-  if (bits === 0) throw usage(`${name}.data: expected bytes, 16 bits or floats, found ${wordsFor(data)}`);
-  for (const [side, value] of [['width', width], ['height', height]])
-    if (!(Number.isInteger(value) && value >= 1 && value <= 65536))
-      throw usage(`${name}.${side}: expected 1 to 65536 pixels, found ${wordsFor(value)}`);
-  if (data.length !== 4 * width * height)
-    throw usage(`${name}.data: expected ${4 * width * height} numbers, found ${data.length}`);
-  return { width, height, bits, data };
-}
 
 const number = (value, name) => {
   if (typeof value !== 'number' || !Number.isFinite(value)) throw usage(`${name}: expected a number, found ${wordsFor(value)}`);
@@ -27,7 +13,7 @@ const number = (value, name) => {
 
 export function mapFunctions(library, host) {
   const input = (s, picture, name) => {
-    const p = checked(picture, name);
+    const p = checkedPicture(picture, name);
     return { ...p, at: s.struct(p.width, p.height, p.bits, s.put(p.data)) };
   };
   const output = (s, like, bits) => {

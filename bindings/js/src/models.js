@@ -2,22 +2,44 @@
 import { options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
-import { decodePicture } from './pictures.js';
+import { bytesOf, checkedPicture } from './picture.js';
+import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
 import { encodePng } from './png.js';
+import { imageIn, parsedModel, sizeOf, withImages } from './glb.js';
+import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
-
-const bytesOf = (value, name) => {
-  if (value instanceof ArrayBuffer) return new Uint8Array(value);
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  throw usage(`${name}: expected bytes, found ${wordsFor(value)}`);
-};
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 // In the place of pictures that are no normal maps: nobody looks at their pixels.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
+const kConvert = {
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', mendGreen: false,
+};
 
-export function modelFunctions(library, host) {
+// The library's advice is for those who build it.
+function inNpm(error) {
+  const lacks = /^(.*?: )?not built with (Draco|meshoptimizer): /.exec(error.message);
+  return lacks ? new CotanError('unavailable', `${lacks[1] ?? ''}expected plain geometry, found what ${lacks[2]} has compressed: take lintNormals and untangent `
+    + "of cotan/gltf-transform, which unpack it with glTF-Transform's decoders") : error;
+}
+
+// Options, each of its kind.
+function modelOptions(given, known) {
+  const o = options(given, known), defaults = Object.entries(known).filter(([name, value]) => o[name] === undefined && value !== undefined);
+  for (const [name, value] of defaults) o[name] = value;
+  const refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
+  if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object of bytes by URI');
+  for (const name of ['decode', 'encode', 'progress'])
+    if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
+  for (const name of ['keepTangents', 'generateTangents', 'mendGreen'])
+    if (o[name] !== undefined && typeof o[name] !== 'boolean') refuse(name, 'true or false');
+  if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
+  if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
+  return o;
+}
+
+export function modelFunctions(library, host, turnGreen) {
   /** Runs work(scratch, address of the bytes, of their functions) with what the library may ask for. */
   const withModel = (model, files, known, progress, work) => library.run((s) => {
     host.now = {
@@ -34,7 +56,7 @@ export function modelFunctions(library, host) {
     try {
       return work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done)));
     } catch (error) {
-      throw host.now.error ?? error;
+      throw host.now.error ?? inNpm(error);
     }
   });
 
@@ -47,7 +69,7 @@ export function modelFunctions(library, host) {
     });
     for (const picture of known) {
       try {
-        picture.picture = await o.decode(picture.bytes, picture.name);
+        picture.picture = checkedPicture(await o.decode(picture.bytes, picture.name), 'options.decode', [8, 16]);
       } catch (error) {
         picture.error = error instanceof CotanError ? error : new CotanError('input', `${picture.name}: ${error?.message ?? error}`);
       }
@@ -70,7 +92,7 @@ export function modelFunctions(library, host) {
 
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
-    const o = options(more, { ...kCommon, distance: 0, ...kLimits });
+    const o = modelOptions(more, { ...kCommon, distance: 0, ...kLimits });
     const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
@@ -85,10 +107,51 @@ export function modelFunctions(library, host) {
   }
 
   async function convert(given, more) {
-    const model = bytesOf(given, 'model');
-    const o = options(more, {
-      ...kCommon, from: undefined, to: 'cotangent', bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased',
-    });
+    const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
+    if (!parsed) return madeAnew(model, o); // which says what is wrong
+    if (o.mendGreen) return mended(model, parsed, o, { ...more, mendGreen: undefined });
+    const before = sizeOf(model, parsed.json, o.files), anew = (to) => madeAnew(model, { ...o, to }).then((made) => inOldFormats(parsed, o.files, made));
+    const plain = (keepTangents) => dropped(parsed, o.files, (bytes, more) => madeAnew(bytes, { ...o, ...more }), keepTangents);
+    const found = mode === 'convert' ? await anew(o.to ?? 'cotangent') : mode === 'drop' ? await plain() : await asAdvised(model, o, before, anew, plain);
+    return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
+  }
+
+  // With the maps turned whose green points the other way than the model says, by the maps themselves; then as without this option.
+  async function mended(model, parsed, o, more) {
+    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // with their tangents those are right
+    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
+    if (wrong.length === 0) return convert(model, more);
+    const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => madeAnew(bytes, { ...o, ...given }), true), inside = parsedModel(whole), turned = new Map();
+    for (const { image, name } of wrong) {
+      const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
+      const right = turnGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
+      turned.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
+    }
+    const made = await convert(withImages(inside, turned), { ...more, files: undefined }), { glb } = made;
+    return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_mended: wrong.map(({ name }) => name),
+      notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...made.report.notes] } };
+  }
+
+  // What lint advises, unless new maps cost more than they gain.
+  async function asAdvised(model, o, before, anew, plain) {
+    const { files, decode } = o, notes = [];
+    let report = await lint(model, { files, decode }).catch((error) => { if (error.code !== 'unavailable') throw error; notes.push(error.message); });
+    const unread = !report; // tangents tell what they mean without the maps
+    report ??= await lint(model, { files, decode: async () => kUnread });
+    const plan = advised(unread ? { ...report, maps_converted: 0, maps: [] } : report), noted = (found, line) => ({ ...found, report: { ...found.report, notes: [...notes, line, ...found.report.notes].filter(Boolean) } });
+    if (plan.mode === 'drop') return noted(await plain());
+    if (unread) return noted(await plain(true), needsTangents(plan.green, 'new maps cannot be made here'));
+    const made = await anew(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
+    if (made.report.maps.every((map) => map.kept) && plan.green.length > 0) {
+      const kept = noted(await plain(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be made anew'));
+      return { ...kept, report: { ...kept.report, unread_maps: unreadMaps } };
+    }
+    if (after <= kGrowth * before) return made;
+    return plan.green.length > 0 ? noted(await plain(true), needsTangents(plan.green, `new maps would make the file ${after} bytes of ${before}: mode 'convert' makes them`))
+      : noted(await plain(), notWorthIt(plan.to, plan.off, before, after));
+  }
+
+  async function madeAnew(model, o) {
     const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
@@ -113,7 +176,7 @@ export function modelFunctions(library, host) {
         files.forEach((png, i) => s.call('cotan_conversion_set', conversion, i, s.put(png), png.length));
         const glb = s.put(new Uint32Array(1)), report = s.put(new Uint32Array(1));
         s.call('cotan_convert_end', conversion, glb, report);
-        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)) };
+        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)), pictures };
       });
     } finally {
       if (library.generation === generation) library.run((s) => s.wasm.cotan_conversion_free(conversion));

@@ -28,7 +28,9 @@ export function limitsOf({ limit, limitArea, frame }) {
 /** One line each; a map whose green points the other way than the file says is over any limit. */
 export function overLimits(report, given) {
   const { limit, limitArea, frame } = limitsOf(options(given, kLimits));
-  const lines = [], { primitives } = report;
+  const { primitives, maps: images } = report ?? {};
+  if (!Array.isArray(primitives) || !Array.isArray(images) || !primitives.every((p) => p?.uv)) throw usage(`report: expected what lint gives, found ${wordsFor(report)}`);
+  const lines = [];
   const check = (name, value, most, what, unit) => {
     if (most !== undefined && typeof value === 'number' && value > most) lines.push(`${name}: ${what} ${threeDigits(value)} ${unit}, limit ${threeDigits(most)}`);
   };
@@ -42,7 +44,7 @@ export function overLimits(report, given) {
       [p.stored_tangents?.reversed_w, 'TANGENT.w against the uv on'], [p.stored_tangents?.turned, 'stored tangents turned on']])
       check(name, typeof share === 'number' ? 100 * share : undefined, limitArea, what, '% of the area');
   });
-  for (const map of report.maps.filter((map) => map.decided && !map.as_declared))
+  for (const map of images.filter((map) => map.decided && !map.as_declared))
     lines.push(`normal map ${map.name || `image ${map.image}`}: green points the other way than the file says (${map.confidence})`);
   const maps = primitives.filter((p) => p.normal_map >= 0);
   if (limit !== undefined && maps.length > 0 && maps.every((p) => p.not_judged) && lines.length === 0)

@@ -41,9 +41,11 @@ export interface LoadedModel {
  * coat and anisotropy, right in mirrored transforms, on both sides, and in targets with y down. `normalScale.y` gets the sign
  * that tangents stood for: what was drawn with them is what is drawn without. Materials that meshes share but want different
  * things of are cloned. Call it again for meshes that come later; what is done stays. Hooks of your own (`onBeforeCompile`)
- * are kept, clones of materials that you make lose ours.
+ * are kept, also those that you set later, and so is the frame by `material.clone()` (not by `copy()`). What the renderer holds
+ * of tangents and of geometries that are replaced is freed; what takes their place is freed when they are disposed of.
  * Throws a CotanError with code `usage` on anything but an Object3D or a loaded model, on unknown frames and on unknown
- * options; drawing throws where the shader of a material has no place for the frame.
+ * options, and with code `unavailable` where this three, or the shader of a material when it is drawn, has no place for the
+ * frame. three 0.160 and later.
  */
 export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleOptions): T;
 
@@ -53,6 +55,6 @@ export function untangled(options?: UntangleOptions): (parser: unknown) => { nam
 /**
  * Replaces the frame of one material and nothing else. `auto`, the default, is what the material names, else `orthonormal`;
  * `smooth` and `triangle` need geometries that untangle() has prepared. A mesh with tangents that is drawn with it does not use
- * the frame: that is said by console.warn. against: the bitangents that anisotropy counts on run against increasing v, as in glTF.
+ * the frame: that is said by console.warn. from: a material whose hooks and, without `frame`, whose frame it gets. against: the bitangents that anisotropy counts on run against increasing v, as in glTF.
  */
 export function replaceFrame<T extends Material>(material: T, options?: { frame?: Frame; against?: boolean; from?: Material }): T;

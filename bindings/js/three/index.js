@@ -1,12 +1,12 @@
 // Cotan for three.js and its WebGLRenderer: normal mapping without tangents. For WebGPURenderer: tsl.js.
-import { ShaderChunk } from 'three';
-import { options as checked } from '../src/arrays.js';
+import { Material, REVISION, ShaderChunk } from 'three';
+import { CotanError } from '../src/errors.js';
 import { frameFor } from './frames.js';
-import { untangleMeshes, untangleOptions } from './meshes.js';
+import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
-export { CotanError } from '../src/errors.js';
+export { CotanError };
 
 // Removes the tangents of `target` and lets its materials take their frame from Cotan. See index.d.ts.
 export function untangle(target, options) {
@@ -19,34 +19,73 @@ export const untangled = options => {
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
 };
 
-const patched = new WeakMap();  // frame and hooks of the materials that are
+// By material: { frame, against, hook, key }. hook, key: what stands in the material's onBeforeCompile and
+// customProgramCacheKey besides us, whenever it was put there; undefined where that is the class's own.
+const patched = new WeakMap();
 
-// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned.
-// from: the material that this is a clone of, since clones have no hooks.
+// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Hooks of the
+// user's own stay, those that come later too, and clone() keeps the frame.
+// from: the material whose hooks and, without another wish, whose frame this one gets.
 export function replaceFrame(material, options) {
-  const { frame: wished, against, from } = checked(options, { frame: undefined, against: false, from: material });
-  const frame = frameFor(material, wished);
-  const { before, key } = patched.get(material) ?? patched.get(from) ?? { before: from.onBeforeCompile, key: from.customProgramCacheKey };
-  patched.set(material, { frame, against, before, key });
+  checkThree();
+  const { frame: wished, against, from } = replaceOptions(material, options, { from: material });
+  const source = patched.get(from) ?? hooksOf(from);
+  const frame = wished === undefined && from !== material && source.frame ? source.frame : frameFor(material, wished);
+  const { hook, key } = source;
+  const begun = patched.has(material);
+  patched.set(material, { frame, against, hook, key });
   material.needsUpdate = true;
-  material.onBeforeCompile = (shader, renderer) => {
-    before.call(material, shader, renderer);
-    if (shader.vertexTangents)
-      console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
-        + 'frame: call untangle() on it');
-    patchFragment(shader, material, { frame, against });
-    if (kCarried[frame]) patchVertex(shader, material, kCarried[frame]);
-  };
-  // three's own key is the text of onBeforeCompile, which is ours now.
-  const own = key !== Object.getPrototypeOf(material).customProgramCacheKey;
-  material.customProgramCacheKey = () => ['cotan', frame, against, before, own ? key.call(material) : ''].join();
-  return material;
+  if (!begun) takeHooks(material);
+  return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: patched.get(source).frame, against: patched.get(source).against }));
+}
+
+const hooksOf = material => ({
+  hook: material.onBeforeCompile === Material.prototype.onBeforeCompile ? undefined : material.onBeforeCompile,
+  key: Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined,
+});
+
+const written = new WeakSet(); // shaders that have the frame
+
+// What is put into the material from now on is called by us, and part of the program's key.
+function takeHooks(material) {
+  const proto = Object.getPrototypeOf(material);
+  const ofUser = (name, member, ours) => Object.defineProperty(material, name, {
+    configurable: true, enumerable: true,
+    get: () => ours(patched.get(material)[member]),
+    set: value => { patched.get(material)[member] = value; },
+  });
+  // A new function for each hook: one that calls what was there before is followed by us once.
+  ofUser('onBeforeCompile', 'hook', hook => Object.assign(function onBeforeCompile(shader, renderer) {
+    hook?.call(material, shader, renderer);
+    if (written.has(shader)) return;
+    written.add(shader);
+    writeFrame(shader, material, patched.get(material));
+  }, { toString: () => keyOf(material, hook) }));
+  ofUser('customProgramCacheKey', 'key', key => () =>
+    [keyOf(material, patched.get(material).hook), key ? key.call(material) : proto.customProgramCacheKey === kKeyOfThree ? '' : proto.customProgramCacheKey.call(material)].join());
+}
+
+const kKeyOfThree = Material.prototype.customProgramCacheKey; // the text of onBeforeCompile
+const keyOf = (material, hook) => ['cotan', patched.get(material).frame, patched.get(material).against, hook ?? ''].join();
+
+function writeFrame(shader, material, { frame, against }) {
+  if (shader.vertexTangents)
+    console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
+      + 'frame: call untangle() on it');
+  patchFragment(shader, material, { frame, against });
+  if (kCarried[frame]) patchVertex(shader, material, kCarried[frame]);
+}
+
+// Whether this three has the function that is replaced; said before anything is drawn.
+function checkThree() {
+  if (!kFunction.test(ShaderChunk.normalmap_pars_fragment ?? ''))
+    throw new CotanError('unavailable', `three: expected version 0.160 or later with getTangentFrame in its shaders, found ${REVISION}`);
 }
 
 // Puts `text` in the place of what `pattern` finds, or says that it is not there.
 function put(shader, stage, pattern, text, material) {
   if (!shader[stage].match(pattern))
-    throw new Error(`Cotan: no ${pattern} in the shader of ${material.type}; three.js 0.187 has it`);
+    throw new CotanError('unavailable', `the shader of ${material.type}: expected ${pattern}, as three 0.160 to 0.187 have it; found none in ${REVISION}`);
   shader[stage] = shader[stage].replace(pattern, () => text);
 }
 

@@ -25,6 +25,30 @@ export function untangleOptions(given, more = {}) {
   return o;
 }
 
+// The same for replaceFrame().
+export function replaceOptions(material, given, more) {
+  if (!material?.isMaterial) throw usage(`material: expected a Material, found ${wordsFor(material)}`);
+  const o = checked(given, { frame: undefined, against: false, ...more });
+  if (typeof o.against !== 'boolean') throw usage(`options.against: expected true or false, found ${wordsFor(o.against)}`);
+  if (o.from !== undefined && !o.from?.isMaterial) throw usage(`options.from: expected a Material, found ${wordsFor(o.from)}`);
+  return o;
+}
+
+const keeping = new WeakSet(); // materials whose clones keep the frame
+
+// replace(clone, material) gives clones of the material what it has. copy() does not ask it.
+export function keepInClones(material, replace) {
+  if (keeping.has(material)) return material;
+  keeping.add(material);
+  const { clone } = material;
+  return Object.defineProperty(material, 'clone', { configurable: true, writable: true, value() {
+    const made = clone.call(material);
+    replace(made, material);
+    if (known.has(material)) known.set(made, known.get(material));
+    return made;
+  } });
+}
+
 // Removes the tangents of all meshes of `target`, an Object3D or what GLTFLoader gives, and calls replace(material, found)
 // for every material with a normal map's scale. found.frame: one of kDrawn; found.against: bitangents, as the anisotropy of
 // the material means them, run against increasing v. o: as untangleOptions has them.
@@ -58,8 +82,19 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
     });
     mesh.material = Array.isArray(mesh.material) ? copied : copied[0];
   }
-  for (const geometry of stored) geometry.deleteAttribute('tangent');
+  for (const geometry of stored) {
+    geometry.dispose(); // what the renderer holds of its tangents
+    geometry.deleteAttribute('tangent');
+  }
+  freeTogether(meshes, all.made);
   return target;
+}
+
+// What the renderer holds of geometries that no mesh shows any more is freed, and of what took their place once they are.
+function freeTogether(meshes, made) {
+  const shown = new Set([...meshes].map(mesh => mesh.geometry));
+  for (const { from } of made.values()) if (!shown.has(from)) from.dispose();
+  for (const { from, geometry } of made.values()) from.addEventListener('dispose', () => geometry.dispose());
 }
 
 // The frame of each material of a mesh, whose geometry gets what they read.
@@ -75,8 +110,8 @@ function framesFor(mesh, materials, earlier, all) {
       continue;
     }
     const map = mapOf(readers[0]), key = [mesh.geometry.uuid, readingOf(map), frame].join();
-    if (!all.made.has(key)) all.made.set(key, give(mesh.geometry, map, all.provoking));
-    mesh.geometry = all.made.get(key);
+    if (!all.made.has(key)) all.made.set(key, { from: mesh.geometry, geometry: give(mesh.geometry, map, all.provoking) });
+    mesh.geometry = all.made.get(key).geometry;
   }
   return frames;
 }
@@ -135,6 +170,7 @@ function copyFor(material, { frame, against, wants, turns }, copies, replace) {
   if (!made.has(key)) {
     const copy = made.size === 0 ? material : material.clone();
     made.set(key, copy);
+    if (copy !== material) material.addEventListener('dispose', () => copy.dispose());
     for (const [name, turn] of Object.entries(turns)) {
       copy[name].copy(scales[name]);
       copy[name].y *= turn;

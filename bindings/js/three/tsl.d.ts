@@ -1,4 +1,5 @@
-// cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2.
+// cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2. three 0.185 and
+// later; with an older one the import rejects with a CotanError, code `unavailable`.
 import type { Material, Object3D, Texture } from 'three';
 import type { Node, Renderer } from 'three/webgpu';
 export { CotanError } from '../tangents.js';

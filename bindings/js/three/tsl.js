@@ -1,19 +1,23 @@
 // Cotan for three.js and its WebGPURenderer, on WebGPU and on WebGL 2: normal mapping without tangents, in its node language.
-import {
-  Fn, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
-  normalViewGeometry, positionView, texture, uv, varying, vec2, vec4, wgslFn,
-} from 'three/tsl';
-import {
-  InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalMap, RED_GREEN_RGTC2_Format, RG11_EAC_Format, RGFormat,
-} from 'three/webgpu';
-import { options as checked } from '../src/arrays.js';
-import { usage } from '../src/errors.js';
-import { frameFor } from './frames.js';
-import { untangleMeshes, untangleOptions } from './meshes.js';
+import * as tsl from 'three/tsl';
+import * as three from 'three/webgpu';
+import { choice } from '../src/arrays.js';
+import { CotanError, usage, wordsFor } from '../src/errors.js';
+import { frameFor, kDrawn } from './frames.js';
+import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
-export { CotanError } from '../src/errors.js';
+export { CotanError };
+
+// By name, so that an older three is named and not the import that it lacks.
+const {
+  Fn, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
+  normalViewGeometry, positionView, texture, uv, varying, vec2, vec4, wgslFn,
+} = tsl;
+const { InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalMap, RED_GREEN_RGTC2_Format, RG11_EAC_Format, RGFormat } = three;
+if (![negateOnBackSide, normalViewGeometry, anisotropyT, wgslFn, InterpolationSamplingMode, RG11_EAC_Format].every(name => name !== undefined))
+  throw new CotanError('unavailable', `three: expected version 0.185 or later for cotan/three/tsl, found ${three.REVISION}`);
 
 // Removes the tangents of `target` and lets its materials take their frame from Cotan. See tsl.d.ts.
 export function untangle(target, options) {
@@ -31,11 +35,12 @@ export const untangled = options => {
 };
 
 const ours = new WeakSet();  // nodes
+const chosen = new WeakMap();  // frame and direction of the materials that have one
 
 // Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Nodes of the user's
 // own in its place stay.
 export function replaceFrame(material, options) {
-  const { frame: wished, against } = checked(options, { frame: undefined, against: false, from: undefined }), frame = frameFor(material, wished);
+  const { frame: wished, against } = replaceOptions(material, options, { from: undefined }), frame = frameFor(material, wished);
   const { normalMap, clearcoatNormalMap } = material;
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
@@ -46,12 +51,15 @@ export function replaceFrame(material, options) {
   if (clearcoatNormalMap) put('clearcoatNormalNode', clearcoatNormalMap, 'clearcoatNormalScale');
   if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap, against);
   material.needsUpdate = true;
-  return material;
+  chosen.set(material, { frame, against });
+  return keepInClones(material, (clone, source) => replaceFrame(clone, chosen.get(source)));
 }
 
 // The normal of a tangent-space map over its own texture coordinates, set and matrix; in view space, unit.
 // map: a Texture. scale: a node of two numbers; green along v after it.
 export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
+  if (!map?.isTexture) throw usage(`map: expected a Texture, found ${wordsFor(map)}`);
+  choice(frame, 'frame', kDrawn);
   const sample = texture(map);
   return Fn((_, builder) => {
     const c = sample.mul(2).sub(1).xyz.toVar();

@@ -180,21 +180,36 @@ export interface ConvertReport {
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
+  /** What was done. keep: tangents stay, since they say how a map's green is read and no new map could be made. */
+  mode: 'drop' | 'convert' | 'keep';
+  /** Of the model with the files that it names. */
+  bytes: { before: number; after: number };
+  /** Names of the maps that `mendGreen` has turned. */
+  green_mended?: string[];
   tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
   /** What the user should know, one line each; unread maps are among it. */
   notes: string[];
 }
 
-/** The model's normal maps made for another frame, as `cotan convert` does. */
+/** The model without stored tangents. mode:
+ * - `auto`, the default: what lint advises. Maps stay byte for byte, read with the frame `orthonormal` or MikkTSpace, where
+ *   that is near enough, and where new ones would make the file larger by more than 2 %; else new ones, for the frame
+ *   that it advises. Tangents stay only where a map's green is to be read the other way, as they say, and no new map can be made.
+ * - `drop`: maps as they are, not even decoded. Nobody asks what the tangents mean: see `lint`.
+ * - `convert`: as `cotan convert` does; the default with one of the options after `mode`. New maps are in the format of the old
+ *   ones: JPEG and WebP with their quality where sharp, or in browsers the canvas, encodes them; else PNG, and a note says so. */
 export function convert(model: Bytes, options?: ModelOptions & {
+  mode?: 'auto' | 'drop' | 'convert';
   /** Default: the frame that the materials name in their extras (`cotanFrame`), else "mikktspace". */
   from?: string;
-  /** Default: "cotangent". */
+  /** With mode `convert` by default "cotangent". */
   to?: string;
   /** Of the new maps, 8 or 16; 0: as the old ones, which stay where they fit. */
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
+  /** Maps whose green points the other way than the model says, by the maps themselves (`lint`), are turned first. */
+  mendGreen?: boolean;
   /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
   unsigned?: 'biased' | 'exact';
   /** The PNG file of a picture; default: encodePng. */

@@ -1,0 +1,94 @@
+// glTF files as JSON and what is beside it.
+const kMagic = 0x46546c67, kJson = 0x4e4f534a;
+/** { json, rest }: rest is what follows the JSON in a GLB, null in a .gltf. Null where it is neither. */
+export function parsedModel(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), isGlb = bytes.length >= 20 && view.getUint32(0, true) === kMagic;
+  const length = isGlb ? view.getUint32(12, true) : bytes.length;
+  if (isGlb && (view.getUint32(16, true) !== kJson || 20 + length > bytes.length)) return null;
+  try {
+    const json = JSON.parse(new TextDecoder().decode(isGlb ? bytes.subarray(20, 20 + length) : bytes));
+    return json && typeof json === 'object' ? { json, rest: isGlb ? bytes.subarray(20 + length) : null } : null;
+  } catch {
+    return null;
+  }
+}
+
+/** The bytes of a file that parsedModel() has taken apart. */
+export function modelBytes({ json, rest }) {
+  const text = new TextEncoder().encode(JSON.stringify(json));
+  if (!rest) return text;
+  const length = Math.ceil(text.length / 4) * 4, bytes = new Uint8Array(20 + length + rest.length), view = new DataView(bytes.buffer);
+  [kMagic, 2, bytes.length, length, kJson].forEach((word, k) => view.setUint32(4 * k, word, true));
+  bytes.fill(0x20, 20, 20 + length);
+  bytes.set(text, 20);
+  bytes.set(rest, 20 + length);
+  return bytes;
+}
+
+const list = (value) => (Array.isArray(value) ? value : []);
+const named = (uri) => typeof uri === 'string' && !uri.startsWith('data:');
+const found = (files, uri) => (Object.hasOwn(files, uri) ? files[uri] : Object.hasOwn(files, decoded(uri)) ? files[decoded(uri)] : null);
+function decoded(uri) {
+  try {
+    return decodeURIComponent(uri);
+  } catch {
+    return uri;
+  }
+}
+
+/** Bytes of a model with the files that it names. */
+export function sizeOf(bytes, json, files) {
+  const uris = new Set([...list(json.buffers), ...list(json.images)].map((one) => one?.uri).filter(named));
+  return [...uris].reduce((sum, uri) => sum + (found(files, uri)?.byteLength ?? 0), bytes.length);
+}
+
+/** Bytes of an image's file. */
+export function imageSize({ bufferView, uri } = {}, json, files) {
+  if (bufferView !== undefined) return list(json.bufferViews)[bufferView]?.byteLength ?? 0;
+  if (named(uri)) return found(files, uri)?.byteLength ?? 0;
+  const text = /^data:[^,]*;base64,(.*)$/s.exec(uri ?? '')?.[1];
+  return text ? Math.floor(text.replace(/=+$/, '').length * 3 / 4) : 0;
+}
+
+/** The file of an image, in the model or beside it; empty where it is neither. */
+export function imageFile({ json, rest }, image, files) {
+  const { bufferView, uri } = json.images?.[image] ?? {};
+  if (bufferView !== undefined && rest && (list(json.bufferViews)[bufferView]?.buffer ?? 0) === 0 && !json.buffers?.[0]?.uri) return imageIn({ json, rest }, image);
+  const bytes = named(uri) ? found(files, uri) : null;
+  return bytes ? new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength) : new Uint8Array(0);
+}
+
+/** Images that materials read as normal maps, by their index. */
+export function normalImages(json) {
+  const textures = list(json.textures), images = new Set();
+  for (const material of list(json.materials))
+    for (const info of [material?.normalTexture, material?.extensions?.KHR_materials_clearcoat?.clearcoatNormalTexture]) {
+      const { source, extensions } = textures[info?.index] ?? {};
+      const image = extensions?.KHR_texture_basisu?.source ?? extensions?.EXT_texture_webp?.source ?? extensions?.EXT_texture_avif?.source ?? source;
+      if (Number.isInteger(image)) images.add(image);
+    }
+  return [...images].sort((a, b) => a - b);
+}
+
+/** The bytes of an image that lies in a GLB. */
+export function imageIn({ json, rest }, image) {
+  const { byteOffset = 0, byteLength } = json.bufferViews[json.images[image].bufferView];
+  return rest.subarray(8 + byteOffset, 8 + byteOffset + byteLength);
+}
+
+/** A GLB, as the library writes it with everything inside, with other files for some of its images: by index { bytes, mimeType }. */
+export function withImages({ json, rest }, files) {
+  const owners = new Map([...files].map(([image, file]) => [json.images[image].bufferView, file]));
+  const pieces = [], at = { length: 0 }, views = (json.bufferViews ?? []).map((view, k) => {
+    const { byteOffset = 0, byteLength } = view, bytes = owners.get(k)?.bytes ?? rest.subarray(8 + byteOffset, 8 + byteOffset + byteLength), offset = at.length;
+    pieces.push([offset, bytes]);
+    at.length = Math.ceil((offset + bytes.length) / 4) * 4;
+    return { ...view, byteOffset: offset, byteLength: bytes.length };
+  });
+  const whole = new Uint8Array(8 + at.length), view = new DataView(whole.buffer);
+  view.setUint32(0, at.length, true);
+  view.setUint32(4, 0x004e4942, true);
+  for (const [offset, bytes] of pieces) whole.set(bytes, 8 + offset);
+  const images = json.images.map((image, k) => (files.has(k) ? { ...image, mimeType: files.get(k).mimeType } : image));
+  return modelBytes({ json: { ...json, images, bufferViews: views, buffers: [{ ...json.buffers[0], byteLength: at.length }] }, rest: whole });
+}
