@@ -46,6 +46,7 @@ map detect rocks.png
 map detect height.png
 map detect rocks.png gone.png
 map convert rocks.png --from gltf --to directx -o o.png
+map detect o.png
 map diff rocks.png o.png
 map from-height height.png -o fh.png
 map to-height rocks.png -o th.png
